@@ -72,11 +72,10 @@ pub use nalgebra;
 pub use output::PlanOutput;
 pub use space::Configuration;
 
-/// The judge of paths, proofs, bounds and recorded motions.
+/// The judge of paths, proofs and recorded motions.
 pub mod check {
     pub use cplan_core::check::*;
     pub use cplan_motion::recorded::*;
-    pub use cplan_proofs::bound::*;
 }
 
 /// Files to problems: robots, worlds, maps and recordings, and errors with file, line and help.

@@ -5,7 +5,7 @@
 #[path = "shipped.rs"]
 mod shipped;
 
-use cplan_check::{CheckError, check};
+use cplan_check_files::{CheckError, check};
 use libfuzzer_sys::fuzz_target;
 use shipped::shipped;
 use std::sync::LazyLock;

@@ -7,7 +7,7 @@ mod files;
 #[path = "shipped.rs"]
 mod shipped;
 
-use cplan_check::check_files;
+use cplan_check_files::check_files;
 use files::Files;
 use libfuzzer_sys::fuzz_target;
 use shipped::shipped;

@@ -133,12 +133,7 @@ pub fn answer(
     // Where ends were found from a place of the tip, or put at a limit, the certificate says them.
     let start = problem.motion().map(MotionProblem::start).or(problem.task().map(|task| task.start));
     let goal = problem.motion().filter(|_| said[1].is_some()).map(|motion| motion.goals().pieces()[0].ends()[0]);
-    let implied = |end: Option<Configuration>, said| end.filter(|_| end != said).map(JointValues::from);
-    let asked = Overrides {
-        start: asked.start.or(implied(start, said[0])),
-        goal: asked.goal.or(implied(goal, said[1]).filter(|_| asked.goal_tip.is_none())),
-        ..asked
-    };
+    let asked = with_ends(asked, said, [start, goal]);
     let written = written(&plan, &sinks, &files, (&asked, about.as_ref()), args)?;
     let after = [("write", begun.elapsed())];
     let code = match plan.status() {
@@ -148,6 +143,20 @@ pub fn answer(
     };
     args.print.tell(code, || Ok(plan.to_json()), || summary_with(&plan, &written, &after, args.verbose))?;
     Ok(code)
+}
+
+/// What was asked, with the start and the goal that were found where the files do not say them as joint values.
+pub fn with_ends(
+    asked: Overrides,
+    said: [Option<Configuration>; 2],
+    [start, goal]: [Option<Configuration>; 2],
+) -> Overrides {
+    let implied = |end: Option<Configuration>, said| end.filter(|_| end != said).map(JointValues::from);
+    Overrides {
+        start: asked.start.or(implied(start, said[0])),
+        goal: asked.goal.or(implied(goal, said[1]).filter(|_| asked.goal_tip.is_none())),
+        ..asked
+    }
 }
 
 /// Refuses a matrix of a grid's values where the planner has no grid.

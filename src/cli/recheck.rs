@@ -1,19 +1,24 @@
-//! `cplan recheck`: whether a proof that there is no path holds, or the bound on how short a path can be.
+//! `cplan recheck`: whether the checker of certificates accepts what a result proves, or a certificate.
 
 use super::exit::DONE;
 use super::failure::Failure;
 use super::files::Files;
+use super::plan::with_ends;
 use super::query_args::QueryArgs;
 use super::sinks;
-use crate::check::{ProofFormatError, read_proof};
-use crate::engine::{Bound, checked_bound};
-use crate::input::{self, Source};
+use crate::check::{ProofFormatError, StuckBox, read_proof};
+use crate::engine::{Bound, certificate_of_bound, certificate_of_boxes};
+use crate::input::{self, LoadedScene, Overrides, Source};
 use crate::model::MotionProblem;
 use crate::text::counted;
 use clap::{Args, ValueHint};
-use std::path::PathBuf;
+use cplan_check_files::{CheckError, Input, check_beside};
+use serde::Deserialize;
+use serde::de::IgnoredAny;
+use std::fmt::Display;
+use std::path::{Path, PathBuf};
 
-/// Share of a bound that its check may not see: each allows for rounding of its own.
+/// Share of a bound that its evidence may miss. The evidence is found anew, with rounding of its own.
 const UNSEEN: f64 = 1e-6;
 
 /// Check a proof that there is no path, or a bound on the shortest, with code that shares nothing with the search that made it.
@@ -29,7 +34,7 @@ Exit codes: 0 the proof or bound holds, 1 it does not, or bad input or I/O, 2 wr
 pub struct RecheckArgs {
     #[command(flatten)]
     pub files: Files,
-    /// A result of the main job, with the proof that there is no path or a bound on the shortest (`optimum`): .json.
+    /// A result of the main job, with the proof that there is no path or a bound on the shortest (`optimum`); or a certificate: .json.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub proof: PathBuf,
     #[command(flatten)]
@@ -41,56 +46,121 @@ pub struct RecheckArgs {
 /// # Errors
 /// Bad input, a file without anything to check, and what does not hold.
 pub fn run(args: &RecheckArgs) -> Result<u8, Failure> {
-    let loaded = input::load(args.files.robot(), &args.files.world, &args.query.overrides())?;
-    loaded.robot.warnings.iter().for_each(|w| sinks::say(&format!("warning: {w}")));
-    let failed = |why: String| Failure::Option(format!("{}: {why}", args.proof.display()));
+    let scene = input::load_scene(args.files.robot(), &args.files.world)?;
+    scene.robot.warnings.iter().for_each(|w| sinks::say(&format!("warning: {w}")));
     let source = Source::read(&args.proof)?;
-    let problem = &loaded.problem;
-    let claim = match read_proof(source.text()) {
-        Ok(claim) => claim,
-        Err(missing @ ProofFormatError::Missing) => {
-            // What holds neither need be no recording.
-            let stated = if source.text().contains("\"optimum\"") { stated(args, problem)? } else { None };
-            let stated = stated.ok_or_else(|| failed(format!("{missing}, and it has no bound in \"optimum\"")))?;
-            sinks::print(&bound_holds(problem, &stated).map_err(failed)?)?;
-            return Ok(DONE);
+    let asked = args.query.overrides();
+    // A certificate says itself what was asked.
+    let said = if asked == Overrides::default() && holds_certificate(source.text()) {
+        format!("the certificate holds: {}", judged(args, "certificate", source.text())?)
+    } else {
+        let problem = scene.clone().problem(&asked)?.problem;
+        let asked = in_full(&problem, &scene, asked);
+        match read_proof(source.text()) {
+            Ok(claim) => proof_holds(args, &problem, claim.stuck(), &asked)?,
+            Err(missing @ ProofFormatError::Missing) => {
+                // What holds neither need be no recording.
+                let stated = if source.text().contains("\"optimum\"") { stated(args, &scene)? } else { None };
+                let none = || failed(args, format!("{missing}, and it has no bound in \"optimum\""));
+                bound_holds(args, &problem, &stated.ok_or_else(none)?, &asked)?
+            }
+            Err(error) => return Err(failed(args, error)),
         }
-        Err(error) => return Err(failed(error.to_string())),
     };
-    let proof = claim
-        .checked(problem.scene(), problem.start(), problem.goals(), problem.scene().workspace().clearance)
-        .map_err(|error| failed(format!("the proof does not hold: {error}")))?;
-    sinks::print(&format!(
-        "the proof holds: collisions separate the start from every goal ({})\n",
-        counted(proof.stuck().len(), "box")
-    ))?;
+    sinks::print(&(said + "\n"))?;
     Ok(DONE)
 }
 
+/// What is wrong with the file of the evidence.
+fn failed(args: &RecheckArgs, why: impl Display) -> Failure {
+    Failure::Option(format!("{}: {why}", args.proof.display()))
+}
+
+/// Whether a text is a certificate, or a result with one.
+fn holds_certificate(text: &str) -> bool {
+    #[derive(Deserialize)]
+    struct Members {
+        format: Option<IgnoredAny>,
+        certificate: Option<IgnoredAny>,
+    }
+    serde_json::from_str::<Members>(text).is_ok_and(|members| members.format.is_some() || members.certificate.is_some())
+}
+
+/// What a certificate proves, as the checker has it. `what` names the evidence in messages.
+///
+/// # Errors
+/// Evidence that does not hold, and files that the checker does not understand.
+fn judged(args: &RecheckArgs, what: &str, certificate: &str) -> Result<String, Failure> {
+    let (robot, world) = (args.files.robot(), &args.files.world);
+    let at = |path: &Path, why: &dyn Display| Failure::Option(format!("{}{why}", path.display()));
+    let whole = |path: &Path| std::fs::read_to_string(path).map_err(|error| at(path, &format!(": {error}")));
+    let urdf = robot.read()?;
+    let urdf = if urdf.is_expanded() { urdf.text().to_owned() } else { whole(&robot.path)? };
+    check_beside([&urdf, &whole(world)?, certificate], [&robot.path, world]).map_err(|error| match error {
+        CheckError::Fails(why) => failed(args, format!("the {what} does not hold: {why}")),
+        CheckError::Input { input: Input::Certificate, message, .. } => failed(args, message),
+        CheckError::Input { input, line, message } => {
+            let path = if input == Input::Urdf { &robot.path } else { world };
+            let line = line.map_or_else(String::new, |line| format!(":{line}"));
+            at(path, &format!("{line}: {message}"))
+        }
+    })
+}
+
+/// What was asked, with ends that the world does not say as joint values.
+fn in_full(problem: &MotionProblem, scene: &LoadedScene, asked: Overrides) -> Overrides {
+    let said = scene.said_ends();
+    let goal = said[1].map(|_| problem.goals().pieces()[0].ends()[0]);
+    with_ends(asked, said, [Some(problem.start()), goal])
+}
+
 /// The bound in the result file.
-fn stated(args: &RecheckArgs, problem: &MotionProblem) -> Result<Option<Bound>, Failure> {
-    let scene = input::load_scene(args.files.robot(), &args.files.world)?;
-    let claims = input::load_recording(&args.proof, &scene)?.claims.unwrap_or_default();
-    let speeds = problem.scene().arm().joints.each_ref().map(|joint| joint.velocity);
+fn stated(args: &RecheckArgs, scene: &LoadedScene) -> Result<Option<Bound>, Failure> {
+    let claims = input::load_recording(&args.proof, scene)?.claims.unwrap_or_default();
+    let speeds = scene.scene.arm().joints.each_ref().map(|joint| joint.velocity);
     Ok(claims.optimum.and_then(|optimum| {
         let metric = optimum.metric(speeds)?;
         Some(Bound { metric, lower: optimum.lower_bound, upper: optimum.length })
     }))
 }
 
-/// That the bound holds, or why not, in words.
-fn bound_holds(problem: &MotionProblem, stated: &Bound) -> Result<String, String> {
+/// That boxes prove that there is no path, in words.
+fn proof_holds(
+    args: &RecheckArgs,
+    problem: &MotionProblem,
+    stuck: &[StuckBox],
+    asked: &Overrides,
+) -> Result<String, Failure> {
+    let never = |odd| failed(args, format!("the proof does not hold: box {odd} names shapes that never meet"));
+    let certificate = certificate_of_boxes(problem, stuck, asked).map_err(never)?;
+    judged(args, "proof", &certificate)?;
+    let count = counted(stuck.len(), "box");
+    Ok(format!("the proof holds: collisions separate the start from every goal ({count})"))
+}
+
+/// That a bound holds, in words.
+fn bound_holds(
+    args: &RecheckArgs,
+    problem: &MotionProblem,
+    stated: &Bound,
+    asked: &Overrides,
+) -> Result<String, Failure> {
+    let (lower, upper) = (stated.lower, stated.upper);
     let is_length = |length: f64| length.is_finite() && length >= 0.0;
-    if !is_length(stated.lower) || !is_length(stated.upper) || stated.lower > stated.upper {
-        return Err(format!("`optimum`: {} to {} are no bounds on a length", stated.lower, stated.upper));
+    if !is_length(lower) || !is_length(upper) || lower > upper {
+        return Err(failed(args, format!("`optimum`: {lower} to {upper} are no bounds on a length")));
     }
-    let seen = checked_bound(problem, stated);
-    if seen.length() < stated.lower * (1.0 - UNSEEN) {
-        return Err(format!(
-            "the bound is not seen to hold: none below {} is stated, none below {} is seen",
-            stated.lower,
-            seen.length()
-        ));
+    let unseen = |why: String| failed(args, format!("the bound is not seen to hold: {why}"));
+    let seen = certificate_of_bound(problem, stated, asked).ok_or_else(|| {
+        unseen(
+            "there is no certificate for a goal that leaves a joint free, or at which the arm is nearly stretched"
+                .into(),
+        )
+    })?;
+    if seen.length < lower * (1.0 - UNSEEN) {
+        return Err(unseen(format!("none below {lower} is stated, none below {} is seen", seen.length)));
     }
-    Ok(format!("the bound holds: no motion is shorter than {:.6}, as {} slices show\n", seen.length(), seen.slices()))
+    judged(args, "bound", &seen.text)?;
+    let walls = counted(seen.walls, "wall");
+    Ok(format!("the bound holds: no motion is shorter than {:.6}, as {walls} show", seen.length))
 }

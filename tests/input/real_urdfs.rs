@@ -6,7 +6,7 @@ use crate::common::reference::published;
 use cplan::input::{Overrides, load_scene};
 use cplan::model::OutlineSource::{self, Bar, Collision, Visual};
 use cplan::{Options, Problem};
-use cplan_check::check_files;
+use cplan_check_files::check_files;
 use std::path::Path;
 
 enum Outcome {

@@ -1,222 +1,92 @@
-//! Where the arm's shapes are, and how far they can move.
+//! An arm in the plane, as it is read from a robot's file.
 
-use crate::decimal::Decimal;
-use crate::domain::{Range, Rectangle};
-use crate::interval::{BITS, Interval, Point, both_turns, length, rough, roughly, sum, times, turned};
-use crate::overlap::{Shape, overlap_by_more_than, seem_to_overlap};
-use crate::robot::{Arm, Body, Motion};
-use crate::world::Owner;
-use num_bigint::BigInt;
-use std::cell::RefCell;
+use crate::certificate::Certificate;
+use crate::domain::{Axis, Domain, Range};
+use crate::error::CheckError;
+use crate::interval::Point;
+use crate::mover::{Cell, Mover};
+use crate::obstacle::Obstacle;
+use crate::shapes::{Body, Counted, Outline};
 
-/// A box of configurations by its middle and half its sides.
-#[derive(Clone)]
-pub struct Cell {
-    middle: [Interval; 2],
-    half: [Interval; 2],
+/// How a joint moves what it carries, in the plane.
+#[derive(Debug, Clone)]
+pub enum Motion {
+    /// By its value, left (1) or right (-1).
+    Turn(i32),
+    /// Along a direction of unit length.
+    Slide(Point),
 }
 
-impl Cell {
-    /// The box in which to look for contact with a link of the robot: if joint 1 carries it, joint 1 is at zero.
-    pub fn beside(mut self, link: Option<&Owner>) -> Self {
-        if link.is_some_and(|link| link.is_carried) {
-            (self.middle[0], self.half[0]) = (Interval::whole(0), Interval::whole(0));
-        }
-        self
-    }
-
-    /// What a straight segment covers from `k / 2^cuts` to `(k + 1) / 2^cuts` of its length.
-    pub fn of_segment(from: &Point, along: &Point, k: i64, cuts: u32) -> Self {
-        let middle = sum(from, &times(along, &Interval::exactly(BigInt::from(2 * k + 1) << (BITS - cuts - 1))));
-        Self { middle, half: along.each_ref().map(|along| along.abs().in_halves(cuts + 1)) }
-    }
+/// One of the two joints.
+pub struct Joint {
+    /// Its name in the robot's file.
+    pub name: String,
+    /// How it moves what it carries.
+    pub motion: Motion,
+    /// What holds all its values, ...
+    pub axis: Axis,
+    /// ... and what they are known to be within, if they have limits.
+    pub within: Option<Range>,
 }
 
-impl From<&Rectangle> for Cell {
-    fn from(ranges: &Rectangle) -> Self {
-        let middle = ranges.each_ref().map(|[low, high]| Interval::from(&Decimal::middle(low, high)));
-        let half = ranges.each_ref().map(|[low, high]| Interval::from(&(high - low)).half());
-        Self { middle, half }
-    }
+/// An arm in the plane. Where its parts are is said for both joints at 0.
+pub struct Arm {
+    /// The two joints. The first carries the second.
+    pub joints: [Joint; 2],
+    /// Origin of the first joint.
+    pub base: Point,
+    /// Origin of the second joint as seen from the first.
+    pub offset: Point,
+    /// All values of both joints.
+    pub domain: Domain,
+    /// The link whose origin is the tip, ...
+    pub tip_link: String,
+    /// ... and the tip as a body without extent.
+    pub tip: Body,
+    /// All that can collide, ...
+    pub shapes: Vec<Counted>,
+    /// ... shapes of the robot that others of its links can hit: of links that stand still, and of those that joint 1 carries, in the plane where they
+    /// are with joint 1 at zero, ...
+    pub bases: Vec<Counted>,
+    /// ... and the obstacles that they make.
+    pub own: Vec<Obstacle>,
+    /// What is taken to be otherwise than the robot's file has it, in words.
+    pub notes: String,
 }
 
-/// What moves by no more than this when it turns by up to an angle at distance 1: the chord, which grows until half a turn.
-fn chord(angle: &Interval) -> Interval {
-    if angle.upper >= Interval::pi().lower {
-        return Interval::whole(2);
-    }
-    if angle.upper < Interval::whole(1).in_halves(4).lower {
-        // Its series alternates: so far it is longer.
-        let square = angle * angle;
-        let cubed = (&square * angle).over(24);
-        return &(angle - &cubed) + &(&cubed * &square).over(80);
-    }
-    let sine = &angle.half().sin_cos()[0];
-    sine + sine
-}
-
-impl Arm<'_> {
-    /// What a joint does at a value: the sine and cosine by which it turns, and by how much it slides.
-    fn displaced(&self, joint: usize, value: &Interval) -> [Point; 2] {
-        let [none, one] = [0, 1].map(Interval::whole);
-        match &self.joints[joint].motion {
-            Motion::Turn(sign) => [(value * &Interval::whole(*sign)).sin_cos(), [none.clone(), none]],
-            Motion::Slide(direction) => [[none, one], times(direction, value)],
-        }
-    }
-}
-
-/// A body, where it is and how far it gets in boxes, by what does not depend on the box.
-pub struct Mover<'a> {
-    arm: &'a Arm<'a>,
-    body: &'a Body,
-    /// Its corners, about.
-    rough: Vec<[f64; 2]>,
-    /// The first joint at the value that it had last: many boxes have it in common.
-    first: RefCell<(Interval, [Point; 2])>,
-    /// How far the second joint is from the first, and the body's points from the joint that moves it last.
-    offset: Interval,
-    reach: Interval,
-}
-
-/// The greatest length of some vectors.
-fn reach(points: &[Point]) -> Interval {
-    points.iter().map(|p| length(p).upper).max().map_or(Interval::whole(0), Interval::exactly)
-}
-
-impl<'a> Mover<'a> {
-    pub fn new(arm: &'a Arm<'a>, body: &'a Body) -> Self {
-        let zero = Interval::whole(0);
-        let first = RefCell::new((zero.clone(), arm.displaced(0, &zero)));
-        let rough = body.shape.points.iter().map(rough).collect();
-        Self { arm, body, rough, first, offset: length(&arm.offset), reach: reach(&body.shape.points) }
-    }
-
-    /// The body's shape in the middle of a box, in plane coordinates.
-    fn placed(&self, cell: &Cell) -> Shape {
-        let Self { arm, body, first, .. } = self;
-        let (value, first) = &mut *first.borrow_mut();
-        if *value != cell.middle[0] {
-            (*value, *first) = (cell.middle[0].clone(), arm.displaced(0, &cell.middle[0]));
-        }
-        let [turn, at] = match body.link {
-            0 => first.clone(),
-            _ => {
-                let [turn, at] = arm.displaced(1, &cell.middle[1]);
-                [both_turns(&first[0], &turn), sum(&turned(&sum(&arm.offset, &at), &first[0]), &first[1])]
-            }
-        };
-        let origin = sum(&arm.base, &at);
-        let point = |p: &Point| sum(&origin, &turned(p, &turn));
-        Shape { points: body.shape.points.iter().map(point).collect(), radius: body.shape.radius.clone() }
-    }
-
-    /// No point of the body is farther than this from where it is in the middle of a box, while the joints stay within the box.
+impl Arm {
+    /// Lets the pairs of links collide that the certificate ignores.
     ///
-    /// Of a convex hull it is a corner that moves farthest: where a point is depends on it affinely.
-    pub fn farthest(&self, cell: &Cell) -> BigInt {
-        let Self { arm, body, offset, reach: own, .. } = self;
-        let half = &cell.half;
-        let slid = |k: usize, direction: &Point| &length(direction) * &half[k];
-        let bound = match (&arm.joints[0].motion, (body.link == 1).then_some(&arm.joints[1].motion)) {
-            (Motion::Turn(_), None) => own * &chord(&half[0]),
-            (Motion::Slide(direction), None) => slid(0, direction),
-            (Motion::Turn(_), Some(Motion::Turn(_))) => {
-                &(offset * &chord(&half[0])) + &(own * &chord(&(&half[0] + &half[1])))
+    /// # Errors
+    /// When a pair does not overlap where the motion begins.
+    pub fn ignore(&mut self, certificate: &Certificate) -> Result<(), CheckError> {
+        let first = certificate.motion.as_ref().and_then(|motion| motion.knots.first()?.get(1..3));
+        let cell = first.map(|q| Cell::from(&[0, 1].map(|k| [q[k].clone(), q[k].clone()])));
+        for [a, b] in &certificate.ignored {
+            let is_pair = |own: &Counted, other: &Counted| {
+                [a, b] == [&own.link, &other.link] || [b, a] == [&own.link, &other.link]
+            };
+            let meet = |own: &Counted, other: &Counted| {
+                let heights = other.within.kept(Outline::Within);
+                let mover = Mover::new(self, &own.within);
+                let cell = cell.clone().map(|cell| cell.beside(Some(&other.owner())));
+                own.within.is_at(heights.as_ref()) && cell.is_none_or(|cell| mover.overlaps(&other.within.shape, &cell))
+            };
+            let pairs = self.shapes.iter().flat_map(|own| self.bases.iter().map(move |other| (own, other)));
+            if !pairs.filter(|(own, other)| is_pair(own, other)).any(|(own, other)| meet(own, other)) {
+                let why = format!(
+                    "links \"{a}\" and \"{b}\" do not overlap where the motion begins, so their contact counts"
+                );
+                return CheckError::fails(why);
             }
-            (Motion::Turn(_), Some(Motion::Slide(direction))) => {
-                // The second joint first, then the turn at the farther of the ends of the slide: distance is convex.
-                let slide = [&cell.middle[1] - &half[1], &cell.middle[1] + &half[1]];
-                let ends = slide.map(|value| sum(&arm.offset, &times(direction, &value)));
-                let points = &body.shape.points;
-                let out: Vec<Point> = ends.iter().flat_map(|end| points.iter().map(move |p| sum(end, p))).collect();
-                &slid(1, direction) + &(&reach(&out) * &chord(&half[0]))
+            for own in &mut self.shapes {
+                let other = [(a, b), (b, a)].into_iter().find(|(link, _)| own.link == **link);
+                own.ignored.extend(other.map(|(_, other)| other.clone()));
             }
-            (Motion::Slide(direction), Some(Motion::Turn(_))) => &slid(0, direction) + &(own * &chord(&half[1])),
-            (Motion::Slide(first), Some(Motion::Slide(second))) => &slid(0, first) + &slid(1, second),
-        };
-        bound.upper
-    }
-
-    /// Whether the body is seen to overlap a shape all over a box.
-    pub fn overlaps(&self, shape: &Shape, cell: &Cell) -> bool {
-        let farthest = self.farthest(cell);
-        self.seems_to_overlap(shape, cell, &farthest) && overlap_by_more_than(&self.placed(cell), shape, &farthest)
-    }
-
-    /// A guess in floating point, which spares looks in vain: no more than whether to look depends on it.
-    fn seems_to_overlap(&self, shape: &Shape, cell: &Cell, farthest: &BigInt) -> bool {
-        let mut placed = self.rough.clone();
-        for joint in (0..=self.body.link).rev() {
-            let value = roughly(&cell.middle[joint].lower);
-            let [x, y] = rough([&self.arm.base, &self.arm.offset][joint]);
-            match &self.arm.joints[joint].motion {
-                Motion::Turn(sign) => {
-                    let (sine, cosine) = (value * f64::from(*sign)).sin_cos();
-                    placed.iter_mut().for_each(|[a, b]| {
-                        [*a, *b] = [x + cosine * *a - sine * *b, y + sine * *a + cosine * *b];
-                    });
-                }
-                Motion::Slide(direction) => {
-                    let [u, v] = rough(direction);
-                    placed.iter_mut().for_each(|[a, b]| [*a, *b] = [x + value * u + *a, y + value * v + *b]);
-                }
-            }
+            self.notes += &format!(
+                "; contact of links \"{a}\" and \"{b}\" is ignored, as the certificate says that they always overlap"
+            );
         }
-        let needed = farthest - &self.body.shape.radius.lower - &shape.radius.lower;
-        seem_to_overlap(&placed, &shape.points.iter().map(rough).collect::<Vec<_>>(), roughly(&needed))
+        Ok(())
     }
 }
-
-impl Arm<'_> {
-    /// Rectangles that hold all configurations that put the tip at a place, but what is left out. The domain is cut in four, again and again;
-    /// parts are dropped that are left out, or in whose middle the tip is farther from the place than it can move within. Parts that touch
-    /// are put together; what a cut makes more of than `most` is not cut.
-    pub fn places(&self, place: &Point, most: usize, is_left_out: impl Fn(&Rectangle) -> bool) -> Vec<Rectangle> {
-        let mover = Mover::new(self, &self.tip);
-        let is_far = |rectangle: &Rectangle| {
-            let cell = Cell::from(rectangle);
-            let at = &mover.placed(&cell).points[0];
-            length(&[&at[0] - &place[0], &at[1] - &place[1]]).lower > mover.farthest(&cell)
-        };
-        let halves = |[low, high]: &Range| {
-            let middle = Decimal::middle(low, high);
-            [[low.clone(), middle.clone()], [middle, high.clone()]]
-        };
-        let mut parts = vec![self.domain.ranges.clone()];
-        for _ in 0..MOST_CUTS {
-            let mut smaller = Vec::new();
-            for part in &parts {
-                let [first, second] = part.each_ref().map(halves);
-                let four = first.iter().flat_map(|a| second.iter().map(move |b| [a.clone(), b.clone()]));
-                smaller.extend(four.filter(|part| !is_left_out(part) && !is_far(part)));
-            }
-            if smaller.len() > most {
-                break;
-            }
-            parts = smaller;
-        }
-        let mut merged: Vec<Rectangle> = Vec::new();
-        for mut part in parts {
-            while let Some(other) = merged.iter().position(|other| (0..2).all(|k| touch(&other[k], &part[k]))) {
-                let other = merged.swap_remove(other);
-                part = [0, 1].map(|k| hull(&part[k], &other[k]));
-            }
-            merged.push(part);
-        }
-        merged
-    }
-}
-
-/// Whether two ranges have a number in common.
-fn touch(a: &Range, b: &Range) -> bool {
-    a[0] <= b[1] && b[0] <= a[1]
-}
-
-/// The least range that holds two.
-fn hull(a: &Range, b: &Range) -> Range {
-    [(&a[0]).min(&b[0]).clone(), (&a[1]).max(&b[1]).clone()]
-}
-
-/// How often the domain is cut where the tip may be at a place: a part in 10^12 of each range is left.
-const MOST_CUTS: u32 = 40;

@@ -26,17 +26,23 @@ pub const FORMAT: &str = "cplan certificate 1";
 #[serde(deny_unknown_fields)]
 pub struct Certificate {
     format: String,
+    /// What is certified.
     pub answer: Answer,
-    /// The SHA-256 of the two files that it is about, in hex, and of those that they name.
+    /// The SHA-256 of the robot's file that it is about, in hex, ...
     pub urdf: Option<String>,
+    /// ... of the world's, ...
     pub world: Option<String>,
+    /// ... and of those that these name.
     pub others: Option<Vec<String>>,
     /// The two joints, if the world does not say them.
     pub joints: Option<[String; 2]>,
-    /// What was asked, where it was not the world's own.
+    /// The start, where it was not the world's own.
     pub start: Option<[Decimal; 2]>,
+    /// The goal, likewise.
     pub goal: Option<[Decimal; 2]>,
+    /// The goal as a place of the tip, likewise.
     pub goal_tip: Option<Corner>,
+    /// The clearance, likewise.
     pub clearance: Option<Decimal>,
     /// That there is a motion.
     pub motion: Option<Motion>,
@@ -45,9 +51,10 @@ pub struct Certificate {
     /// Pairs of links that overlap in every configuration.
     #[serde(default)]
     pub ignored: Vec<[String; 2]>,
-    /// What evidence names.
+    /// Shapes that evidence names.
     #[serde(default)]
     pub shapes: Vec<ShapeName>,
+    /// Parts that evidence names.
     #[serde(default)]
     pub parts: Vec<PartName>,
     /// That there is no motion; or what is no goal of a bound, because it is not free.
@@ -74,8 +81,11 @@ impl Certificate {
 #[derive(Deserialize, PartialEq)]
 #[serde(rename_all = "snake_case")]
 pub enum Answer {
+    /// A motion.
     Found,
+    /// That there is none.
     Infeasible,
+    /// That none is shorter.
     NoShorter,
 }
 

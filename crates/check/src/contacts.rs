@@ -1,14 +1,15 @@
 //! The shapes and the parts of obstacles that evidence names, and whether they overlap.
 
-use crate::arm::{Cell, Mover};
+use crate::arm::Arm;
 use crate::certificate::{Certificate, PartName, ShapeName, StuckBox};
 use crate::decimal::Decimal;
 use crate::domain::{Range, Rectangle};
 use crate::error::{CheckError, Input};
 use crate::interval::Interval;
+use crate::mover::{Cell, Mover};
 use crate::overlap::Shape;
-use crate::robot::{Arm, Body, Counted, named};
-use crate::world::{Owner, World};
+use crate::shapes::{Body, Counted, Owner, named};
+use crate::world::World;
 
 mod own;
 

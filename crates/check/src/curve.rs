@@ -23,11 +23,12 @@ const ROUNDED: i128 = 3 + 5 * HALVINGS as i128;
 /// Both joints' values.
 pub type Values = [i128; 2];
 
-/// What is played between two knots, by its control points: a curve for each way to read the knots.
+/// What is played between two knots.
 #[derive(Clone)]
 pub struct Piece {
     /// The knot at which it begins.
     pub knot: usize,
+    /// For each way to read the knots, its control points.
     pub curves: Vec<Vec<Values>>,
     /// When it begins and ends, seconds after the motion began.
     pub time: [Decimal; 2],
@@ -70,6 +71,7 @@ fn halves(curve: &[Values]) -> [Vec<Values>; 2] {
 
 /// All configurations `middle + t half + b` with `t` from -1 to 1 and `b` in neither joint more than `beside` from 0.
 pub struct Tube {
+    /// The configuration in its middle.
     pub middle: Point,
     half: Point,
     beside: Point,

@@ -37,6 +37,7 @@ pub struct Domain {
 }
 
 impl Domain {
+    /// The domain of two joints.
     pub fn new(axes: [&Axis; 2]) -> Self {
         // So wide that they hold half a turn in degrees.
         let pi = Interval::pi().widened(&(BigInt::from(1) << (BITS - SEAM)));

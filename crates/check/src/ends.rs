@@ -1,9 +1,9 @@
 //! Where motions begin and end: what is asked.
 
+use crate::arm::Arm;
 use crate::certificate::Certificate;
 use crate::decimal::Decimal;
 use crate::error::{CheckError, Input};
-use crate::robot::Arm;
 use crate::world::{Goal, World};
 
 mod missed;
@@ -15,6 +15,7 @@ pub use region::{FEW_PARTS, MOST_PARTS};
 /// The start or the goal.
 pub struct End {
     what: &'static str,
+    /// Where it is.
     pub at: Goal,
     /// What the certificate says of it in place of the world, in words.
     own: String,

@@ -33,18 +33,21 @@ pub enum CheckError {
 
 impl CheckError {
     /// Bad input, the byte `at` of the text.
-    pub(crate) fn at(input: Input, text: &str, at: usize, message: impl Into<String>) -> Self {
+    pub fn at(input: Input, text: &str, at: usize, message: impl Into<String>) -> Self {
         let line = text.as_bytes()[..at.min(text.len())].iter().filter(|b| **b == b'\n').count() + 1;
         Self::Input { input, line: Some(line), message: message.into() }
     }
 
     /// Bad input as a whole.
-    pub(crate) fn in_file(input: Input, message: impl Into<String>) -> Self {
+    pub fn in_file(input: Input, message: impl Into<String>) -> Self {
         Self::Input { input, line: None, message: message.into() }
     }
 
     /// A part of the certificate that does not hold.
-    pub(crate) fn fails<T>(message: impl Into<String>) -> Result<T, Self> {
+    ///
+    /// # Errors
+    /// Always.
+    pub fn fails<T>(message: impl Into<String>) -> Result<T, Self> {
         Err(Self::Fails(message.into()))
     }
 }

@@ -1,11 +1,18 @@
 //! Whether shapes stay off the sides of obstacles while the arm moves along curves.
 
+mod chain;
+mod guess;
+
+pub use chain::{Chain, On};
+
+use crate::arm::Motion;
 use crate::curve::{HALVINGS, Piece, Tube};
 use crate::decimal::Decimal;
 use crate::interval::{BITS, Interval, Point, both_turns, dot, length, minus, rough, roughly, sum, times, turned};
+use crate::obstacle::Course;
 use crate::overlap::Shape;
-use crate::robot::{Arm, Motion};
-use crate::world::{Course, Obstacle};
+use chain::{Term, Terms};
+use guess::{direction, ring};
 use num_bigint::BigInt;
 use std::borrow::Cow;
 use std::cell::OnceCell;
@@ -22,35 +29,6 @@ const DIGITS: u32 = 52;
 
 /// Parts of a motion that are looked at before the checker gives up: some minutes' worth.
 const MOST_PARTS: usize = 1_000_000;
-
-/// A vector that turns with the joints: `R(±(s1 q1 + s2 q2)) (at + slide q)`, of whose angles those count that are named.
-#[derive(Clone)]
-struct Term {
-    by: [bool; 2],
-    back: bool,
-    at: Point,
-    slide: Option<(usize, Point)>,
-}
-
-/// A point by the vectors that add up to it.
-type Terms = Vec<Term>;
-
-/// How two joints move what they carry.
-#[derive(Clone)]
-pub struct Chain {
-    motions: [Motion; 2],
-    base: Point,
-    offset: Point,
-}
-
-/// What a shape hangs on.
-#[derive(Clone)]
-pub enum On {
-    /// A link, as it is seen from the link's joint.
-    Link(usize),
-    /// A point of the second link, about which it never turns.
-    Level(Point),
-}
 
 /// A shape that is carried, and a disc round its core.
 pub struct Solid {
@@ -76,8 +54,10 @@ pub struct Side {
 
 /// What shapes keep off: what stands, or in its own frame what moves.
 pub enum Edge {
+    /// It stands.
     Still(Side),
-    Moving(Shape, Rc<Course>),
+    /// It moves.
+    Moving(Shape, Rc<dyn Course>),
 }
 
 /// A point of a tube's middle, and how it moves within the tube.
@@ -118,136 +98,16 @@ enum Stretch {
 
 /// What was not shown: from this knot to the next, of this shape and this edge.
 pub struct Open {
+    /// The knot.
     pub knot: usize,
+    /// The number of the shape.
     pub solid: usize,
+    /// The number of the edge.
     pub edge: usize,
 }
 
 fn perpendicular([x, y]: &Point) -> Point {
     [-y, x.clone()]
-}
-
-fn negative(a: &Point) -> Point {
-    [-&a[0], -&a[1]]
-}
-
-/// A vector that does not turn, beside others: added to one of them, if there is one.
-fn shifted(terms: &mut Terms, by: &Point) {
-    match terms.iter_mut().find(|term| term.by == [false; 2]) {
-        Some(still) => still.at = sum(&still.at, by),
-        None => terms.push(Term { by: [false; 2], back: false, at: by.clone(), slide: None }),
-    }
-}
-
-impl From<&Arm<'_>> for Chain {
-    fn from(arm: &Arm) -> Self {
-        let motions = arm.joints.each_ref().map(|joint| joint.motion.clone());
-        Self { motions, base: arm.base.clone(), offset: arm.offset.clone() }
-    }
-}
-
-impl Chain {
-    /// What turns left about a point.
-    pub fn about(point: &Point) -> Self {
-        let offset = [0, 0].map(Interval::whole);
-        Self { motions: [Motion::Turn(1), Motion::Turn(1)], base: point.clone(), offset }
-    }
-
-    /// Where a point of a link is that is at `a` as seen from the link's joint.
-    fn carried(&self, link: usize, a: &Point) -> Terms {
-        let mut terms = Terms::new();
-        shifted(&mut terms, a);
-        for joint in (0..=link).rev() {
-            self.moved(&mut terms, joint, false);
-            shifted(&mut terms, [&self.base, &self.offset][joint]);
-        }
-        terms
-    }
-
-    /// Where a point of the plane is as seen from the link's joint: the inverse of [`Arm::carried`].
-    fn seen(&self, link: usize, p: &Point) -> Terms {
-        let mut terms = Terms::new();
-        shifted(&mut terms, p);
-        for joint in 0..=link {
-            shifted(&mut terms, &negative([&self.base, &self.offset][joint]));
-            self.moved(&mut terms, joint, true);
-        }
-        terms
-    }
-
-    /// Moves the sum of vectors by a joint, or back.
-    fn moved(&self, terms: &mut Terms, joint: usize, back: bool) {
-        match &self.motions[joint] {
-            Motion::Turn(_) => {
-                for term in terms {
-                    term.by[joint] = true;
-                    term.back = back;
-                }
-            }
-            Motion::Slide(direction) => {
-                let slide = Some((joint, if back { negative(direction) } else { direction.clone() }));
-                match terms.iter_mut().find(|term| term.by == [false; 2] && term.slide.is_none()) {
-                    Some(still) => still.slide = slide,
-                    None => terms.push(Term { by: [false; 2], back, at: [0, 0].map(Interval::whole), slide }),
-                }
-            }
-        }
-    }
-
-    /// How a joint's angle counts: left 1, right -1, a slide 0.
-    fn sign(&self, joint: usize) -> Interval {
-        Interval::whole(match self.motions[joint] {
-            Motion::Turn(sign) => sign,
-            Motion::Slide(_) => 0,
-        })
-    }
-
-    /// Where a point is of what hangs on something.
-    fn hanging(&self, on: &On, a: &Point) -> Terms {
-        match on {
-            On::Link(link) => self.carried(*link, a),
-            On::Level(point) => {
-                let mut terms = self.carried(1, point);
-                shifted(&mut terms, a);
-                terms
-            }
-        }
-    }
-
-    /// The same at a configuration.
-    pub fn point_at(&self, on: &On, a: &Point, values: &Point) -> Point {
-        self.still(&self.hanging(on, a), values)
-    }
-
-    /// What lies in the plane, as it hangs on the second link that takes it at a configuration.
-    pub fn hung(&self, lying: &Obstacle, values: &Point) -> Obstacle {
-        lying.clone().moved(self.seen_at(&lying.at, values), self.turn(1, &lying.turn, true, values))
-    }
-
-    /// What hangs on something, in the plane, at a configuration.
-    pub fn lying(&self, on: &On, hanging: &Obstacle, values: &Point) -> Obstacle {
-        let turn = match on {
-            On::Level(_) => hanging.turn.clone(),
-            On::Link(link) => self.turn(*link, &hanging.turn, false, values),
-        };
-        hanging.clone().moved(self.point_at(on, &hanging.at, values), turn)
-    }
-
-    /// Sine and cosine of how what hangs on a link lies, or back.
-    fn turn(&self, link: usize, [sine, cosine]: &[Interval; 2], back: bool, values: &Point) -> [Interval; 2] {
-        let by = [0, 1].map(|joint| joint <= link && matches!(self.motions[joint], Motion::Turn(_)));
-        let [x, y] = self.still(&[Term { by, back, at: [cosine.clone(), sine.clone()], slide: None }], values);
-        [y, x]
-    }
-
-    /// A point of the plane as it is seen from the second link's joint at a configuration.
-    fn seen_at(&self, p: &Point, values: &Point) -> Point {
-        self.still(&self.seen(1, p), values)
-    }
-
-    fn still(&self, terms: &[Term], values: &Point) -> Point {
-        Posture::new(self, Tube::still(values.clone())).moving(terms).at
-    }
 }
 
 impl Solid {
@@ -282,6 +142,7 @@ impl Edge {
 }
 
 impl Side {
+    /// A shape as what moves by a chain sees it.
     pub fn new(chain: &Chain, shape: &Shape) -> Self {
         let (center, extent) = disc(&shape.points);
         let seen = [0, 1].map(|link| shape.points.iter().map(|p| chain.seen(link, p)).collect());
@@ -476,64 +337,4 @@ pub fn keep_off(
 fn halved(piece: &Piece, halvings: u32) -> (Stretch, Stretch) {
     let [first, second] = piece.halves();
     (Stretch::Part(first, halvings + 1), Stretch::Part(second, halvings + 1))
-}
-
-// What follows only guesses: a direction that may separate. Whether it does is decided above.
-
-/// The convex hull of points by their numbers, in order (Andrew 1979).
-fn ring(points: &[[f64; 2]]) -> Vec<usize> {
-    let turns = |a: usize, b: usize, c: usize| {
-        let [p, q, r] = [points[a], points[b], points[c]];
-        (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]) > 0.0
-    };
-    let mut order: Vec<usize> = (0..points.len()).collect();
-    order.sort_by(|a, b| points[*a][0].total_cmp(&points[*b][0]).then(points[*a][1].total_cmp(&points[*b][1])));
-    let mut ring: Vec<usize> = Vec::new();
-    for back in [false, true] {
-        let first = ring.len();
-        for k in 0..order.len() {
-            let next = order[if back { order.len() - 1 - k } else { k }];
-            while ring.len() > first + 1 && !turns(ring[ring.len() - 2], ring[ring.len() - 1], next) {
-                ring.pop();
-            }
-            ring.push(next);
-        }
-        ring.pop();
-    }
-    if ring.is_empty() { order } else { ring }
-}
-
-/// From the point of one shape that is nearest to the other, to that one; none unless they are farther apart than that.
-fn direction(here: &[[f64; 2]], there: &[[f64; 2]], apart: f64) -> Option<[f64; 2]> {
-    let minus = |a: [f64; 2], b: [f64; 2]| [a[0] - b[0], a[1] - b[1]];
-    let dot = |a: [f64; 2], b: [f64; 2]| a[0] * b[0] + a[1] * b[1];
-    // From a point to the nearest of a segment. Between its ends that is straight across it: of a way that is far shorter than the segment, computed as
-    // the difference of two places, no digit would be right.
-    let to_segment = |p: [f64; 2], a: [f64; 2], b: [f64; 2]| {
-        let (along, to) = (minus(b, a), minus(a, p));
-        let square = dot(along, along);
-        let share = if square > 0.0 { -dot(to, along) / square } else { 0.0 };
-        if 0.0 < share && share < 1.0 {
-            let across = [-along[1], along[0]];
-            return across.map(|c| c * (dot(to, across) / square));
-        }
-        let share = share.clamp(0.0, 1.0);
-        [to[0] + share * along[0], to[1] + share * along[1]]
-    };
-    let mut nearest = ([0.0; 2], f64::INFINITY);
-    let mut see = |way: [f64; 2]| {
-        if dot(way, way) < nearest.1 {
-            nearest = (way, dot(way, way));
-        }
-    };
-    let sides = |ring: &[[f64; 2]]| (0..ring.len()).map(|i| [ring[i], ring[(i + 1) % ring.len()]]).collect::<Vec<_>>();
-    let (ours, theirs) = (sides(here), sides(there));
-    for [a, _] in &ours {
-        theirs.iter().for_each(|[c, d]| see(to_segment(*a, *c, *d)));
-    }
-    for [c, _] in &theirs {
-        ours.iter().for_each(|[a, b]| see(to_segment(*c, *a, *b).map(|c| -c)));
-    }
-    let length = nearest.1.sqrt();
-    (length > apart && length.is_finite()).then(|| nearest.0.map(|c| c / length))
 }

@@ -1,10 +1,10 @@
 //! Certificates that there is no motion: "infeasible".
 
+use crate::arm::Arm;
 use crate::certificate::{Certificate, rectangles};
 use crate::contacts::Contacts;
 use crate::ends::{End, MOST_PARTS};
 use crate::error::CheckError;
-use crate::robot::Arm;
 use crate::sweep::Reached;
 use crate::world::World;
 

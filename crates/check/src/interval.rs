@@ -12,7 +12,9 @@ pub const BITS: u32 = 192;
 /// the numbers in them.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Interval {
+    /// The least.
     pub lower: BigInt,
+    /// The greatest.
     pub upper: BigInt,
 }
 

@@ -1,113 +1,63 @@
-//! An independent checker of cplan's certificates.
+//! The judge of certificates about one motion of an arm, in exact arithmetic.
 //!
-//! [`check`] reads a URDF, a world and a certificate, and says whether the certificate proves its answer, in exact arithmetic:
-//! decimals are taken as they are written, roots, sines and cosines are enclosed by numbers below and above. It shares no code
-//! with the planner. In cplan's repository, `docs/certificate_format.md` has the format and the meaning of each key, and
-//! `docs/certificate_checks.md` the conditions that are checked and why they suffice.
+//! [`judge`] gets an [`Arm`](arm::Arm), a [`World`](world::World) and a [`Certificate`](certificate::Certificate), and says whether the
+//! certificate proves its answer: a motion is free, there is none, or none is shorter. Decimals are taken as they are written, roots,
+//! sines and cosines are enclosed by numbers below and above. It shares no code with the planner and reads no files: `cplan-check-files`
+//! reads robots, worlds and maps, and judges tasks on top of it. In cplan's repository, `docs/certificate_checks.md` has
+//! the conditions that are checked and why they suffice. In reading order:
 //!
-//! ```
-//! let urdf = r#"<robot name="bar">
-//!     <link name="base"/>
-//!     <joint name="j1" type="revolute">
-//!         <parent link="base"/> <child link="bar"/> <axis xyz="0 0 1"/> <limit lower="-3" upper="3"/>
-//!     </joint>
-//!     <link name="bar">
-//!         <collision> <origin xyz="0.5 0 0"/> <geometry> <box size="1 0.1 0.1"/> </geometry> </collision>
-//!     </link>
-//!     <joint name="j2" type="revolute">
-//!         <parent link="bar"/> <child link="tool"/> <origin xyz="1 0 0"/> <axis xyz="0 0 1"/> <limit lower="-1" upper="1"/>
-//!     </joint>
-//!     <link name="tool"/>
-//! </robot>"#;
-//! let world = "start.joints = [-1, 0]\ngoal.joints = [1, 0]\nobstacle = [{ circle = { center = [0.9, 0.0], radius = 0.2 } }]";
-//! let certificate = r#"{
-//!     "format": "cplan certificate 1", "answer": "infeasible",
-//!     "shapes": [{ "link": "bar", "collision": 0 }], "parts": [{ "obstacle": 0 }],
-//!     "boxes": [{ "lower": [-0.1, -1], "upper": [0.1, 1], "shape": 0, "part": 0 }]
-//! }"#;
-//! assert!(cplan_check::check(urdf, world, certificate).is_ok());
-//! let too_long = certificate.replace("0.1, 1", "0.3, 1");
-//! let why = cplan_check::check(urdf, world, &too_long).unwrap_err();
-//! assert!(matches!(why, cplan_check::CheckError::Fails(_)));
-//! ```
+//! | modules | subject |
+//! |---|---|
+//! | [`decimal`], [`interval`] | numbers |
+//! | [`overlap`], [`polygon`] | shapes |
+//! | [`domain`], [`curve`] | configurations and motions |
+//! | [`arm`], [`shapes`], [`obstacle`], [`world`], [`certificate`] | what is judged |
+//! | [`ends`] | start and goal |
+//! | [`motion`], [`scene`], [`free`] | a motion is free |
+//! | `infeasible`, `sweep` | boxes separate start and goal |
+//! | `bound` | walls bar what is shorter |
+//! | `mover`, `contacts` | boxes and walls collide |
 #![forbid(unsafe_code)]
 
-mod arm;
+pub mod arm;
 mod bound;
-mod certificate;
+pub mod certificate;
 mod contacts;
-mod curve;
-mod decimal;
-mod domain;
-mod ends;
+pub mod curve;
+pub mod decimal;
+pub mod domain;
+pub mod ends;
 mod error;
-mod files;
-mod free;
+pub mod free;
 mod infeasible;
-mod interval;
-mod motion;
-mod overlap;
-mod polygon;
-mod robot;
-mod scene;
+pub mod interval;
+pub mod motion;
+mod mover;
+pub mod obstacle;
+pub mod overlap;
+pub mod polygon;
+pub mod scene;
+pub mod shapes;
 mod sweep;
-mod task;
-mod world;
+pub mod world;
 
 pub use error::{CheckError, Input};
 
-use certificate::Answer;
-use files::Files;
-use robot::Arm;
-use std::path::{Path, PathBuf};
+use arm::Arm;
+use certificate::{Answer, Certificate};
 use world::World;
 
-/// Checks a certificate: the texts of the three files. What it proves is returned in words.
+/// Checks what a certificate says of one motion. What it proves is returned in words.
 ///
 /// # Errors
-/// [`CheckError::Fails`] with the first part that does not hold, [`CheckError::Input`] for files that are wrong or that say
-/// what the checker does not know; also if they name other files, which have no place here.
-pub fn check(urdf: &str, world: &str, certificate: &str) -> Result<String, CheckError> {
-    judged([urdf, world, certificate], [None, None])
-}
-
-/// The same of three files. What the URDF and the world name is looked for beside them.
-///
-/// # Errors
-/// As [`check`], and files that cannot be read.
-pub fn check_files(urdf: &Path, world: &Path, certificate: &Path) -> Result<String, CheckError> {
-    let read = |input: Input, path: &Path| {
-        let message = |error| format!("{error}: give a URDF, a world file and a certificate");
-        std::fs::read_to_string(path).map_err(|error| CheckError::in_file(input, message(error)))
-    };
-    let texts = [read(Input::Urdf, urdf)?, read(Input::World, world)?, read(Input::Certificate, certificate)?];
-    judged(texts.each_ref().map(String::as_str), [urdf, world].map(|path| Some(path.to_owned())))
-}
-
-/// Checks a certificate of texts, and where they are from.
-fn judged([urdf, world, certificate]: [&str; 3], given: [Option<PathBuf>; 2]) -> Result<String, CheckError> {
-    let certificate = certificate::read(certificate)?;
-    let files = Files::new(&certificate, [urdf, world], given)?;
-    // A byte order mark says nothing.
-    let [urdf, world] = [urdf, world].map(|text| text.strip_prefix('\u{feff}').unwrap_or(text));
-    let world = World::read(world, &files)?;
-    // A document type is no matter; what entities stand for is bounded by the parser.
-    let options = roxmltree::ParsingOptions { allow_dtd: true, ..roxmltree::ParsingOptions::default() };
-    let document = roxmltree::Document::parse_with_options(urdf, options).map_err(|error| CheckError::Input {
-        input: Input::Urdf,
-        line: Some(error.pos().row as usize),
-        message: error.to_string(),
-    })?;
-    let mut arm = Arm::read(&document, &world, &files, certificate.joints.as_ref())?;
-    arm.ignore(&certificate)?;
-    let proven = match (&certificate.answer, &certificate.steps) {
-        (Answer::Found, Some(steps)) => task::found(&arm, &world, &certificate, steps),
-        (Answer::Found, None) if certificate.bound.is_some() => {
-            Ok(motion::found(&arm, &world, &certificate)? + "; " + &bound::no_shorter(&arm, &world, &certificate)?)
+/// [`CheckError::Fails`] with the first part that does not hold, [`CheckError::Input`] for what the checker does not know.
+pub fn judge(arm: &Arm, world: &World, certificate: &Certificate) -> Result<String, CheckError> {
+    match &certificate.answer {
+        Answer::Found if certificate.bound.is_some() => {
+            Ok(motion::found(arm, world, certificate)? + "; " + &bound::no_shorter(arm, world, certificate)?)
         }
-        (Answer::Found, None) => motion::found(&arm, &world, &certificate),
-        (Answer::Infeasible, ..) => infeasible::infeasible(&arm, &world, &certificate),
-        (Answer::NoShorter, ..) => bound::no_shorter(&arm, &world, &certificate),
-    };
-    Ok(proven? + &arm.notes)
+        Answer::Found => motion::found(arm, world, certificate),
+        Answer::Infeasible => infeasible::infeasible(arm, world, certificate),
+        Answer::NoShorter => bound::no_shorter(arm, world, certificate),
+    }
 }

@@ -1,5 +1,6 @@
 //! Certificates of motions: "found".
 
+use crate::arm::Arm;
 use crate::certificate::{Certificate, Interpolation, Motion};
 use crate::curve::{FINE, LARGEST, Piece, Values};
 use crate::decimal::Decimal;
@@ -7,9 +8,10 @@ use crate::ends::End;
 use crate::error::{CheckError, Input};
 use crate::free::{Chain, On, Solid, guard};
 use crate::interval::Interval;
-use crate::robot::{Arm, Counted};
+use crate::obstacle::Obstacle;
 use crate::scene::{Part, Present, stay_off};
-use crate::world::{Obstacle, World};
+use crate::shapes::Counted;
+use crate::world::World;
 
 /// How often a piece is halved to see whether it keeps the limits.
 const HALVINGS: u32 = 40;

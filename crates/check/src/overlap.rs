@@ -7,7 +7,9 @@ use std::ops::{Add, Mul, Sub};
 /// All points within `radius` of the convex hull of some points.
 #[derive(Debug, Clone)]
 pub struct Shape {
+    /// The points.
     pub points: Vec<Point>,
+    /// The radius.
     pub radius: Interval,
 }
 
@@ -16,8 +18,11 @@ pub type Exact = [BigInt; 2];
 
 /// What differences, products and comparisons are exact of: large integers, and small ones as long as they are small.
 pub trait Integer: Clone + Ord + Default {
+    /// The difference.
     fn minus(&self, other: &Self) -> Self;
+    /// The sum.
     fn plus(&self, other: &Self) -> Self;
+    /// The product.
     fn times(&self, other: &Self) -> Self;
 }
 

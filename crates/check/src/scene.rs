@@ -4,15 +4,17 @@ use crate::curve::Piece;
 use crate::error::CheckError;
 use crate::free::{Chain, Edge, Open, Side, Solid, guard, keep_off};
 use crate::interval::Point;
+use crate::obstacle::Obstacle;
 use crate::overlap::Shape;
-use crate::world::Obstacle;
 use std::rc::Rc;
 
 /// A shape that is carried.
 pub struct Part<'a> {
-    /// What it is called, and how far it has to keep, in words.
+    /// Its name, in words.
     pub name: String,
+    /// How far it has to keep, in words.
     pub keeps: &'a str,
+    /// Its shape.
     pub solid: &'a Solid,
     /// Of each obstacle, whether they can meet.
     pub meets: Vec<bool>,
@@ -20,7 +22,9 @@ pub struct Part<'a> {
 
 /// An obstacle in its place, or on its way.
 pub struct Present {
+    /// The obstacle.
     pub obstacle: Obstacle,
+    /// What shapes keep off, to keep off it.
     pub edges: Vec<Edge>,
 }
 

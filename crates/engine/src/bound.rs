@@ -5,8 +5,7 @@ use cplan_core::cspace::inner_regions;
 use cplan_core::model::MotionProblem;
 use cplan_core::planner::{Planner as _, Proposal, Query, Visibility};
 use cplan_core::space::{Metric, Path};
-use cplan_proofs::bound::{CheckedBound, LengthClaim};
-use cplan_proofs::{Motions, claimed_length, least_length};
+use cplan_proofs::{BoundEvidence, Motions, bound_evidence, least_length};
 
 /// A path's length and a proven lower bound on that of every other.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -68,18 +67,10 @@ fn past_polygons(motions: &Motions, gap: f64) -> Option<f64> {
     Some(metric.length(&path) * (1.0 - ROUNDING))
 }
 
-/// What the judge sees of a bound that was stated: the search finds anew what closes shorter ways, and [`cplan_proofs::bound::LengthClaim`]
-/// is looked at by what shares no code with it. Tenths of a second.
-#[must_use]
-pub fn checked_bound(problem: &MotionProblem, stated: &Bound) -> CheckedBound {
-    let motions = motions(problem, stated.metric);
-    claim(&motions, stated).checked(motions.scene, motions.start, motions.goals, motions.clearance, motions.metric)
-}
-
-/// What closes ways that are shorter than was stated, found anew.
-pub(super) fn claim(motions: &Motions, stated: &Bound) -> LengthClaim {
+/// Finds anew what closes ways that are shorter than was stated.
+pub(super) fn evidence(motions: &Motions, stated: &Bound) -> BoundEvidence {
     let gap = (stated.gap() * FINER).clamp(LEAST_GAP, 1.0);
-    claimed_length(motions, stated.upper.max(stated.lower), gap, &[])
+    bound_evidence(motions, stated.upper.max(stated.lower), gap)
 }
 
 /// Share of the stated gap that the evidence may leave open: it is found in another way than the bound was, from fewer slices that

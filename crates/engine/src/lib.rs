@@ -72,9 +72,11 @@ pub mod task;
 mod thinned;
 
 pub use answer::{Answer, BoundedPath, Unknown};
-pub use bound::{Bound, bound, checked_bound};
+pub use bound::{Bound, bound};
 pub use cell_counts::CellCounts;
-pub use certificate::{NoCertificate, certificate_of_recording};
+pub use certificate::{
+    BoundCertificate, NoCertificate, certificate_of_bound, certificate_of_boxes, certificate_of_recording,
+};
 pub use field_cells::field_on_cells;
 pub use grid_space::GridSpace;
 pub use ladder::solve;

@@ -27,12 +27,12 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-pub mod bound;
 mod bands;
 mod boxes;
 mod chain;
 mod channel;
 mod connectivity;
+mod evidence;
 mod optimum;
 mod separating;
 mod slab;
@@ -42,6 +42,7 @@ mod tiles;
 
 pub use channel::Channel;
 pub use connectivity::{Connectivity, Exploration, Occupancy, connectivity, explore};
-pub use optimum::{Motions, Proposed, Refused, ShortMotion, claimed_length, least_length, short_motion};
+pub use evidence::{BoundEvidence, ClosedSegment};
+pub use optimum::{Motions, Proposed, Refused, ShortMotion, bound_evidence, least_length, short_motion};
 pub use slabs::{slab_boxes, slab_connectivity};
 pub use slim::slimmed;

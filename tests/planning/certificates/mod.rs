@@ -23,7 +23,7 @@ use cplan::input::{self, Overrides, Source};
 use cplan::model::Status;
 use cplan::space::Configuration;
 use cplan::{Options, Problem, plan};
-use cplan_check::{CheckError, check};
+use cplan_check_files::{CheckError, check};
 use drawn::{Drawn, Goal, Kind, Outline};
 use serde_json::{Value, json};
 use std::time::{Duration, Instant};
@@ -43,9 +43,6 @@ const FEWEST: usize = 3;
 
 /// From the worlds of so many seeds certificates are taken to be falsified.
 const MOST_SEEDS: usize = 240;
-
-/// No check of a falsified certificate takes as long.
-const LONGEST: Duration = Duration::from_secs(20);
 
 /// A problem without a way, and its certificate.
 struct Closed {
@@ -333,12 +330,9 @@ fn nonsense(dice: &mut Dice, text: &str) -> String {
     }
 }
 
-/// Which of the three answers it was, within the time that a check may take, or a panic.
-fn judged(urdf: &str, world: &str, certificate: &str, seed: u64) -> Result<(), bool> {
-    let begun = Instant::now();
-    let judged = check(urdf, world, certificate);
-    assert!(begun.elapsed() < LONGEST, "seed {seed}: {:?}\n{urdf}\n{world}\n{certificate}", begun.elapsed());
-    match judged {
+/// Which of the three answers it was.
+fn judged(urdf: &str, world: &str, certificate: &str) -> Result<(), bool> {
+    match check(urdf, world, certificate) {
         Ok(_) => Ok(()),
         Err(CheckError::Fails(_)) => Err(true),
         Err(CheckError::Input { .. }) => Err(false),
@@ -370,13 +364,13 @@ fn falsified_certificates_are_refused_or_true() {
         match dice.below(20) {
             0 => {
                 let text = respelled(&mut dice, &closed.certificate);
-                let answer = judged(&closed.drawn.urdf(), &closed.drawn.world(true), &text, seed);
+                let answer = judged(&closed.drawn.urdf(), &closed.drawn.world(true), &text);
                 assert_eq!(answer, Ok(()), "seed {seed}: {text}");
                 spelled += 1;
             }
             1..=3 => {
                 let text = nonsense(&mut dice, &closed.certificate);
-                let answer = judged(&closed.drawn.urdf(), &closed.drawn.world(true), &text, seed);
+                let answer = judged(&closed.drawn.urdf(), &closed.drawn.world(true), &text);
                 if answer.is_ok() {
                     // Of the numbers in there that doubles do not have.
                     let near = text.replace("e1099", "e99").replace("e-1099", "e-99");
@@ -392,12 +386,12 @@ fn falsified_certificates_are_refused_or_true() {
                     0 => (slipped(&mut dice, &urdf), world),
                     _ => (urdf, slipped(&mut dice, &world)),
                 };
-                count(judged(&urdf, &world, &closed.certificate, seed).and(Err(false)));
+                count(judged(&urdf, &world, &closed.certificate).and(Err(false)));
             }
             _ => {
                 let (drawn, value) = falsify(&mut dice, closed);
                 let (urdf, world, text) = (drawn.urdf(), drawn.world(true), value.to_string());
-                let answer = judged(&urdf, &world, &text, seed);
+                let answer = judged(&urdf, &world, &text);
                 if answer.is_ok() {
                     assert_eq!(oracle::lie(&drawn, &value), None, "seed {seed}:\n{urdf}\n{world}\n{text}");
                 }

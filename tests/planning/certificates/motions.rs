@@ -13,7 +13,7 @@ use cplan::input::{self, Overrides, Source};
 use cplan::model::Status;
 use cplan::space::Configuration;
 use cplan::{Options, Problem, plan};
-use cplan_check::check;
+use cplan_check_files::check;
 use std::time::{Duration, Instant};
 
 #[derive(Debug, Default)]

@@ -13,7 +13,7 @@ use cplan::input::{self, Overrides, Source};
 use cplan::model::Status;
 use cplan::space::Configuration;
 use cplan::{Problem, plan};
-use cplan_check::{CheckError, check};
+use cplan_check_files::{CheckError, check};
 use serde_json::Value;
 use std::fmt::Write;
 use std::time::{Duration, Instant};

@@ -1,7 +1,7 @@
 //! `--certificate`, and what the checker, which shares no code with the program, says of it.
 
 use super::{FREE, Place, shipped};
-use cplan_check::{CheckError, check, check_files};
+use cplan_check_files::{CheckError, check, check_files};
 use serde_json::Value;
 use std::path::Path;
 

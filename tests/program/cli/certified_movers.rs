@@ -4,7 +4,7 @@ use super::certified_tasks::read;
 use super::{Place, shipped};
 use crate::common::dice::Dice;
 use crate::common::random::{seeds, usual};
-use cplan_check::{CheckError, check};
+use cplan_check_files::{CheckError, check};
 use std::f64::consts::PI;
 use std::fmt::Write;
 

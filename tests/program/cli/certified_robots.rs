@@ -2,7 +2,7 @@
 
 use super::Place;
 use super::certificates::without_digests;
-use cplan_check::{CheckError, check_files};
+use cplan_check_files::{CheckError, check_files};
 use std::path::PathBuf;
 
 /// Two bars of 1 m and 0.8 m. What differs is in the places of the words in braces.

@@ -2,7 +2,7 @@
 
 use super::certificates::without_digests;
 use super::{Place, shipped};
-use cplan_check::{CheckError, check, check_files};
+use cplan_check_files::{CheckError, check, check_files};
 use serde_json::{Value, json};
 use std::path::Path;
 

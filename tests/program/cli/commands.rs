@@ -158,7 +158,7 @@ fn the_least_time_has_a_bound_and_another_shape() {
             assert_eq!(verified.code, 0, "{file}: {}", verified.stdout);
         }
         let text = |path: &str| std::fs::read_to_string(path).unwrap();
-        let judged = cplan_check::check(&text(&urdf), &text(&world), &place.read("c.json"));
+        let judged = cplan_check_files::check(&text(&urdf), &text(&world), &place.read("c.json"));
         assert!(judged.is_ok(), "{options}: {judged:?}");
         let result: Value = serde_json::from_str(&place.read("m.json")).unwrap();
         (done.stdout, result)

@@ -228,7 +228,7 @@ fn what_is_out_of_reach_changes_nothing() {
             place.write(name, text);
             let done = place.run(&[&robot, name], "--quiet --json --certificate c.json");
             assert_eq!(done.code, code, "{world}: {}", done.stderr);
-            let held = cplan_check::check_files(robot.as_ref(), &place.path(name), &place.path("c.json"));
+            let held = cplan_check_files::check_files(robot.as_ref(), &place.path(name), &place.path("c.json"));
             assert!(held.is_ok(), "{world}: {held:?}");
             done.json()
         };

@@ -1,7 +1,7 @@
 //! The robot's own body is in its way: links that stand still, and link 1 for what link 2 carries.
 
 use super::{Done, Place};
-use cplan_check::check_files;
+use cplan_check_files::check_files;
 
 /// A SCARA of 1.05 m reach on a pedestal 272 mm high, arms of 560 and 490 mm above it, and a quill that reaches down to `{quill}` m. What differs is in
 /// the places of the words in braces.

@@ -1,7 +1,7 @@
 //! What an object rests on: bottom and top that touch are no contact, whoever judges.
 
 use super::{Done, Place, shipped};
-use cplan_check::check;
+use cplan_check_files::check;
 
 /// How the tool gets down, and how the part is held.
 #[derive(Debug, Clone, Copy, PartialEq)]

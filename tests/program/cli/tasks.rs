@@ -383,6 +383,6 @@ fn walls_all_round_a_joint_have_no_end() {
     let urdf = shipped("robots/planar_2r_continuous.urdf");
     let done = place.run(&[&urdf, "w.toml"], "--quiet --output plan.json --certificate c.json");
     assert_eq!(done.code, 0, "{}", done.stderr);
-    let checked = cplan_check::check_files(urdf.as_ref(), &place.path("w.toml"), &place.path("c.json"));
+    let checked = cplan_check_files::check_files(urdf.as_ref(), &place.path("w.toml"), &place.path("c.json"));
     assert!(checked.is_ok_and(|said| said.contains("does all 2 steps")));
 }

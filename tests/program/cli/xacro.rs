@@ -1,7 +1,7 @@
 //! Robots in xacro: taken wherever a URDF is, and written as URDF for programs that read nothing else.
 
 use super::{Place, shipped};
-use cplan_check::{CheckError, check_files};
+use cplan_check_files::{CheckError, check_files};
 
 const WORLD: &str = "[start]\njoints = [-0.9, 0.4]\n[goal]\njoints = [1.5, -0.4]\n[[obstacle]]\nname = \"post\"\n\
                      circle = { center = [0.5, 0.1], radius = 0.03 }\n";

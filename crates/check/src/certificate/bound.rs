@@ -9,10 +9,14 @@ use serde::Deserialize;
 pub struct Bound {
     /// Where to; by default to the goal.
     pub to: Option<[Decimal; 2]>,
+    /// No motion is claimed to be shorter.
     pub length: Decimal,
+    /// How lengths are measured.
     #[serde(default)]
     pub metric: Metric,
+    /// What bars shorter motions.
     pub walls: Vec<Wall>,
+    /// Lengths of the ways to ends of walls.
     pub potentials: Vec<Potential>,
 }
 
@@ -33,7 +37,9 @@ pub enum Metric {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Wall {
+    /// Where it begins.
     pub from: [Decimal; 2],
+    /// Where it ends.
     pub to: [Decimal; 2],
     /// Into the shapes.
     pub shape: usize,
@@ -52,5 +58,6 @@ pub struct Potential {
     /// Whole turns of each joint from where the wall is written to where it is meant.
     #[serde(default)]
     pub turns: [i64; 2],
+    /// The length.
     pub value: Decimal,
 }

@@ -10,9 +10,13 @@ use serde::Deserialize;
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ShapeName {
+    /// The link.
     pub link: String,
+    /// Its number, if it is a collision shape, ...
     pub collision: Option<usize>,
+    /// ... a visual shape, ...
     pub visual: Option<usize>,
+    /// ... or the bar of the world: then 0.
     pub bar: Option<usize>,
     /// A height in the layer, if the shape has several.
     pub height: Option<Decimal>,
@@ -28,8 +32,11 @@ pub struct PartName {
     pub corners: Option<Vec<Corner>>,
     /// Link of the robot that stands still.
     pub own: Option<String>,
+    /// The number of the link's shape, if it is a collision shape, ...
     pub collision: Option<usize>,
+    /// ... or a visual shape.
     pub visual: Option<usize>,
+    /// A height in the layer, if the shape has several.
     pub height: Option<Decimal>,
 }
 
@@ -37,7 +44,9 @@ pub struct PartName {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct StuckBox {
+    /// The least value of each joint.
     pub lower: [Decimal; 2],
+    /// The greatest.
     pub upper: [Decimal; 2],
     /// Into the shapes.
     pub shape: usize,

@@ -1,9 +1,10 @@
 //! Parts of proofs that are links of the robot.
 
 use super::{Evident, PART};
+use crate::arm::Arm;
 use crate::certificate::PartName;
 use crate::error::{CheckError, Input};
-use crate::robot::{Arm, Outline, named};
+use crate::shapes::{Outline, named};
 
 /// Finds the shape of a link that is an obstacle for others, or a layer of it.
 ///

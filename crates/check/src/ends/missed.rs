@@ -1,12 +1,12 @@
 //! How near motions begin and end to where they are to.
 
 use super::End;
+use crate::arm::Arm;
 use crate::decimal::Decimal;
 use crate::domain::{Axis, Range};
 use crate::error::CheckError;
 use crate::free::{Chain, On};
 use crate::interval::{BITS, Interval, Point, length, minus};
-use crate::robot::Arm;
 use crate::world::Goal;
 use num_bigint::BigInt;
 
@@ -51,7 +51,7 @@ fn outside(place: &Point, area: &Point) -> BigInt {
     length(&[beyond(0), beyond(1)]).upper
 }
 
-impl Arm<'_> {
+impl Arm {
     /// A bound on how far a knot is from where it is to be: joint by joint, or of the tip.
     pub fn away(&self, knot: &[Decimal], goal: &Goal) -> BigInt {
         let at = [&knot[1], &knot[2]];

@@ -1,12 +1,12 @@
 //! All configurations with which motions may begin or end.
 
 use super::End;
+use crate::arm::{Arm, Motion};
 use crate::decimal::Decimal;
 use crate::domain::{Range, Rectangle};
 use crate::error::{CheckError, Input};
 use crate::interval::{Interval, Point};
 use crate::polygon::Corner;
-use crate::robot::{Arm, Motion};
 use crate::world::Goal;
 
 /// Parts of the domain in which the tip may be at a place, at the most, if it is to be shut off there, ...
@@ -71,7 +71,7 @@ impl Region {
     }
 }
 
-impl Arm<'_> {
+impl Arm {
     /// The places of the tip that a rectangle stands for: all of it, of an arm that turns its middle.
     pub fn area(&self, [a, b]: &[Corner; 2]) -> Point {
         if self.joints.iter().any(|joint| !matches!(joint.motion, Motion::Slide(_))) {

@@ -8,7 +8,7 @@
 use cplan_core::space::{Configuration, JointRange, Metric, Topology};
 use cplan_geometry::OpenList;
 use cplan_interrupt::checkpoint;
-use cplan_proofs::bound::ClosedSegment;
+use cplan_proofs::ClosedSegment;
 use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::TAU;
 

@@ -1,11 +1,21 @@
 //! The shapes and the parts of obstacles that evidence names.
 
-use super::{Evidence, Stuck, lines, reaching_out};
+use super::{Evidence, lines, reaching_out};
 use cplan_core::check::StuckBox;
 use cplan_core::model::{Heights, OutlineSource, Pair, Part, Scene, SelfObstacle, Shape};
 use cplan_geometry::{Convex, Point};
+use serde::Serialize;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
+
+/// A box as it stands in a certificate.
+#[derive(Serialize)]
+struct Stuck {
+    lower: [f64; 2],
+    upper: [f64; 2],
+    shape: usize,
+    part: usize,
+}
 
 /// The shapes and the parts of obstacles that evidence names, each once.
 pub(super) struct Contacts<'a> {
@@ -45,8 +55,14 @@ impl<'a> Contacts<'a> {
         (*shape, *part)
     }
 
+    /// The list of boxes as it is written.
+    pub fn boxes(&mut self, stuck: &[StuckBox]) -> (&'static str, String) {
+        let boxes: Vec<Stuck> = stuck.iter().flat_map(|stuck| self.stuck(stuck)).collect();
+        ("boxes", lines(&boxes))
+    }
+
     /// A box as it is written: one that reaches across half a turn is two.
-    pub fn stuck(&mut self, stuck: &StuckBox) -> Vec<Stuck> {
+    fn stuck(&mut self, stuck: &StuckBox) -> Vec<Stuck> {
         let (shape, part) = self.numbers(stuck.pair);
         let parts = reaching_out(self.scene, stuck).into_iter();
         parts.map(|[lower, upper]| Stuck { lower, upper, shape, part }).collect()

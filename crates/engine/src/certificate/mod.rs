@@ -2,22 +2,22 @@
 
 mod bound;
 mod contacts;
+mod lower_bound;
 mod motion;
+mod stated;
 mod task;
 
 pub use motion::recorded as certificate_of_recording;
+pub use stated::{BoundCertificate, certificate_of_bound, certificate_of_boxes};
 
-use super::bound::{claim, motions};
 use super::task::{TaskAnswer, step_reports};
-use super::{Answer, Bound, Detail, Motion, Plan};
-use bound::{LeastLength, Ways};
+use super::{Answer, Detail, Motion, Plan};
 use contacts::Contacts;
 use cplan_core::check::{Cell, StuckBox};
 use cplan_core::model::{Arm, MotionProblem, Outcome, Scene, Status, Task, inverse};
-use cplan_core::space::{Configuration, JointRange, Metric, Segment, Topology};
-use cplan_geometry::cross;
-use cplan_proofs::bound::ClosedSegment;
+use cplan_core::space::{Configuration, JointRange, Segment, Topology};
 use cplan_world::{Digests, Overrides, TipPoint};
+use lower_bound::{Care, LowerBound};
 use serde::Serialize;
 use serde_json::json;
 use std::collections::BTreeSet;
@@ -40,15 +40,6 @@ pub enum NoCertificate {
     /// A motion without times in a world in which something moves.
     #[error("the motion says no times, and among what moves it depends on them whether it is free")]
     Untimed,
-}
-
-/// A box as it stands in a certificate.
-#[derive(Serialize)]
-struct Stuck {
-    lower: [f64; 2],
-    upper: [f64; 2],
-    shape: usize,
-    part: usize,
 }
 
 impl Plan {
@@ -74,14 +65,13 @@ fn certificate_of_motion(
     let (word, evidence) = match &answer.outcome {
         Outcome::Found(motion) => {
             let mut evidence = vec![motion::evidence(problem.scene().arm(), &motion.timed.trajectory)];
-            let bound = motion.path.bound.and_then(|bound| least_length(problem, &bound, asked, &mut contacts));
-            evidence.extend(bound.into_iter().flatten());
+            let bound = motion.path.bound.and_then(|stated| LowerBound::of(problem, &stated, asked, &Care::USUAL));
+            evidence.extend(bound.into_iter().flat_map(|bound| bound.evidence(&mut contacts)));
             ("found", evidence)
         }
         Outcome::Infeasible(proof) => {
             let stuck = [proof.stuck(), &ruled_out(problem).0].concat();
-            let boxes: Vec<Stuck> = stuck.iter().flat_map(|stuck| contacts.stuck(stuck)).collect();
-            ("infeasible", vec![("boxes", lines(&boxes))])
+            ("infeasible", vec![contacts.boxes(&stuck)])
         }
         Outcome::Unknown(_) => return Err(NoCertificate::Answer(Status::Unknown)),
     };
@@ -106,119 +96,6 @@ fn certificate_of_task(
     let (steps, _) = step_reports(task, answer);
     let evidence = [motion::evidence(&task.arm, &motion.sequence.trajectory), task::steps(&steps)];
     Ok(written("found", said, evidence))
-}
-
-/// That no motion is shorter than the bound, up to a hair; none where nothing is known of that, or goals are a curve.
-///
-/// To one configuration, or to wherever the tip is at the place that was asked for: then the boxes about those of these configurations that are
-/// not free come first.
-fn least_length(
-    problem: &MotionProblem,
-    stated: &Bound,
-    asked: &Overrides,
-    contacts: &mut Contacts,
-) -> Option<Evidence> {
-    let motions = motions(problem, stated.metric);
-    let topology = problem.scene().arm().topology();
-    let Ends { to, goals, boxes } = Ends::of(problem, asked)?;
-    let ways = Ways {
-        topology: &topology,
-        metric: stated.metric,
-        start: topology.wrap(motions.start),
-        goals: &goals,
-        about: if to.is_some() { 0.0 } else { ABOUT_A_GOAL },
-        limit: stated.upper,
-    };
-    let claim = claim(&motions, stated);
-    let of = |looks: usize| LeastLength::new(&ways, claim.closed(motions.scene, motions.clearance, looks));
-    let mut least = of(LOOKS[0])?;
-    if least.length < stated.lower * (1.0 - MUCH) {
-        least = of(LOOKS[1]).filter(|closer| closer.length > least.length).unwrap_or(least);
-    }
-    let wall = |wall: &ClosedSegment| {
-        let (shape, part) = contacts.numbers(wall.pair);
-        let [from, to] = wall.ends.map(<[f64; 2]>::from);
-        json!({ "from": from, "to": to, "shape": shape, "part": part })
-    };
-    let walls: Vec<_> = least.walls.iter().map(wall).collect();
-    let potential = |p: &bound::Potential| match p.turns {
-        [0, 0] => json!({ "wall": p.wall, "end": p.end, "value": p.value }),
-        turns => json!({ "wall": p.wall, "end": p.end, "turns": turns, "value": p.value }),
-    };
-    let potentials: Vec<_> = least.potentials.iter().map(potential).collect();
-    let metric = match stated.metric {
-        Metric::Euclidean => json!("euclidean"),
-        Metric::Weighted { weights } => json!({ "weights": weights }),
-        Metric::Time { speeds } => json!({ "speeds": speeds }),
-    };
-    let to = to.map_or_else(String::new, |to| format!("\"to\": {}, ", json!(to)));
-    let (length, walls, potentials) = (least.length, lines(&walls), lines(&potentials));
-    let members =
-        format!(r#"{to}"length": {length}, "metric": {metric}, "walls": {walls}, "potentials": {potentials}"#);
-    let boxes: Vec<Stuck> = boxes.iter().flat_map(|stuck| contacts.stuck(stuck)).collect();
-    let boxes = (!boxes.is_empty()).then(|| ("boxes", lines(&boxes)));
-    Some(boxes.into_iter().chain([("bound", format!("{{ {members} }}"))]).collect())
-}
-
-/// Looks along a wall in either direction, where a checker is to look as well that takes longer: as many as do for most, ...
-const LOOKS: [usize; 2] = [60, 300];
-
-/// ... and more if the bound loses more than this share: where shapes come apart slowly, as in a slot, walls end too early.
-const MUCH: f64 = 1e-3;
-
-/// Where a bound leads to.
-struct Ends {
-    /// One configuration, if it is about that; or else the goal, wherever the tip is at the place.
-    to: Option<Configuration>,
-    /// All that may count as goals.
-    goals: Vec<Configuration>,
-    /// About those that are none.
-    boxes: Vec<StuckBox>,
-}
-
-impl Ends {
-    /// None where goals are a curve, or not told from what is beside them.
-    fn of(problem: &MotionProblem, asked: &Overrides) -> Option<Self> {
-        let (arm, pieces) = (problem.scene().arm(), problem.goals().pieces());
-        let topology = arm.topology();
-        if !pieces.iter().all(Segment::is_point) {
-            return None;
-        }
-        let goals: Vec<Configuration> = pieces.iter().map(|goal| inward(&topology, goal.ends()[0])).collect();
-        if let ([goal], None) = (&goals[..], asked.goal_tip) {
-            return Some(Self { to: Some(*goal), goals, boxes: Vec::new() });
-        }
-        let solved = inverse(arm, arm.tip_at(*goals.first()?), problem.start());
-        // All of them share the parts that a checker looks at: those on other turns, too.
-        let least = STRETCHED * solved.solutions(arm).len().max(1) as f64;
-        if solved.free.is_some() || solved.branches.iter().any(|q| tells_apart(arm, *q) <= least) {
-            return None;
-        }
-        let (boxes, left) = ruled_out(problem);
-        Some(Self { to: None, goals: [goals, left].concat(), boxes })
-    }
-}
-
-/// What a checker leaves open of where the tip is at a place, as a share of the way: it looks for these configurations itself, down to a
-/// part in 10^12 of the joints' ranges.
-const ABOUT_A_GOAL: f64 = 1e-6;
-
-/// Where [`tells_apart`] is less, a checker does not tell configurations that put the tip at a place from those beside them, as it cuts both
-/// joints' ranges in equal shares.
-const STRETCHED: f64 = 0.012;
-
-/// The area between the ways in which the joints move the tip, as a share of the square of both together: at most a quarter, and nothing where
-/// the arm is stretched or folded.
-fn tells_apart(arm: &Arm, q: Configuration) -> f64 {
-    const STEP: f64 = 1e-6;
-    let ranges = arm.topology().ranges;
-    let moved = |k: usize| {
-        let (lower, upper) = ranges[k].domain();
-        let step = Configuration::from_fn(|i, _| if i == k { STEP * (upper - lower) } else { 0.0 });
-        arm.tip_at(q + step) - arm.tip_at(q - step)
-    };
-    let [a, b] = [moved(0), moved(1)];
-    cross(a, b).abs() / (a.norm() + b.norm()).powi(2)
 }
 
 /// Members of a certificate, by name, as they are written.

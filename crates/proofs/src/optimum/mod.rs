@@ -1,7 +1,7 @@
 //! How short a motion may be at best: a proven lower bound.
 
-mod claim;
 mod closed;
+mod evident;
 mod portals;
 mod jumps;
 mod refine;
@@ -9,7 +9,7 @@ mod search;
 mod sleeve;
 mod strips;
 
-use crate::bound::LengthClaim;
+use crate::evidence::BoundEvidence;
 use closed::MOST_PAIRS;
 use cplan_core::check::{CertifiedPath, Rejection, Vicinity};
 use cplan_core::model::{Pair, Scene};
@@ -100,13 +100,12 @@ pub fn least_length(motions: &Motions, limit: f64, gap: f64, slices: &[f64]) -> 
     bounded(&Motions { scene: &motions.scene.inner(), ..*motions }, limit, gap, slices).0
 }
 
-/// The same with what closes shorter ways, for [`LengthClaim::checked`].
+/// Returns what closes the ways that are shorter than [`least_length`] without further slices: evidence for a checker.
 #[must_use]
-pub fn claimed_length(motions: &Motions, limit: f64, gap: f64, slices: &[f64]) -> LengthClaim {
+pub fn bound_evidence(motions: &Motions, limit: f64, gap: f64) -> BoundEvidence {
     let scene = &*motions.scene.inner();
-    let (length, mut ways) = bounded(&Motions { scene, ..*motions }, limit, gap, slices);
-    let (slices, goal_slices) = (ways.strips.claim(scene), ways.strips.claim_at_goals(motions.goals));
-    LengthClaim { slices, goal_slices, length }
+    let (_, ways) = bounded(&Motions { scene, ..*motions }, limit, gap, &[]);
+    BoundEvidence { slices: ways.strips.evident(scene) }
 }
 
 fn bounded<'a>(motions: &Motions<'a>, limit: f64, gap: f64, slices: &[f64]) -> (f64, Ways<'a>) {

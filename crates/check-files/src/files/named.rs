@@ -1,0 +1,43 @@
+//! Files that the URDF and the world name.
+
+use super::{Files, digest};
+use cplan_check::{CheckError, Input};
+use std::fs::File;
+use std::io::Read as _;
+use std::path::Path;
+
+/// Bytes of the largest file that is read.
+const LARGEST: u64 = 256 << 20;
+
+impl Files {
+    /// The path of one of the two, beside which others lie.
+    ///
+    /// # Errors
+    /// If it is a text.
+    pub fn path(&self, of: Input) -> Result<&Path, CheckError> {
+        let path = self.given[usize::from(of == Input::World)].as_deref();
+        path.ok_or_else(|| CheckError::in_file(of, "it names other files, which only check_files looks for"))
+    }
+
+    /// The content of a file that one of the two names.
+    ///
+    /// # Errors
+    /// What cannot be read, is larger than 256 MiB, or is another than the certificate is about.
+    pub fn bytes(&self, of: Input, path: &Path) -> Result<Vec<u8>, CheckError> {
+        if !path.is_file() {
+            return Err(CheckError::in_file(of, format!("{} cannot be read: there is no such file", path.display())));
+        }
+        let mut bytes = Vec::new();
+        let read = File::open(path).and_then(|file| file.take(LARGEST + 1).read_to_end(&mut bytes));
+        let name = path.display();
+        read.map_err(|error| CheckError::in_file(of, format!("{name} cannot be read: {error}")))?;
+        if bytes.len() as u64 > LARGEST {
+            return Err(CheckError::in_file(of, format!("{name} is larger than {} MiB", LARGEST >> 20)));
+        }
+        let is_said = |said: &Vec<String>| said.iter().any(|said| said.eq_ignore_ascii_case(&digest(&bytes)));
+        match self.others.as_ref().is_none_or(is_said) {
+            true => Ok(bytes),
+            false => CheckError::fails(format!("it is about another {name}: none of \"others\" is its SHA-256")),
+        }
+    }
+}

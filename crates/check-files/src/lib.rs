@@ -1,0 +1,100 @@
+//! An independent checker of cplan's certificates: the files that they are about, tasks and moving obstacles.
+//!
+//! [`check`] reads a URDF, a world and a certificate, and says whether the certificate proves its answer, in exact arithmetic:
+//! decimals are taken as they are written, roots, sines and cosines are enclosed by numbers below and above. It shares no code
+//! with the planner. `cplan-check` judges what is said of one motion; this crate reads URDF and meshes, worlds and maps for it, and judges
+//! tasks, whose steps it does again. In cplan's repository, `docs/certificate_format.md` has the format and the meaning of each key, and
+//! `docs/certificate_checks.md` the conditions that are checked and why they suffice.
+//!
+//! ```
+//! let urdf = r#"<robot name="bar">
+//!     <link name="base"/>
+//!     <joint name="j1" type="revolute">
+//!         <parent link="base"/> <child link="bar"/> <axis xyz="0 0 1"/> <limit lower="-3" upper="3"/>
+//!     </joint>
+//!     <link name="bar">
+//!         <collision> <origin xyz="0.5 0 0"/> <geometry> <box size="1 0.1 0.1"/> </geometry> </collision>
+//!     </link>
+//!     <joint name="j2" type="revolute">
+//!         <parent link="bar"/> <child link="tool"/> <origin xyz="1 0 0"/> <axis xyz="0 0 1"/> <limit lower="-1" upper="1"/>
+//!     </joint>
+//!     <link name="tool"/>
+//! </robot>"#;
+//! let world = "start.joints = [-1, 0]\ngoal.joints = [1, 0]\nobstacle = [{ circle = { center = [0.9, 0.0], radius = 0.2 } }]";
+//! let certificate = r#"{
+//!     "format": "cplan certificate 1", "answer": "infeasible",
+//!     "shapes": [{ "link": "bar", "collision": 0 }], "parts": [{ "obstacle": 0 }],
+//!     "boxes": [{ "lower": [-0.1, -1], "upper": [0.1, 1], "shape": 0, "part": 0 }]
+//! }"#;
+//! assert!(cplan_check_files::check(urdf, world, certificate).is_ok());
+//! let too_long = certificate.replace("0.1, 1", "0.3, 1");
+//! let why = cplan_check_files::check(urdf, world, &too_long).unwrap_err();
+//! assert!(matches!(why, cplan_check_files::CheckError::Fails(_)));
+//! ```
+#![forbid(unsafe_code)]
+
+mod files;
+mod robot;
+mod task;
+mod world;
+
+pub use cplan_check::{CheckError, Input};
+
+use cplan_check::certificate;
+use files::Files;
+use robot::Robot;
+use std::path::{Path, PathBuf};
+use world::WorldFile;
+
+/// Checks a certificate: the texts of the three files. What it proves is returned in words.
+///
+/// # Errors
+/// [`CheckError::Fails`] with the first part that does not hold, [`CheckError::Input`] for files that are wrong or that say
+/// what the checker does not know; also if they name other files, which have no place here.
+pub fn check(urdf: &str, world: &str, certificate: &str) -> Result<String, CheckError> {
+    judged([urdf, world, certificate], [None, None])
+}
+
+/// The same of three files. What the URDF and the world name is looked for beside them.
+///
+/// # Errors
+/// As [`check`], and files that cannot be read.
+pub fn check_files(urdf: &Path, world: &Path, certificate: &Path) -> Result<String, CheckError> {
+    let read = |input: Input, path: &Path| {
+        let message = |error| format!("{error}: give a URDF, a world file and a certificate");
+        std::fs::read_to_string(path).map_err(|error| CheckError::in_file(input, message(error)))
+    };
+    let texts = [read(Input::Urdf, urdf)?, read(Input::World, world)?, read(Input::Certificate, certificate)?];
+    check_beside(texts.each_ref().map(String::as_str), [urdf, world])
+}
+
+/// The same of three texts. What the URDF and the world name is looked for beside these paths.
+///
+/// # Errors
+/// As [`check`], and files that cannot be read.
+pub fn check_beside(texts: [&str; 3], beside: [&Path; 2]) -> Result<String, CheckError> {
+    judged(texts, beside.map(|path| Some(path.to_owned())))
+}
+
+/// Checks a certificate of texts, and where they are from.
+fn judged([urdf, world, certificate]: [&str; 3], given: [Option<PathBuf>; 2]) -> Result<String, CheckError> {
+    let certificate = certificate::read(certificate)?;
+    let files = Files::new(&certificate, [urdf, world], given)?;
+    // A byte order mark says nothing.
+    let [urdf, world] = [urdf, world].map(|text| text.strip_prefix('\u{feff}').unwrap_or(text));
+    let world = WorldFile::read(world, &files)?;
+    // A document type is no matter; what entities stand for is bounded by the parser.
+    let options = roxmltree::ParsingOptions { allow_dtd: true, ..roxmltree::ParsingOptions::default() };
+    let document = roxmltree::Document::parse_with_options(urdf, options).map_err(|error| CheckError::Input {
+        input: Input::Urdf,
+        line: Some(error.pos().row as usize),
+        message: error.to_string(),
+    })?;
+    let mut robot = Robot::read(&document, &world, &files, certificate.joints.as_ref())?;
+    robot.arm.ignore(&certificate)?;
+    let proven = match &certificate.steps {
+        Some(steps) => task::found(&robot, &world, &certificate, steps)?,
+        None => cplan_check::judge(&robot.arm, &world.world, &certificate)?,
+    };
+    Ok(proven + &robot.arm.notes)
+}

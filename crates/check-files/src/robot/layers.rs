@@ -1,0 +1,78 @@
+//! Meshes cut in layers at given heights.
+
+use super::solid::Surface;
+use cplan_check::decimal::Decimal;
+use cplan_check::interval::{BITS, Interval, Point, minus, sum, times};
+use num_bigint::BigInt;
+
+/// Least thickness of a layer, metres: `10^-6`.
+const THINNEST: u32 = 6;
+
+/// Vertices at most this far outside a layer belong to it, metres: `10^-9`.
+const ROUNDED: u32 = 9;
+
+fn metres(digits: u32) -> BigInt {
+    Interval::from(&Decimal::power_of_ten(digits)).lower
+}
+
+/// Sorts heights, and drops those that are too close to the one before.
+pub fn cuts(mut ends: Vec<BigInt>) -> Vec<BigInt> {
+    let thinnest = metres(THINNEST);
+    ends.sort();
+    ends.dedup_by(|next, last| &*next - &*last <= thinnest);
+    ends
+}
+
+impl Surface {
+    /// Cuts the surface, and returns the points and the heights of each layer, the lowest first. A layer is the convex hull of its points.
+    ///
+    /// The result is empty if no cut goes through the surface, or if the edges are unknown.
+    pub fn layers(&self, cuts: &[BigInt]) -> Vec<(Vec<Point>, [Interval; 2])> {
+        let [low, high] = self.heights();
+        let (thinnest, rounded) = (metres(THINNEST), metres(ROUNDED));
+        let [least, most] = [low.middle().0 + &thinnest, high.middle().0 - &thinnest];
+        let cuts: Vec<&BigInt> = cuts.iter().filter(|cut| least < **cut && **cut < most).collect();
+        if cuts.is_empty() || self.edges.is_empty() {
+            return Vec::new();
+        }
+        let crossings: Vec<Vec<Point>> = cuts.iter().map(|cut| self.crossings(cut, &rounded)).collect();
+        let mut layers = Vec::new();
+        for number in 0..=cuts.len() {
+            let (below, above) = (number.checked_sub(1), (number < cuts.len()).then_some(number));
+            let end = |cut: Option<usize>, own: &Interval| {
+                cut.map_or_else(|| own.clone(), |cut| Interval::exactly(cuts[cut].clone()))
+            };
+            let heights = [end(below, &low), end(above, &high)];
+            let [from, to] = [&heights[0].lower - &rounded, &heights[1].upper + &rounded];
+            let is_within = |height: &Interval| from <= height.upper && height.lower <= to;
+            let corners = self.points.iter().filter(|(_, height)| is_within(height)).map(|(at, _)| at.clone());
+            let places = below.into_iter().chain(above).flat_map(|cut| crossings[cut].iter().cloned());
+            let points: Vec<Point> = corners.chain(places).collect();
+            if !points.is_empty() {
+                layers.push((points, heights));
+            }
+        }
+        layers
+    }
+
+    /// Returns the points where edges cross a height. Edges whose two ends belong to both layers are left out: their ends are enough.
+    fn crossings(&self, cut: &BigInt, rounded: &BigInt) -> Vec<Point> {
+        let [floor, top] = [cut - rounded, cut + rounded];
+        let is_at = |height: &Interval| floor <= height.upper && height.lower <= top;
+        let place = |&[a, b]: &[usize; 2]| {
+            let [mut from, mut to] = [&self.points[a], &self.points[b]];
+            if from.1.lower > to.1.lower {
+                std::mem::swap(&mut from, &mut to);
+            }
+            if from.1.lower >= *cut || *cut >= to.1.upper || is_at(&from.1) && is_at(&to.1) {
+                return None;
+            }
+            // The crossing is on the edge, even if rounding puts it beyond an end.
+            let share = (&Interval::exactly(cut.clone()) - &from.1).divided(&(&to.1 - &from.1));
+            let one = BigInt::from(1) << BITS;
+            let share = Interval { lower: share.lower.max(BigInt::ZERO), upper: share.upper.min(one) };
+            Some(sum(&from.0, &times(&minus(&to.0, &from.0), &share)))
+        };
+        self.edges.iter().filter_map(place).collect()
+    }
+}

@@ -1,0 +1,60 @@
+//! Joints that mimic others.
+
+use super::Robot;
+use super::tree::{MOST_JOINTS, Read, Tree, child, moves};
+use cplan_check::interval::Interval;
+use roxmltree::Node;
+
+impl<'a> Tree<'a> {
+    /// The joint that a joint mimics, through others; none of one that mimics none.
+    fn leader(&self, joint: Node<'a, 'a>) -> Read<Option<Node<'a, 'a>>> {
+        let mut leader = None;
+        let mut at = joint;
+        for _ in 0..MOST_JOINTS {
+            let Some(mimic) = child(at, "mimic") else { return Ok(leader) };
+            let Some(next) = self.named.get(self.text(mimic, "joint")?) else { return Ok(None) };
+            (leader, at) = (Some(*next), *next);
+        }
+        self.error(joint, "joints mimic one another")
+    }
+
+    /// Where a joint stands: one of the two that move at 0, one that mimics another where that takes it.
+    pub(super) fn value(&self, joint: Node<'a, 'a>, followed: usize) -> Read<Interval> {
+        let Some(mimic) = child(joint, "mimic") else {
+            return match self.values.get(self.text(joint, "name")?) {
+                Some(value) => Ok(value.clone()),
+                None if followed == 0 || !moves(&joint) => Ok(Interval::whole(0)),
+                None => self.error(joint, "another joint mimics this one, which moves"),
+            };
+        };
+        let number = |name: &str, else_: i32| match mimic.has_attribute(name) {
+            true => Ok(Interval::from(&self.number(mimic, name)?)),
+            false => Ok(Interval::whole(else_)),
+        };
+        match self.named.get(self.text(mimic, "joint")?) {
+            Some(leader) if followed < MOST_JOINTS => {
+                let by = &number("multiplier", 1)? * &self.value(*leader, followed + 1)?;
+                Ok(&by + &number("offset", 0)?)
+            }
+            _ => self.error(mimic, "the joint that it mimics is not there, or mimics this one"),
+        }
+    }
+}
+
+impl<'a> Robot<'a> {
+    /// That no joint mimics one of these and moves what could collide, or the tip: none of that is where it is taken to be.
+    pub(super) fn move_alone(&self, joints: &[Node<'a, 'a>]) -> Read<()> {
+        for &link in &self.tree.order {
+            let has_shapes = ["collision", "visual"].iter().any(|kind| child(self.tree.links[link], kind).is_some());
+            let counts = has_shapes || link == self.tip_link;
+            for joint in if counts { self.tree.above(link)? } else { Vec::new() } {
+                if self.tree.leader(joint)?.is_some_and(|leader| joints.contains(&leader)) {
+                    return self
+                        .tree
+                        .error(joint, "it mimics a joint that moves, and carries what could collide, or the tip");
+                }
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,116 @@
+//! The robot's own body: pairs of its links that must not collide.
+
+use super::Robot;
+use super::layers::cuts;
+use super::shapes::Placed;
+use super::solid::bodies;
+use super::tree::{Read, Tree};
+use crate::world::WorldFile;
+use cplan_check::interval::{Interval, Point, sum};
+use cplan_check::obstacle::Obstacle;
+use cplan_check::shapes::{Counted, Outline};
+use cplan_check::{CheckError, Input};
+use num_bigint::BigInt;
+use std::collections::{BTreeMap, BTreeSet};
+
+impl<'a> Tree<'a> {
+    /// Returns the links from the root to this one.
+    fn chain(&self, link: &'a str) -> Read<Vec<&'a str>> {
+        let parents = self.above(link)?.into_iter().rev().map(|joint| self.parent(joint));
+        parents.chain([Ok(link)]).collect()
+    }
+}
+
+/// Whether no solid link lies between the ends of two chains that begin at the root.
+fn are_neighbours(left: &[&str], right: &[&str], is_solid: impl Fn(&str) -> bool) -> bool {
+    let common = left.iter().zip(right).take_while(|(a, b)| a == b).count();
+    let mut between = left[common.saturating_sub(1)..].iter().chain(&right[common..]);
+    let is_end = |link: &str| [left.last(), right.last()].contains(&Some(&link));
+    between.all(|link| is_end(link) || !is_solid(link))
+}
+
+impl<'a> Robot<'a> {
+    /// Finds the last of the two joints that moves a link; `Some(None)` if neither does.
+    ///
+    /// Returns `None` below a joint of the rest of the robot, where the place of the link is unknown.
+    pub(super) fn group(&self, link: &'a str) -> Read<Option<Option<usize>>> {
+        if let Some(last) = self.moved_by(link)? {
+            return Ok(Some(Some(last)));
+        }
+        let carrying = self.tree.above(self.children[0])?;
+        let above = self.tree.above(link)?;
+        let is_held = above.iter().all(|joint| joint.attribute("type") == Some("fixed") || carrying.contains(joint));
+        Ok(is_held.then_some(None))
+    }
+
+    /// Cuts meshes in layers, and finds the shapes that move, and those that are obstacles for others.
+    ///
+    /// # Errors
+    /// When the world names a link that the robot does not have.
+    pub(super) fn arrange(&mut self, all: Vec<Placed<'a>>, world: &WorldFile) -> Read<()> {
+        let ignored = &world.robot.ignore_contact;
+        if let Some(odd) = ignored.iter().flatten().find(|link| !self.tree.links.contains_key(link.as_str())) {
+            let message = format!("[robot] ignore_contact: the robot has no link \"{odd}\"");
+            return Err(CheckError::in_file(Input::World, message));
+        }
+        let groups: BTreeMap<&'a str, Option<usize>> =
+            all.iter().map(|placed| (placed.link, placed.whole.last)).collect();
+        let chain = |link: &&'a str| Ok((*link, self.tree.chain(link)?));
+        let chains = groups.keys().map(chain).collect::<Read<BTreeMap<&str, Vec<&str>>>>()?;
+        let mut apart = BTreeSet::new();
+        for (a, of_a) in &groups {
+            for (b, _) in groups.iter().filter(|(_, of_b)| world.robot.own_body && *of_b != of_a) {
+                let may_meet = ignored.iter().any(|[c, d]| [c, d] == [a, b] || [d, c] == [a, b]);
+                if !may_meet && !are_neighbours(&chains[a], &chains[b], |link| groups.contains_key(link)) {
+                    apart.insert((*a, *b));
+                }
+            }
+        }
+        let ends = |placed: &Placed| placed.whole.around.heights.iter().flatten().map(|h| h.middle().0).collect();
+        let ends: Vec<(&str, Vec<BigInt>)> = all.iter().map(|placed| (placed.link, ends(placed))).collect();
+        let wrist = world.task.as_ref().and_then(|task| task.wrist.as_ref()?.joint.as_deref());
+        for Placed { link, mut whole, surface } in all {
+            let last = whole.last;
+            let ignored = groups.keys().filter(|other| !apart.contains(&(link, **other)));
+            whole.ignored = ignored.map(|other| (*other).to_owned()).collect();
+            let others = ends.iter().filter(|(other, _)| apart.contains(&(link, *other)));
+            let cuts = cuts(others.flat_map(|(_, ends)| ends.clone()).collect());
+            // A link below the wrist is replaced by a disc, and stays in one piece.
+            let turns = self.tree.above(link)?.iter().any(|joint| wrist.is_some() && joint.attribute("name") == wrist);
+            let layers = surface.filter(|_| !turns).map_or_else(Vec::new, |surface| surface.layers(&cuts));
+            let layer = |(number, (points, heights)): (usize, (Vec<Point>, [Interval; 2]))| {
+                let (link, ignored, layer) = (whole.link.clone(), whole.ignored.clone(), Some(number));
+                let [around, within] = bodies(last, points.into_iter(), &heights);
+                Counted { link, layer, around, within, ignored, ..whole }
+            };
+            let mut layers: Vec<Counted> = layers.into_iter().enumerate().map(layer).collect();
+            if layers.is_empty() {
+                layers.push(whole);
+            }
+            let is_met = |other: &str, of: Option<usize>| of == Some(1) && apart.contains(&(link, other));
+            if last.is_none() || last == Some(0) && groups.iter().any(|(other, of)| is_met(other, *of)) {
+                self.arm.bases.extend(layers.iter().map(|own| at_zero(own, &self.arm.base)));
+            }
+            if last.is_some() {
+                self.arm.shapes.append(&mut layers);
+            }
+        }
+        let obstacle = |own: &Counted| {
+            let heights = own.around.kept(Outline::Around);
+            Obstacle::link(own.to_string(), own.owner(), own.around.shape.clone(), heights)
+        };
+        self.arm.own = self.arm.bases.iter().map(obstacle).collect();
+        Ok(())
+    }
+}
+
+/// Places a shape of a link that stands still, or that joint 1 carries, in the plane, with joint 1 at zero.
+fn at_zero(own: &Counted, base: &Point) -> Counted {
+    let mut own = own.clone();
+    if own.last.is_some() {
+        for point in own.around.shape.points.iter_mut().chain(&mut own.within.shape.points) {
+            *point = sum(point, base);
+        }
+    }
+    own
+}

@@ -1,0 +1,108 @@
+//! Shapes of the robot that can collide.
+
+use super::Robot;
+use super::solid::{Solid, Surface};
+use super::tree::{Read, child, children};
+use crate::world::WorldFile;
+use cplan_check::shapes::{Counted, Outline};
+use cplan_check::{CheckError, Input};
+use roxmltree::Node;
+use std::collections::BTreeSet;
+
+/// A whole shape in its place.
+pub struct Placed<'a> {
+    pub link: &'a str,
+    pub whole: Counted,
+    /// Its points and edges, if layers can be cut.
+    pub surface: Option<Surface>,
+}
+
+impl<'a> Robot<'a> {
+    /// Finds all shapes: the collision shapes of each link, or its visual shapes if it has none. If a part of the arm has neither, or a mesh cannot be
+    /// read, the bar of the world stands in for it.
+    ///
+    /// # Errors
+    /// Shapes that the checker does not know. It is no matter here what the certificate says: nothing is left out but what is not read of links that
+    /// stand still, and visual shapes that are not read where other links of the part have collision shapes.
+    pub(super) fn count(&mut self, world: &WorldFile) -> Read<()> {
+        let mut all = Vec::new();
+        let still = world.robot.own_body.then_some(None);
+        for last in [Some(0), Some(1)].into_iter().chain(still) {
+            let (mut found, mut unread) = (Vec::new(), Vec::new());
+            for &link in &self.tree.order {
+                if self.group(link)? == Some(last) {
+                    self.gather(link, last, &mut found, &mut unread)?;
+                }
+            }
+            let has_collision = found.iter().any(|placed: &Placed| placed.whole.kind == "collision");
+            let is_no_matter = |kind: &str| last.is_none() || kind == "visual" && has_collision;
+            let (left, unread): (Vec<_>, Vec<_>) = unread.into_iter().partition(|(_, kind, _)| is_no_matter(kind));
+            self.arm.notes.extend(
+                left.iter().map(|(link, kind, why)| format!("; a {kind} of link \"{link}\" is left out: {why}")),
+            );
+            self.arm.notes.extend(unread.iter().map(|(.., why)| format!("; {why}: a bar stands in for it")));
+            match (last, &world.robot.bar, unread.into_iter().next()) {
+                (Some(last), Some(bar), unread) if found.is_empty() || unread.is_some() => {
+                    let (link, whole) = (self.children[last], self.bar(last, bar)?);
+                    found.push(Placed { link, whole, surface: None });
+                }
+                (_, None, Some((.., unread))) => return Err(unread),
+                _ => {}
+            }
+            all.append(&mut found);
+        }
+        self.arrange(all, world)?;
+        if self.arm.shapes.is_empty() {
+            return Err(CheckError::in_file(Input::Urdf, "the arm has no shape that could collide"));
+        }
+        Ok(())
+    }
+
+    /// Adds the shapes of a link; for each that cannot be read, the reason.
+    fn gather(
+        &self,
+        link: &'a str,
+        last: Option<usize>,
+        found: &mut Vec<Placed<'a>>,
+        unread: &mut Vec<(&'a str, &'static str, CheckError)>,
+    ) -> Read<()> {
+        let before = found.len() + unread.len();
+        for kind in ["collision", "visual"] {
+            let mut number = 0;
+            for node in children(self.tree.links[link], kind) {
+                let mut geometry = child(node, "geometry").into_iter().flat_map(|all| all.children());
+                let mut next = || geometry.by_ref().find(Node::is_element);
+                let (Some(geometry), None) = (next(), next()) else {
+                    return self.tree.error(node, "it has no geometry, or one of several shapes");
+                };
+                let solid = match self.tree.solid(geometry)? {
+                    Some(Ok(solid)) => solid,
+                    Some(Err(why)) => {
+                        unread.push((link, kind, why));
+                        continue;
+                    }
+                    None => continue,
+                };
+                let pose = self.tree.pose(link)?.after(&self.tree.origin(node)?);
+                let surface = match solid {
+                    Solid::Hull(ref mesh) => Some(self.surface(last, &pose, mesh)),
+                    _ => None,
+                };
+                let [around, within] = match &surface {
+                    Some(surface) => surface.whole(last),
+                    None => {
+                        [Outline::Around, Outline::Within].map(|outline| self.project(last, &pose, &solid, outline))
+                    }
+                };
+                let (layer, ignored) = (None, BTreeSet::new());
+                let whole = Counted { link: link.to_owned(), kind, number, last, layer, around, within, ignored };
+                found.push(Placed { link, whole, surface });
+                number += 1;
+            }
+            if found.len() + unread.len() > before {
+                break;
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,176 @@
+//! Solids, and what they cover in the plane.
+
+use super::Robot;
+use super::oblique::oblique;
+use super::pose::{Pose, Vector, dot};
+use super::tree::{Read, Tree};
+use cplan_check::decimal::Decimal;
+use cplan_check::interval::{Interval, Point, length, minus, sum};
+use cplan_check::overlap::{Shape, hull};
+use cplan_check::shapes::{Body, Outline};
+use num_bigint::{BigInt, Sign};
+use roxmltree::Node;
+
+/// Points of a solid. If its faces are known, their edges as pairs of indices.
+pub struct Mesh {
+    pub points: Vec<Vector>,
+    pub edges: Vec<[usize; 2]>,
+}
+
+/// A solid about its origin; cylinders and capsules along z.
+pub enum Solid {
+    /// The convex hull of points.
+    Hull(Mesh),
+    Cylinder {
+        radius: Interval,
+        half: Interval,
+    },
+    /// `half` is half the length between the centres of the caps: 0 for a sphere.
+    Capsule {
+        radius: Interval,
+        half: Interval,
+    },
+}
+
+impl Solid {
+    pub fn point() -> Self {
+        Self::Capsule { radius: Interval::whole(0), half: Interval::whole(0) }
+    }
+}
+
+impl<'a> Tree<'a> {
+    /// A solid of the URDF, or why its mesh is not read; none if it has no size.
+    pub fn solid(&self, node: Node<'a, 'a>) -> Read<Option<Read<Solid>>> {
+        let half = |n: &Decimal| Interval::from(n).half();
+        let read = |name: &str| self.number(node, name);
+        let (numbers, solid) = match node.tag_name().name() {
+            "box" => {
+                let size = self.numbers::<3>(node, "size")?;
+                let half = size.each_ref().map(half);
+                let signed = |i: usize, k: usize| if i >> k & 1 == 0 { half[k].clone() } else { -&half[k] };
+                let points = (0..8).map(|i| [0, 1, 2].map(|k| signed(i, k))).collect();
+                (size.to_vec(), Solid::Hull(Mesh { points, edges: Vec::new() }))
+            }
+            "sphere" => {
+                let radius = read("radius")?;
+                (vec![radius.clone()], Solid::Capsule { radius: Interval::from(&radius), half: Interval::whole(0) })
+            }
+            kind @ ("cylinder" | "capsule") => {
+                let (radius, length) = (read("radius")?, read("length")?);
+                let (r, half) = (Interval::from(&radius), half(&length));
+                let is_round = kind == "capsule";
+                let solid =
+                    if is_round { Solid::Capsule { radius: r, half } } else { Solid::Cylinder { radius: r, half } };
+                (vec![radius, length], solid)
+            }
+            "mesh" => return Ok(Some(self.mesh(node)?.map(Solid::Hull))),
+            other => return self.error(node, format!("the checker does not know the shape {other} yet")),
+        };
+        if numbers.iter().any(|n| n.sign() == Sign::Minus) {
+            return self.error(node, "a size is negative");
+        }
+        Ok(numbers.iter().any(|n| n.sign() != Sign::NoSign).then_some(Ok(solid)))
+    }
+}
+
+/// Points in the plane, relative to a joint, each with its height; and the edges of faces.
+pub struct Surface {
+    pub points: Vec<(Point, Interval)>,
+    pub edges: Vec<[usize; 2]>,
+}
+
+impl Surface {
+    /// Computes its extent along the normal.
+    pub fn heights(&self) -> [Interval; 2] {
+        [Ord::min, Ord::max].map(|outer: fn(BigInt, BigInt) -> BigInt| {
+            let of = |end: fn(&Interval) -> &BigInt| {
+                let all = self.points.iter().map(|(_, height)| end(height).clone());
+                all.reduce(outer).expect("a hull has points")
+            };
+            Interval { lower: of(|h| &h.lower), upper: of(|h| &h.upper) }
+        })
+    }
+
+    /// Computes the convex hull: at least that of all points, and at most.
+    pub fn whole(&self, last: Option<usize>) -> [Body; 2] {
+        bodies(last, self.points.iter().map(|(at, _)| at.clone()), &self.heights())
+    }
+}
+
+impl Robot<'_> {
+    /// Returns the origin of the joint that moves a link last; the plane's own for a link that stands still.
+    fn origin(&self, last: Option<usize>) -> Point {
+        match last {
+            None => [0, 0].map(Interval::whole),
+            Some(0) => self.arm.base.clone(),
+            Some(_) => sum(&self.arm.base, &self.arm.offset),
+        }
+    }
+
+    /// Places a mesh in the plane.
+    pub fn surface(&self, last: Option<usize>, pose: &Pose, mesh: &Mesh) -> Surface {
+        let [across, beside] = &self.plane.across;
+        let column = |k: usize| [0, 1, 2].map(|i| pose.rows[i][k].clone());
+        let columns = [column(0), column(1), column(2)];
+        let [x, y, z] = [across, beside, &self.plane.normal].map(|along| columns.each_ref().map(|c| dot(along, c)));
+        let center = minus(&self.plane.flat(&pose.at), &self.origin(last));
+        let height = self.plane.height(&pose.at);
+        let place = |p: &Vector| ([&center[0] + &dot(&x, p), &center[1] + &dot(&y, p)], &height + &dot(&z, p));
+        Surface { points: mesh.points.iter().map(place).collect(), edges: mesh.edges.clone() }
+    }
+
+    /// What a solid covers in the plane, as seen from the joint that moves it last.
+    pub fn project(&self, last: Option<usize>, pose: &Pose, solid: &Solid, outline: Outline) -> Body {
+        let plane = &self.plane;
+        let center = minus(&plane.flat(&pose.at), &self.origin(last));
+        let unit = pose.direction(&[0, 0, 1].map(Interval::whole));
+        let (along, tilt) = (plane.flat(&unit), plane.height(&unit).abs());
+        let beside = |by: &Point| [sum(&center, by), minus(&center, by)];
+        let height = &plane.height(&pose.at);
+        let about = |reach: &Interval| [height - reach, height + reach];
+        let (shape, heights) = match solid {
+            Solid::Hull(mesh) => {
+                let [around, within] = self.surface(last, pose, mesh).whole(last);
+                return if outline == Outline::Around { around } else { within };
+            }
+            Solid::Capsule { radius, half } => {
+                let points =
+                    if half.is_whole(0) { vec![center.clone()] } else { beside(&along.map(|c| &c * half)).to_vec() };
+                (Shape { points, radius: radius.clone() }, about(&(&(half * &tilt) + radius)))
+            }
+            Solid::Cylinder { radius, half } if tilt.is_whole(1) => {
+                (Shape { points: vec![center.clone()], radius: radius.clone() }, about(half))
+            }
+            Solid::Cylinder { radius, half } => {
+                let (offsets, round) = oblique(&along, &tilt, radius, half, outline);
+                // In order all round.
+                let (onward, back) =
+                    (offsets.iter().map(|by| sum(&center, by)), offsets.iter().map(|by| minus(&center, by)));
+                let points = onward.chain(back).collect();
+                (Shape { points, radius: round }, about(&(&(half * &tilt) + &(radius * &length(&along)))))
+            }
+        };
+        Body { link: last.unwrap_or(0), shape, heights: Some(heights) }
+    }
+}
+
+/// The hull of points, at least and at most, by those of its corners: of the middles of their enclosures it is found without rounding, and each point is
+/// as far from there as that of any enclosure.
+pub fn bodies(last: Option<usize>, points: impl Iterator<Item = Point>, heights: &[Interval; 2]) -> [Body; 2] {
+    let mut error = BigInt::ZERO;
+    let middles = points.map(|p| {
+        p.map(|c| {
+            let (middle, radius) = c.middle();
+            error = radius.max(std::mem::take(&mut error));
+            middle
+        })
+    });
+    let ring = hull(middles.collect());
+    let widened = |middle: BigInt| Interval { lower: &middle - &error, upper: middle + &error };
+    let points: Vec<Point> = ring.into_iter().map(|p| p.map(widened)).collect();
+    // A point is off its middle, and a corner off its own, by less than two errors across and along together.
+    [Interval::exactly(&error * 4), Interval::whole(0)].map(|radius| {
+        let shape = Shape { points: points.clone(), radius };
+        Body { link: last.unwrap_or(0), shape, heights: Some(heights.clone()) }
+    })
+}

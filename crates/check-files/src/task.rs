@@ -1,0 +1,63 @@
+//! Certificates of tasks: "found", with steps.
+
+mod order;
+mod replay;
+
+use crate::robot::Robot;
+use crate::world::WorldFile;
+use cplan_check::certificate::{Certificate, Done};
+use cplan_check::decimal::Decimal;
+use cplan_check::ends::{End, missed};
+use cplan_check::motion::well_formed;
+use cplan_check::{CheckError, Input};
+use num_bigint::Sign;
+use order::{Order, stands};
+use replay::Replay;
+
+/// The arm may stand still for less than it is to by this, seconds: `10^-6`.
+const SHORT: u32 = 6;
+
+/// That a motion does all steps of a task.
+pub fn found(robot: &Robot, file: &WorldFile, certificate: &Certificate, done: &[Done]) -> Result<String, CheckError> {
+    let (arm, world) = (&robot.arm, &file.world);
+    let clearance = certificate.clearance(world)?;
+    let wrong = |input: Input, message: &str| Err(CheckError::in_file(input, message));
+    let Some(task) = &file.task else { return wrong(Input::World, "it has no steps") };
+    if certificate.goal.is_some() || certificate.goal_tip.is_some() || certificate.bound.is_some() {
+        return wrong(Input::Certificate, "that of a task has neither a goal nor a bound");
+    }
+    let Some(motion) = &certificate.motion else { return wrong(Input::Certificate, "it has no motion") };
+    well_formed(&motion.interpolation, &motion.knots)?;
+    let start = End::start(certificate, world)?.reached(arm, &motion.knots[0])?;
+    let mut order = Order { left: done.iter().enumerate().peekable(), renewed: Vec::new(), matched: Vec::new() };
+    order.group(&task.steps)?;
+    if let Some((index, done)) = order.left.next() {
+        return CheckError::fails(format!("steps[{index}] is step {}, where the world asks for no more", done.step));
+    }
+    let steps = order.matched;
+    let stands = stands(motion, &steps)?;
+    let mut replay = Replay::new(robot, world, task, motion, clearance)?;
+    for (index, step) in steps.iter().enumerate() {
+        let number = step.step.number;
+        if motion.knots[step.done.knots[1]].iter().skip(3).take(2).any(|rate| rate.sign() != Sign::NoSign) {
+            return CheckError::fails(format!("steps[{index}], step {number}: at its end the arm moves"));
+        }
+        replay.step(step, &steps[index + 1..]).map_err(|error| match error {
+            CheckError::Fails(why) => CheckError::Fails(format!("steps[{index}], step {number}: {why}")),
+            other => other,
+        })?;
+        if &stands[index] + &Decimal::power_of_ten(SHORT) < step.step.dwell {
+            let dwell = &step.step.dwell;
+            return CheckError::fails(format!(
+                "after steps[{index}], step {number}, the arm does not stand for {dwell} s"
+            ));
+        }
+    }
+    let [first, second] = arm.joints.each_ref().map(|joint| &joint.name);
+    let within = missed("target", &replay.off)?;
+    Ok(format!(
+        "a motion of \"{first}\" and \"{second}\" does all {} steps from the start{start} on{within} with clearance {clearance} ({})",
+        steps.len(),
+        motion.in_words()
+    ))
+}

@@ -1,0 +1,88 @@
+//! Steps in the order in which they are done.
+
+use crate::world::task::{Group, Node, Step};
+use cplan_check::CheckError;
+use cplan_check::certificate::{Done, Motion};
+use cplan_check::decimal::Decimal;
+use std::iter::{Enumerate, Peekable};
+use std::slice::Iter;
+
+/// A step of the world and how it is done.
+pub(super) struct Matched<'a> {
+    pub(super) step: &'a Step,
+    pub(super) done: &'a Done,
+    /// Objects that lie where they lay at first again before it.
+    pub(super) renewed: Vec<usize>,
+}
+
+/// Steps as they are done, put beside those of the world.
+pub(super) struct Order<'a> {
+    pub(super) left: Peekable<Enumerate<Iter<'a, Done>>>,
+    pub(super) renewed: Vec<usize>,
+    pub(super) matched: Vec<Matched<'a>>,
+}
+
+impl<'a> Order<'a> {
+    pub(super) fn group(&mut self, group: &'a Group) -> Result<(), CheckError> {
+        for repetition in 0..group.repeat {
+            if repetition > 0 {
+                self.renewed.extend(&group.renewed);
+            }
+            if !group.is_free {
+                group.nodes.iter().try_for_each(|node| self.node(node))?;
+                continue;
+            }
+            let mut pairs: Vec<&[Node]> = group.nodes.chunks(2).collect();
+            while !pairs.is_empty() {
+                let next = self.left.peek().map(|(_, done)| done.step);
+                let begins = |pair: &&[Node]| matches!(&pair[0], Node::Step(step) if Some(step.number) == next);
+                let pair = pairs.remove(pairs.iter().position(begins).unwrap_or(0));
+                pair.iter().try_for_each(|node| self.node(node))?;
+            }
+        }
+        Ok(())
+    }
+
+    fn node(&mut self, node: &'a Node) -> Result<(), CheckError> {
+        let step = match node {
+            Node::Group(group) => return self.group(group),
+            Node::Step(step) => step,
+        };
+        match self.left.next() {
+            Some((_, done)) if done.step == step.number => {
+                self.matched.push(Matched { step, done, renewed: std::mem::take(&mut self.renewed) });
+                Ok(())
+            }
+            Some((index, done)) => CheckError::fails(format!(
+                "steps[{index}] is step {}, where the world asks for step {}",
+                done.step, step.number
+            )),
+            None => CheckError::fails(format!("the world asks for step {} then, and there are no more", step.number)),
+        }
+    }
+}
+
+/// How long the arm stands still after each step: it does so from one to the next, before the first and after the last.
+pub(super) fn stands(motion: &Motion, steps: &[Matched]) -> Result<Vec<Decimal>, CheckError> {
+    let knots = &motion.knots;
+    let (mut last, mut all) = (0, Vec::new());
+    let end = knots.len() - 1;
+    let begins = steps.iter().map(|step| step.done.knots[0]).chain([end]);
+    for (index, first) in begins.enumerate() {
+        if first < last || first > end {
+            return CheckError::fails(format!("steps[{index}] begins before the one before ends, or after the motion"));
+        }
+        if let Some(knot) = (last..first).find(|knot| !motion.stands(*knot)) {
+            return CheckError::fails(format!("after knot {knot}, which belongs to no step, the arm moves"));
+        }
+        all.push(&knots[first][0] - &knots[last][0]);
+        if let Some(step) = steps.get(index) {
+            last = step.done.knots[1];
+            if last < first || last > end {
+                return CheckError::fails(format!("steps[{index}] ends before it begins, or after the motion"));
+            }
+        }
+    }
+    all.remove(0);
+    Ok(all)
+}

@@ -1,0 +1,282 @@
+//! The steps of a task, done again.
+
+mod held;
+
+use super::order::Matched;
+use crate::robot::Robot;
+use crate::robot::tool::{lowered, pressed};
+use crate::world::task::{Action, RESTING, Step, Stroke, Task};
+use cplan_check::CheckError;
+use cplan_check::arm::Arm;
+use cplan_check::certificate::Motion;
+use cplan_check::curve::Piece;
+use cplan_check::decimal::Decimal;
+use cplan_check::ends::missed;
+use cplan_check::free::{Chain, Edge, On, Solid, guard};
+use cplan_check::interval::{Interval, Point};
+use cplan_check::motion::piece;
+use cplan_check::obstacle::Obstacle;
+use cplan_check::scene::{Part, Present, stay_off};
+use cplan_check::shapes::Counted;
+use cplan_check::world::World;
+use held::Held;
+use num_bigint::BigInt;
+use std::iter;
+use std::ops::Range;
+
+/// How what is held keeps off an obstacle.
+#[derive(PartialEq)]
+enum Manner {
+    Off,
+    /// It presses into a support by no more than it may.
+    Pressed,
+    /// However it turns about the tip: held level, it turns beside what joint 1 carries.
+    Round,
+}
+
+/// Where everything is between steps.
+pub(super) struct Replay<'a> {
+    arm: &'a Arm,
+    task: &'a Task,
+    motion: &'a Motion,
+    chain: Chain,
+    tip: Point,
+    /// Shapes of the arm, and whether the stroke lowers them.
+    shapes: Vec<(&'a Counted, Solid, bool)>,
+    /// How far they keep off, and in words.
+    kept: BigInt,
+    keeps: String,
+    /// By how much what is carried may press into its supports.
+    pressed: Interval,
+    /// Obstacles and objects where they lie or as they move, then obstacles that move, then links of the robot; none while they are carried.
+    present: Vec<Option<Present>>,
+    /// All of them as they are at first.
+    all: Vec<&'a Obstacle>,
+    /// The last knot of the step before.
+    knot: usize,
+    held: Option<Held>,
+    /// What has just been let go of, by its number among the obstacles.
+    released: Option<usize>,
+    /// The most by which anything misses where it is to be.
+    pub(super) off: BigInt,
+}
+
+/// Where shapes are looked at that a stroke of the tool lowers: as they are, or at all heights of it; or what is held where it is going to lie.
+#[derive(Clone, Copy, PartialEq)]
+enum Tool {
+    Raised,
+    Swept,
+    Lying,
+}
+
+impl<'a> Replay<'a> {
+    pub(super) fn new(
+        robot: &'a Robot,
+        world: &'a World,
+        task: &'a Task,
+        motion: &'a Motion,
+        clearance: &Decimal,
+    ) -> Result<Self, CheckError> {
+        let arm = &robot.arm;
+        let chain = Chain::from(arm);
+        let kept = Interval::from(clearance).upper + guard();
+        let shape = |shape: &'a Counted| {
+            let around = &shape.around;
+            let is_lowered = task.stroke.as_ref().map_or(Ok(false), |stroke| robot.lowers(&stroke.joint, shape))?;
+            Ok((shape, Solid::new(&chain, On::Link(around.link), &around.shape, &kept), is_lowered))
+        };
+        let shapes = arm.shapes.iter().map(shape).collect::<Result<_, CheckError>>()?;
+        let present = world.all().chain(&arm.own).map(|obstacle| Present::new(&chain, obstacle.clone()).map(Some));
+        let present = present.collect::<Result<_, _>>()?;
+        Ok(Self {
+            arm,
+            task,
+            motion,
+            tip: arm.tip.shape.points[0].clone(),
+            keeps: format!("farther than {clearance} from"),
+            pressed: Interval::exactly(pressed(arm).lower - guard()),
+            chain,
+            shapes,
+            kept,
+            present,
+            all: world.all().chain(&arm.own).collect(),
+            knot: 0,
+            held: None,
+            released: None,
+            off: BigInt::ZERO,
+        })
+    }
+
+    /// The motion from a knot to another; at least where it stands at the first.
+    fn pieces(&self, knots: Range<usize>) -> Result<Vec<Piece>, CheckError> {
+        let until = &self.motion.knots[..=knots.end];
+        let piece = |knot: usize| piece(self.arm, &self.motion.interpolation, until, knot);
+        (knots.start..knots.end.max(knots.start + 1)).map(piece).collect()
+    }
+
+    /// Does a step.
+    pub(super) fn step(
+        &mut self,
+        Matched { step, done, renewed }: &Matched,
+        after: &[Matched],
+    ) -> Result<(), CheckError> {
+        // What is to be renewed lies there while the arm stands.
+        if !renewed.is_empty() {
+            let at = [1, 2].map(|k| Interval::from(&self.motion.knots[self.knot][k]));
+            self.free(&self.pieces(self.knot..done.knots[0])?, &at, None, Tool::Raised)?;
+        }
+        for object in renewed {
+            let number = self.task.first + object;
+            if self.held.as_ref().is_some_and(|held| held.object == *object) {
+                return CheckError::fails("an object is carried of which there is to be a new one");
+            }
+            if self.all[number].course.is_some() {
+                return CheckError::fails("there is to be a new one of an object that moves");
+            }
+            self.present[number] = Some(Present::new(&self.chain, self.all[number].clone())?);
+            // It is another one that may be touched.
+            self.released = self.released.filter(|released| *released != number);
+        }
+        // Where a step leaves the arm it stands until its next motion begins.
+        let (first, last) = (std::mem::replace(&mut self.knot, done.knots[1]), done.knots[1]);
+        let (motion, released) = (self.motion, self.released);
+        let (pieces, still) = (self.pieces(first..last)?, self.pieces(last..last)?);
+        let rest = after.is_empty().then(|| self.pieces(last..motion.knots.len() - 1)).transpose()?;
+        let [from, to] = [first, last].map(|knot| [1, 2].map(|k| Interval::from(&motion.knots[knot][k])));
+        let time = &still[0].time[0];
+        let target = match &step.action {
+            Action::Pick { object, .. } => Some(self.task.first + object),
+            _ => None,
+        };
+        self.free(&pieces, &from, target, Tool::Raised)?;
+        match &step.action {
+            Action::Pick { object, grasp, supports, passing } => {
+                let places = |step: &&Step| matches!(step.action, Action::Place { .. });
+                let placing = after.iter().map(|next| next.step).find(places);
+                let carrying = self.task.carrying(*object, supports, placing);
+                self.grasp(*object, grasp, carrying, &to, (time, passing))?;
+                self.free(&still, &to, None, Tool::Swept)?;
+                self.turn(done, &to)?;
+            }
+            Action::Place { at, angle, .. } => {
+                self.turn(done, &to)?;
+                let tool = if self.task.stroke.is_some() { Tool::Swept } else { Tool::Lying };
+                self.free(&still, &to, None, tool)?;
+                self.release(at, angle.as_ref(), &to)?;
+            }
+            Action::Move(goal) => {
+                self.misses(self.arm.away(&motion.knots[last], goal))?;
+                self.turn(done, &to)?;
+                self.released = None;
+            }
+        }
+        // The last leaves it there, by what it came by.
+        if let Some(rest) = rest {
+            self.free(&rest, &to, released, Tool::Raised)?;
+        }
+        Ok(())
+    }
+
+    fn misses(&mut self, off: BigInt) -> Result<(), CheckError> {
+        missed("target", &off)?;
+        self.off = off.max(std::mem::take(&mut self.off));
+        Ok(())
+    }
+
+    /// How what is held is to keep off an obstacle, if it can meet it.
+    fn meets(&self, held: &Held, obstacle: usize, tool: Tool) -> Option<Manner> {
+        let own = self.task.first + held.object;
+        let [heights, others] = [own, obstacle].map(|number| self.all[number].heights.as_ref());
+        if let (Some(lying), Some([low, high])) = (heights, others) {
+            let carried = lying.each_ref().map(|height| height + &self.task.objects[held.object].lift);
+            let [least, most] = match tool {
+                Tool::Raised => carried,
+                Tool::Lying => lying.clone(),
+                Tool::Swept => [lying[0].clone().min(carried[0].clone()), lying[1].clone().max(carried[1].clone())],
+            };
+            if most < *low || *high <= &least + &Decimal::power_of_ten(RESTING) {
+                return None;
+            }
+        }
+        // What moves is where it lies later on, or not.
+        let moves = |present: &Present| present.obstacle.course.is_some();
+        if tool == Tool::Lying && self.present[obstacle].as_ref().is_some_and(moves) {
+            return None;
+        }
+        (obstacle != own).then(|| match held.carrying.supports.contains(&obstacle) {
+            true => Manner::Pressed,
+            false if held.round.is_some() && self.all[obstacle].is_carried() => Manner::Round,
+            false => Manner::Off,
+        })
+    }
+
+    /// The parts of what is held.
+    fn hanging<'h>(&'h self, held: &'h Held, solids: &'h [Vec<Solid>; 2], tool: Tool) -> Vec<Part<'h>> {
+        let all = 0..self.present.len();
+        let part = |solid, keeps, manner: Manner| {
+            let is_met = |obstacle| self.meets(held, obstacle, tool).is_some_and(|of| of == manner);
+            let meets = all.clone().map(is_met).collect();
+            Part { name: "what is carried".to_owned(), keeps, solid, meets }
+        };
+        let [others, supports] = solids;
+        let supported = supports.iter().map(|solid| part(solid, "no deeper than it may press into", Manner::Pressed));
+        let round = held.round.iter().map(|solid| part(solid, &*self.keeps, Manner::Round));
+        others.iter().map(|solid| part(solid, &*self.keeps, Manner::Off)).chain(supported).chain(round).collect()
+    }
+
+    /// That no obstacle begins within what is held, or no support within what of it keeps off these.
+    fn surrounds_none(&self, held: &Held, values: &Point, time: &Decimal, tool: Tool) -> Result<(), CheckError> {
+        let of_second = [Interval::whole(0), values[1].clone()];
+        let pressed = held.pressed.iter().map(|own| (own, Manner::Pressed));
+        for (hanging, manner) in iter::once((&held.hanging, Manner::Off)).chain(pressed) {
+            let [lying, beside] = [values, &of_second].map(|at| self.chain.lying(&held.on, hanging, at));
+            for (number, present) in self.present.iter().enumerate() {
+                if self.meets(held, number, tool).is_some_and(|of| of == manner) {
+                    let lying = if self.all[number].is_carried() { &beside } else { &lying };
+                    let mut edges = present.iter().flat_map(|present| &present.edges);
+                    let side = |edge: &Edge| edge.during(&self.chain, [time, time]).point().clone();
+                    if edges.any(|edge| lying.surrounds(&side(edge), &guard()) != Some(false)) {
+                        return CheckError::fails(format!(
+                            "{} is inside what is carried",
+                            self.all[number].called(number)
+                        ));
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// That the arm, with what it holds, is free on pieces that begin at a configuration. The second link may meet what has just been let
+    /// go of, and another obstacle.
+    fn free(&self, pieces: &[Piece], from: &Point, also: Option<usize>, tool: Tool) -> Result<(), CheckError> {
+        let stroke = match (tool, &self.task.stroke, &self.held) {
+            (Tool::Raised | Tool::Lying, ..) => None,
+            (Tool::Swept, Some(Stroke { travel, .. }), Some(held)) => {
+                Some(travel.as_ref().unwrap_or(&self.task.objects[held.object].lift))
+            }
+            (Tool::Swept, ..) => return Ok(()),
+        };
+        if stroke.is_some() {
+            self.nothing_moves("a stroke of the tool")?;
+        }
+        let own = |shape| {
+            let (counted, solid, is_lowered): &(&Counted, Solid, bool) = shape;
+            let body = &counted.around;
+            let lowered = stroke.filter(|_| *is_lowered).map(|by| lowered(body, by));
+            let heights = lowered.as_ref().unwrap_or(body);
+            let meets = |(number, obstacle): (usize, &&Obstacle)| {
+                let is_allowed = body.link == 1 && [self.released, also].contains(&Some(number));
+                !is_allowed && counted.meets(heights, obstacle)
+            };
+            let meets = self.all.iter().enumerate().map(meets).collect();
+            Part { name: counted.to_string(), keeps: &self.keeps, solid, meets }
+        };
+        let mut parts: Vec<Part> = self.shapes.iter().map(own).collect();
+        if let Some(held) = &self.held {
+            parts.extend(self.hanging(held, &held.solids, tool));
+            self.surrounds_none(held, from, &pieces[0].time[0], tool)?;
+        }
+        stay_off(&self.chain, pieces, from, &parts, &self.present)
+    }
+}

@@ -1,0 +1,160 @@
+//! What the arm carries: taken, turned and let go of.
+
+use super::{Manner, Replay, Tool};
+use crate::world::hung;
+use crate::world::task::{Carrying, Passing};
+use cplan_check::CheckError;
+use cplan_check::certificate::Done;
+use cplan_check::curve::{FINE, Piece};
+use cplan_check::decimal::Decimal;
+use cplan_check::free::{Chain, On, Solid, guard};
+use cplan_check::interval::{Interval, Point, both_turns, length, minus, turned};
+use cplan_check::motion::{SIXTY, fine};
+use cplan_check::obstacle::Obstacle;
+use cplan_check::overlap::Shape;
+use cplan_check::polygon::Corner;
+use cplan_check::scene::{Present, stay_off};
+use num_bigint::BigInt;
+use std::iter;
+
+/// An object that passes is picked no farther than this from where it is to be then, metres: `10^-3`.
+const NEAR: u32 = 3;
+
+/// The wrist turns by less than this, radians: more than once round nobody does.
+const LARGEST_TURN: i128 = 7;
+
+/// What the arm carries.
+pub(super) struct Held {
+    pub(super) object: usize,
+    pub(super) on: On,
+    /// It as it lies to what it hangs on, and what of it keeps off supports if it has any.
+    pub(super) hanging: Obstacle,
+    pub(super) pressed: Option<Obstacle>,
+    /// The shapes of both.
+    pub(super) solids: [Vec<Solid>; 2],
+    /// A disc that covers it however it turns about the tip, if it is held level.
+    pub(super) round: Option<Solid>,
+    pub(super) carrying: Carrying,
+}
+
+impl Replay<'_> {
+    /// The shapes of an object as it hangs on something, and of what of it keeps off its supports.
+    fn hung(
+        &self,
+        chain: &Chain,
+        on: &On,
+        hanging: &Obstacle,
+        pressed: Option<&Obstacle>,
+    ) -> Result<[Vec<Solid>; 2], CheckError> {
+        let solids = |own: &Obstacle, kept: &BigInt| {
+            hung::solids(own).map(|all| all.iter().map(|shape| Solid::new(chain, on.clone(), shape, kept)).collect())
+        };
+        Ok([solids(hanging, &self.kept)?, pressed.map_or(Ok(Vec::new()), |own| solids(own, &guard()))?])
+    }
+
+    /// A disc about the tip that covers what is held level however it turns.
+    fn round(&self, hanging: &Obstacle) -> Result<Solid, CheckError> {
+        let all = hung::solids(hanging)?;
+        let reach = |shape: &Shape| {
+            let points = shape.points.iter().map(length);
+            points.map(|off| off.upper + &shape.radius.upper).max()
+        };
+        let radius = Interval::exactly(all.iter().filter_map(reach).max().unwrap_or_default());
+        let disc = Shape { points: vec![self.tip.clone()], radius };
+        Ok(Solid::new(&self.chain, On::Link(1), &disc, &self.kept))
+    }
+
+    /// For what is not looked at in time.
+    pub(super) fn nothing_moves(&self, what: &str) -> Result<(), CheckError> {
+        let moves = |present: &Present| present.obstacle.course.is_some();
+        match self.present.iter().flatten().any(moves) {
+            true => CheckError::fails(format!("the checker does not know {what} while something moves")),
+            false => Ok(()),
+        }
+    }
+
+    /// Takes an object as it lies at a time, or passes, with the tip where it is at a configuration.
+    pub(super) fn grasp(
+        &mut self,
+        object: usize,
+        grasp: &Corner,
+        carrying: Carrying,
+        at: &Point,
+        (time, passing): (&Decimal, &Passing),
+    ) -> Result<(), CheckError> {
+        let (None, Some(present)) = (&self.held, self.present[self.task.first + object].take()) else {
+            return CheckError::fails("something is carried when an object is picked");
+        };
+        let lying = present.obstacle.at_time(time).into_owned();
+        if passing.window.as_ref().is_some_and(|[low, high]| time < low || high < time) {
+            return CheckError::fails("the object is picked outside its window of time");
+        }
+        let near = Interval::from(&Decimal::power_of_ten(NEAR)).lower;
+        if passing.at.as_ref().is_some_and(|at| length(&minus(&lying.at, at)).upper > near) {
+            return CheckError::fails("the object is not picked where it is to be then");
+        }
+        let tip = self.chain.point_at(&On::Link(1), &self.tip, at);
+        self.misses(length(&minus(&tip, &lying.placed(&grasp.each_ref().map(Interval::from)))).upper)?;
+        let (on, hanging, round) = if self.task.objects[object].is_level {
+            let (at, turn) = (minus(&lying.at, &tip), lying.turn.clone());
+            let hanging = lying.moved(at, turn);
+            let round = self.round(&hanging)?;
+            (On::Level(self.tip.clone()), hanging, Some(round))
+        } else {
+            (On::Link(1), self.chain.hung(&lying, at), None)
+        };
+        let pressed = (!carrying.supports.is_empty()).then(|| hung::pressed(&hanging, &self.pressed)).transpose()?;
+        let solids = self.hung(&self.chain, &on, &hanging, pressed.as_ref())?;
+        self.held = Some(Held { object, on, hanging, pressed, solids, round, carrying });
+        self.released = None;
+        Ok(())
+    }
+
+    /// Lets go of what is carried.
+    pub(super) fn release(&mut self, at: &Point, angle: Option<&Interval>, values: &Point) -> Result<(), CheckError> {
+        let Some(held) = self.held.take() else { return CheckError::fails("nothing is carried that could be placed") };
+        let lying = self.chain.lying(&held.on, &held.hanging, values);
+        self.misses(length(&minus(&lying.at, at)).upper)?;
+        if let Some(angle) = angle {
+            self.misses(length(&minus(&lying.turn, &angle.sin_cos())).upper)?;
+        }
+        let number = self.task.first + held.object;
+        self.present[number] = Some(Present::new(&self.chain, lying)?);
+        self.released = Some(number);
+        Ok(())
+    }
+
+    /// Turns what is held about the tip, while the arm stands at a configuration.
+    pub(super) fn turn(&mut self, done: &Done, at: &Point) -> Result<(), CheckError> {
+        let Some(by) = &done.turn else { return Ok(()) };
+        self.nothing_moves("a turn of the wrist")?;
+        let Some(mut held) = self.held.take_if(|held| held.carrying.may_turn && matches!(held.on, On::Level(_))) else {
+            return CheckError::fails("there is no wrist, or nothing that it is to turn");
+        };
+        let wrist = Chain::about(&self.chain.point_at(&On::Link(1), &self.tip, at));
+        let Some(end) = fine(&(by * &Decimal::whole(SIXTY))).filter(|end| end.abs() < LARGEST_TURN << FINE) else {
+            return CheckError::fails("the wrist turns by more than a turn");
+        };
+        let time = [0, 1].map(Decimal::whole);
+        let swept = Piece { knot: done.knots[1], curves: vec![vec![[0, 0], [end, 0]]], time };
+        let solids = self.hung(&wrist, &On::Link(0), &held.hanging, held.pressed.as_ref())?;
+        let seen = |(number, present): (usize, &Option<Present>)| {
+            // A disc about the tip has been looked at.
+            let meets = || self.meets(&held, number, Tool::Raised).is_some_and(|of| of != Manner::Round);
+            let met = present.as_ref().filter(|_| meets());
+            met.map(|present| Present::new(&wrist, present.obstacle.clone())).transpose()
+        };
+        let present = self.present.iter().enumerate().map(seen).collect::<Result<Vec<_>, _>>()?;
+        let parts = self.hanging(&held, &solids, Tool::Raised);
+        self.surrounds_none(&held, at, &swept.time[0], Tool::Raised)?;
+        stay_off(&wrist, &[swept], &[0, 0].map(Interval::whole), &parts, &present)?;
+        let angle = Interval::from(by).sin_cos();
+        for own in iter::once(&mut held.hanging).chain(&mut held.pressed) {
+            own.at = turned(&own.at, &angle);
+            own.turn = both_turns(&own.turn, &angle);
+        }
+        held.solids = self.hung(&self.chain, &held.on, &held.hanging, held.pressed.as_ref())?;
+        self.held = Some(held);
+        Ok(())
+    }
+}

@@ -1,0 +1,318 @@
+//! The world file: obstacles, what is asked, and what goes over the URDF.
+
+use crate::files::Files;
+use cells::Cells;
+use cplan_check::decimal::Decimal;
+use cplan_check::domain::Range;
+use cplan_check::interval::Interval;
+use cplan_check::obstacle::{Obstacle, Outline, point};
+use cplan_check::polygon::Corner;
+use cplan_check::world::{Goal, World};
+use cplan_check::{CheckError, Input};
+use num_bigint::BigInt;
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+use std::rc::Rc;
+use task::Task;
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+mod cells;
+mod course;
+pub mod hung;
+mod map;
+mod picture;
+mod steps;
+pub mod task;
+
+type Value<'a> = Spanned<DeValue<'a>>;
+
+/// A world file.
+#[derive(Default)]
+pub struct WorldFile {
+    /// What stands around the arm, and what is asked.
+    pub world: World,
+    /// What goes over the URDF.
+    pub robot: RobotTable,
+    /// What is to be done, if it says it in steps.
+    pub task: Option<Task>,
+}
+
+/// What the checker knows of the `[robot]` table. Enclosures of what is in degrees, else the numbers themselves.
+pub struct RobotTable {
+    /// Where the root frame of the robot stands, and how it is turned.
+    pub at: Corner,
+    pub angle: Interval,
+    /// The names of the two joints, if it says them.
+    pub joints: Option<Vec<String>>,
+    /// Values of other joints, by name.
+    pub fixed: BTreeMap<String, Range>,
+    /// Enclosures of the least and the greatest value of joints, by name.
+    pub limits: BTreeMap<String, [Range; 2]>,
+    /// The radius of bars in place of links without geometry, if it wants them.
+    pub bar: Option<Decimal>,
+    /// The link whose origin is the tip, if it says one.
+    pub tip: Option<String>,
+    /// Whether links of the robot must not collide with its other links, ...
+    pub own_body: bool,
+    /// ... and pairs that may.
+    pub ignore_contact: Vec<[String; 2]>,
+}
+
+impl Default for RobotTable {
+    fn default() -> Self {
+        Self {
+            at: origin(),
+            angle: Interval::whole(0),
+            joints: None,
+            fixed: BTreeMap::new(),
+            limits: BTreeMap::new(),
+            bar: None,
+            tip: None,
+            own_body: true,
+            ignore_contact: Vec::new(),
+        }
+    }
+}
+
+/// Reads values of the file, with their places.
+struct Reader<'a> {
+    text: &'a str,
+    files: &'a Files,
+}
+
+type Read<T> = Result<T, CheckError>;
+
+impl Reader<'_> {
+    fn error<T>(&self, value: &Value, message: &str) -> Read<T> {
+        Err(CheckError::at(Input::World, self.text, value.span().start, message))
+    }
+
+    fn table<'v, 'i>(&self, value: &'v Value<'i>) -> Read<&'v DeTable<'i>> {
+        value.get_ref().as_table().map_or_else(|| self.error(value, "expected a table"), Ok)
+    }
+
+    fn list<'v, 'i>(&self, value: &'v Value<'i>) -> Read<Vec<&'v Value<'i>>> {
+        value
+            .get_ref()
+            .as_array()
+            .map_or_else(|| self.error(value, "expected a list"), |list| Ok(list.iter().collect()))
+    }
+
+    fn text(&self, value: &Value) -> Read<String> {
+        value.get_ref().as_str().map_or_else(|| self.error(value, "expected a text"), |text| Ok(text.to_owned()))
+    }
+
+    /// A number, exactly as it is written.
+    fn number(&self, value: &Value) -> Read<Decimal> {
+        let text = match value.get_ref() {
+            DeValue::Integer(number) if number.radix() == 10 => number.as_str(),
+            DeValue::Integer(number) => {
+                let digits = number.as_str().replace('_', "");
+                let whole = BigInt::parse_bytes(digits.as_bytes(), number.radix());
+                return whole.map_or_else(|| self.error(value, "expected a number"), |n| Ok(Decimal::dyadic(&n, 0)));
+            }
+            DeValue::Float(number) => number.as_str(),
+            _ => return self.error(value, "expected a decimal number"),
+        };
+        Decimal::read(&text.replace('_', "")).or_else(|why: String| self.error(value, &why))
+    }
+
+    /// A number, or an enclosure of degrees in radians.
+    fn quantity(&self, value: &Value) -> Read<Range> {
+        let Some(text) = value.get_ref().as_str() else {
+            let number = self.number(value)?;
+            return Ok([number.clone(), number]);
+        };
+        let degrees = text.trim().strip_suffix("deg").and_then(|number| Decimal::read(number.trim_end()).ok());
+        let Some(degrees) = degrees else {
+            return self.error(value, "expected a number, or an angle such as \"30deg\"");
+        };
+        Ok((&Interval::from(&degrees) * &Interval::pi().over(180)).ends())
+    }
+
+    fn two<T>(&self, value: &Value, read: impl Fn(&Value) -> Read<T>) -> Read<[T; 2]> {
+        match self.list(value)?[..] {
+            [a, b] => Ok([read(a)?, read(b)?]),
+            _ => self.error(value, "expected a list of two"),
+        }
+    }
+
+    fn corners(&self, value: &Value) -> Read<Vec<Corner>> {
+        self.list(value)?.into_iter().map(|p| self.two(p, |n| self.number(n))).collect()
+    }
+
+    /// A ring, or as in GeoJSON a list of rings.
+    fn rings(&self, value: &Value) -> Read<Vec<Vec<Corner>>> {
+        let list = self.list(value)?;
+        let first = list.first().and_then(|ring| ring.get_ref().as_array()?.iter().next()?.get_ref().as_array());
+        if first.is_some() {
+            list.into_iter().map(|r| self.corners(r)).collect()
+        } else {
+            Ok(vec![self.corners(value)?])
+        }
+    }
+
+    fn by_name<T>(&self, value: &Value, read: impl Fn(&Value) -> Read<T>) -> Read<BTreeMap<String, T>> {
+        self.table(value)?.iter().map(|(name, value)| Ok((name.get_ref().to_string(), read(value)?))).collect()
+    }
+
+    /// `[start]` or `[goal]`.
+    fn place(&self, value: &Value) -> Read<Goal> {
+        let table = self.table(value)?;
+        if let (Some(areas), 1) = (table.get("areas"), table.len()) {
+            let area = |corners: &Value| self.two(corners, |corner| self.two(corner, |n| self.number(n)));
+            return self.list(areas)?.into_iter().map(area).collect::<Read<Vec<_>>>().map(Goal::Areas);
+        }
+        match (table.get("joints"), table.get("tip")) {
+            (Some(joints), None) if table.len() == 1 => Ok(Goal::Joints(self.two(joints, |q| self.quantity(q))?)),
+            (None, Some(tip)) if table.len() == 1 => Ok(Goal::Tip(self.two(tip, |n| self.number(n))?)),
+            _ => self.error(value, "give joints = [q1, q2] or tip = [x, y]"),
+        }
+    }
+
+    fn robot(&self, value: &Value, robot: &mut RobotTable) -> Read<()> {
+        for (key, value) in self.table(value)? {
+            match &**key.get_ref() {
+                "joints" => {
+                    let names: Read<Vec<String>> = self.list(value)?.into_iter().map(|name| self.text(name)).collect();
+                    robot.joints = Some(names?);
+                }
+                "fixed" => robot.fixed = self.by_name(value, |q| self.quantity(q))?,
+                "limits" => {
+                    let range = |limits: &Value| self.two(limits, |q| self.quantity(q));
+                    robot.limits = self.by_name(value, range)?;
+                }
+                "tip" => robot.tip = Some(self.text(value)?),
+                "at" => robot.at = self.two(value, |n| self.number(n))?,
+                "angle" => robot.angle = Interval::around(&self.quantity(value)?),
+                // What does not concern where shapes are.
+                "velocity" | "acceleration" | "jerk" | "effort" | "dynamics" | "gravity" => {}
+                // What concerns tasks alone.
+                "wrist" | "stroke" | "payload" => {}
+                "bar" => robot.bar = Some(self.number(value)?),
+                "own_body" => match value.get_ref().as_bool() {
+                    Some(own_body) => robot.own_body = own_body,
+                    None => return self.error(value, "expected true or false"),
+                },
+                "ignore_contact" => {
+                    let pairs = self.list(value)?.into_iter().map(|pair| self.two(pair, |name| self.text(name)));
+                    robot.ignore_contact = pairs.collect::<Read<_>>()?;
+                }
+                other => return self.error(value, &format!("the checker does not know [robot] {other}")),
+            }
+        }
+        Ok(())
+    }
+
+    fn heights(&self, value: &Value) -> Read<Range> {
+        let [low, high] = self.two(value, |n| self.number(n))?;
+        if low > high {
+            return self.error(value, "its upper end is below the lower one");
+        }
+        Ok([low, high])
+    }
+
+    /// The path of a file that the world names.
+    fn file(&self, name: &str) -> Read<PathBuf> {
+        Ok(self.files.path(Input::World)?.with_file_name(name))
+    }
+
+    /// An obstacle, or an object as one where it lies at first.
+    fn obstacle(&self, value: &Value, is_object: bool) -> Read<Obstacle> {
+        let (mut outlines, mut holes) = (Vec::new(), Vec::new());
+        let (mut at, mut angle, mut heights) = (point(&origin()), Interval::whole(0), None);
+        let (mut name, mut motion) = (None, None);
+        let (mut image, mut unknown_is_solid) = (None, true);
+        for (key, value) in self.table(value)? {
+            match &**key.get_ref() {
+                "polygon" => outlines.push(Outline::Polygon(self.rings(value)?)),
+                "polyline" => outlines.push(Outline::Polyline(self.corners(value)?)),
+                "circle" => {
+                    let table = self.table(value)?;
+                    let (Some(center), Some(radius), 2) = (table.get("center"), table.get("radius"), table.len())
+                    else {
+                        return self.error(value, "a circle has a center and a radius");
+                    };
+                    outlines.push(Outline::Circle(self.two(center, |n| self.number(n))?, self.number(radius)?));
+                }
+                "image" => image = Some(self.text(value)?),
+                "unknown" => unknown_is_solid = self.text(value)? != "free",
+                "holes" => holes = self.rings(value)?,
+                "at" => at = point(&self.two(value, |n| self.number(n))?),
+                "angle" => angle = Interval::around(&self.quantity(value)?),
+                "height" => heights = Some(self.heights(value)?),
+                "name" => name = Some(self.text(value)?),
+                "motion" => motion = Some(value),
+                // Of objects: read elsewhere.
+                "pallet" | "lift" | "mass" | "payload" | "grasp" | "supports" | "renew" if is_object => {}
+                other => {
+                    return self.error(value, &format!("the checker does not know the key {other} of an obstacle"));
+                }
+            }
+        }
+        // What is not known is no matter if nobody asks.
+        let cells = |name: String| Cells::read(self.files, &self.file(&name)?, unknown_is_solid);
+        outlines.extend(image.map(|name| Outline::Squares(cells(name).map(|cells| Rc::new(cells) as _))));
+        let [outline] =
+            <[Outline; 1]>::try_from(outlines).or_else(|_| self.error(value, "an obstacle has one shape"))?;
+        let outline = match outline {
+            Outline::Polygon(mut rings) => {
+                rings.extend(holes);
+                Outline::Polygon(rings)
+            }
+            other => other,
+        };
+        let course =
+            motion.map(|motion| self.course(motion, &at, &angle)).transpose()?.map(|course| Rc::new(course) as _);
+        Ok(Obstacle { name, own: None, outline, at, turn: angle.sin_cos(), heights, course })
+    }
+
+    /// All obstacles.
+    fn obstacles(&self, list: &Value, world: &mut World) -> Read<()> {
+        for (index, value) in self.list(list)?.into_iter().enumerate() {
+            let mut obstacle = self.obstacle(value, false)?;
+            obstacle.name.get_or_insert_with(|| format!("obstacle {}", index + 1));
+            let list = if obstacle.course.is_some() { &mut world.movers } else { &mut world.obstacles };
+            list.push(obstacle);
+        }
+        Ok(())
+    }
+}
+
+fn origin() -> Corner {
+    [Decimal::whole(0), Decimal::whole(0)]
+}
+
+impl WorldFile {
+    /// Reads a world file.
+    ///
+    /// # Errors
+    /// What is no world, or says what the checker does not know and what could make a difference.
+    pub fn read(text: &str, files: &Files) -> Read<Self> {
+        let table = DeTable::parse(text).map_err(|error| {
+            let at = error.span().map_or(0, |span| span.start);
+            CheckError::at(Input::World, text, at, error.message())
+        })?;
+        let reader = Reader { text, files };
+        let mut file = Self::default();
+        let world = &mut file.world;
+        for (key, value) in table.get_ref() {
+            match &**key.get_ref() {
+                "robot" => reader.robot(value, &mut file.robot)?,
+                "start" => world.start = Some(reader.place(value)?),
+                "goal" => world.goal = Some(reader.place(value)?),
+                "clearance" => world.clearance = reader.number(value)?,
+                "obstacle" => reader.obstacles(value, world)?,
+                "name" | "preference" | "sensor" => {}
+                // These refer to all else.
+                "map" | "object" | "pallet" | "step" | "task" => {}
+                other => return reader.error(value, &format!("the checker does not know worlds with {other} yet")),
+            }
+        }
+        let has_steps = table.get_ref().contains_key("step");
+        table.get_ref().get("map").map_or(Ok(()), |map| reader.map(map, has_steps, world))?;
+        file.task = reader.task(table.get_ref(), world)?;
+        Ok(file)
+    }
+}

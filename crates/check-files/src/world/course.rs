@@ -1,0 +1,98 @@
+//! What moves in time.
+
+use super::{Read, Reader, Value};
+use cplan_check::decimal::Decimal;
+use cplan_check::interval::{Interval, Point, length, minus, sum, times, turned};
+use cplan_check::obstacle::{Course, point};
+use cplan_check::overlap::Shape;
+use num_bigint::{BigInt, Sign};
+
+/// Straight and evenly from stop to stop; before the first it waits there, the last it leaves at a velocity.
+pub struct Stops {
+    stops: Vec<Stop>,
+    velocity: Point,
+}
+
+/// Where the frame's origin is at a time, and by which angle the frame is turned.
+struct Stop {
+    time: Decimal,
+    at: Point,
+    angle: Interval,
+}
+
+impl Stops {
+    /// Where the frame's origin is at a time, and by which angle the frame is turned.
+    fn pose(&self, time: &Decimal) -> (Point, Interval) {
+        let next = self.stops.partition_point(|stop| stop.time <= *time);
+        let Stop { time: begin, at, angle } = &self.stops[next.saturating_sub(1)];
+        let since = Interval::from(&(time - begin));
+        match self.stops.get(next) {
+            _ if next == 0 => (at.clone(), angle.clone()),
+            None => (sum(at, &times(&self.velocity, &since)), angle.clone()),
+            Some(to) => {
+                let share = since.divided(&Interval::from(&(&to.time - begin)));
+                let between = |from: &Interval, to: &Interval| from + &(&(to - from) * &share);
+                ([0, 1].map(|k| between(&at[k], &to.at[k])), between(angle, &to.angle))
+            }
+        }
+    }
+}
+
+impl Course for Stops {
+    fn place(&self, time: &Decimal) -> [Point; 2] {
+        let (at, angle) = self.pose(time);
+        [at, angle.sin_cos()]
+    }
+
+    /// It is the shape in the middle, wider by as far as it gets from there. How far a point is
+    /// from there is, between stops, at most a convex function of time, so that it is at most what it is at the span's ends and at stops.
+    fn during(&self, shape: &Shape, [from, to]: [&Decimal; 2]) -> Shape {
+        let middle = Decimal::middle(from, to);
+        let (at, angle) = self.pose(&middle);
+        let reach = Interval::exactly(shape.points.iter().map(|p| length(p).upper).max().unwrap_or_default());
+        let stops = self.stops.iter().map(|stop| &stop.time).filter(|time| from < time && *time < to);
+        let away = [from, to].into_iter().chain(stops).map(|time| {
+            let (there, turned) = self.pose(time);
+            let gone = length(&minus(&there, &at));
+            (&gone + &(&reach * &(&turned - &angle).abs())).upper
+        });
+        let away: BigInt = away.max().expect("two ends");
+        let turn = angle.sin_cos();
+        Shape {
+            points: shape.points.iter().map(|p| sum(&at, &turned(p, &turn))).collect(),
+            radius: &shape.radius + &Interval::exactly(away),
+        }
+    }
+}
+
+impl Reader<'_> {
+    /// The `motion` of what is at a place and turned by an angle where nothing else is said.
+    pub(super) fn course(&self, value: &Value, at: &Point, angle: &Interval) -> Read<Stops> {
+        let table = self.table(value)?;
+        if let Some((key, _)) = table.iter().find(|(key, _)| !["stops", "velocity"].contains(&&**key.get_ref())) {
+            return self.error(value, &format!("the checker does not know the key {} of a motion", key.get_ref()));
+        }
+        let stop = |value: &Value| {
+            let stop = self.table(value)?;
+            let Some(time) = stop.get("time") else { return self.error(value, "a stop has a time") };
+            if let Some((key, _)) = stop.iter().find(|(key, _)| !["time", "at", "angle"].contains(&&**key.get_ref())) {
+                return self.error(value, &format!("the checker does not know the key {} of a stop", key.get_ref()));
+            }
+            Ok(Stop {
+                time: self.number(time)?,
+                at: stop.get("at").map_or(Ok(at.clone()), |at| Ok(point(&self.two(at, |n| self.number(n))?)))?,
+                angle: stop.get("angle").map_or(Ok(angle.clone()), |a| Ok(Interval::around(&self.quantity(a)?)))?,
+            })
+        };
+        let stops: Vec<Stop> = match table.get("stops") {
+            Some(stops) => self.list(stops)?.into_iter().map(stop).collect::<Read<_>>()?,
+            None => vec![Stop { time: Decimal::whole(0), at: at.clone(), angle: angle.clone() }],
+        };
+        let is_later = |pair: &[Stop]| Interval::from(&(&pair[1].time - &pair[0].time)).lower.sign() == Sign::Plus;
+        if stops.is_empty() || !stops.windows(2).all(is_later) {
+            return self.error(value, "a motion has stops, each later than the one before");
+        }
+        let velocity = table.get("velocity").map(|v| self.two(v, |n| self.number(n))).transpose()?;
+        Ok(Stops { stops, velocity: velocity.map_or_else(|| [0, 0].map(Interval::whole), |v| point(&v)) })
+    }
+}

@@ -1,0 +1,155 @@
+//! What of an object keeps off others while it hangs on the arm.
+
+use super::Read;
+use cplan_check::decimal::Decimal;
+use cplan_check::interval::{BITS, Interval, Point, length, minus, sum, times};
+use cplan_check::obstacle::{Obstacle, Outline, point};
+use cplan_check::overlap::Shape;
+use cplan_check::polygon::{Corner, edges, is_convex, side, surrounds};
+use cplan_check::{CheckError, Input};
+use num_bigint::Sign;
+
+/// Of an object's corners that press into supports, sines of half their angles and lengths of sides are above `2^-SHARPEST`.
+const SHARPEST: u64 = 30;
+
+/// Corners that turn inwards are moved by this power of a half of the length less than others.
+const REFLEX: u32 = 30;
+
+/// Convex shapes, in its place: itself, or else its sides. What they stay off, and what neither lies in the other, is off it.
+///
+/// # Errors
+/// As [`Obstacle::sides`].
+pub fn solids(obstacle: &Obstacle) -> Read<Vec<Shape>> {
+    match (&obstacle.outline, convex(obstacle)) {
+        (_, Some(corners)) => Ok(vec![hull(obstacle, &corners)]),
+        _ => obstacle.sides(),
+    }
+}
+
+/// What of it stays off its supports: the same with each corner moved inwards by a length, halfway between its sides, or up to `2^-30` of that less;
+/// of a disc one with a radius that is smaller by that, or its centre.
+///
+/// # Errors
+/// An object that has no inside, or is too thin.
+pub fn pressed(object: &Obstacle, by: &Interval) -> Read<Obstacle> {
+    let wrong = |why: &str| CheckError::in_file(Input::World, why);
+    let outline = match &object.outline {
+        Outline::Circle(center, radius) => {
+            Outline::Circle(center.clone(), (radius - &by.ends()[1]).max(Decimal::whole(0)))
+        }
+        Outline::Polygon(rings) => {
+            let inset = |(number, ring): (usize, &Vec<Corner>)| inset(bent(ring), number > 0, by);
+            let smaller: Option<Vec<_>> = rings.iter().enumerate().map(inset).collect();
+            let within = smaller.filter(|all| all.iter().flatten().all(|corner| surrounds(rings, corner)));
+            let thin = || wrong("an object on supports is too thin for what it may press into them, or too pointed");
+            Outline::Polygon(within.ok_or_else(thin)?)
+        }
+        Outline::Polyline(_) | Outline::Squares(_) | Outline::Own(_) => {
+            return Err(wrong("an object is a polygon or a circle"));
+        }
+    };
+    Ok(Obstacle { outline, ..object.clone() })
+}
+
+fn hull(obstacle: &Obstacle, corners: &[Corner]) -> Shape {
+    let radius =
+        if let Outline::Circle(_, radius) = &obstacle.outline { Interval::from(radius) } else { Interval::whole(0) };
+    Shape { points: corners.iter().map(|corner| obstacle.placed(&point(corner))).collect(), radius }
+}
+
+/// The corners that it is the hull of, turning left, up to the radius of a disc; none if it is not convex.
+fn convex(obstacle: &Obstacle) -> Option<Vec<Corner>> {
+    match &obstacle.outline {
+        Outline::Circle(center, radius) => (radius.sign() != Sign::Minus).then(|| vec![center.clone()]),
+        Outline::Polygon(rings) => {
+            let [ring] = &rings[..] else { return None };
+            let mut ring = bent(ring);
+            if !is_convex(&ring) {
+                ring.reverse();
+            }
+            is_convex(&ring).then_some(ring)
+        }
+        Outline::Polyline(_) | Outline::Squares(_) | Outline::Own(_) => None,
+    }
+}
+
+/// A ring without the corners that lie on a line with those beside them.
+fn bent(ring: &[Corner]) -> Vec<Corner> {
+    let mut ring = ring.to_vec();
+    let is_straight = |ring: &[Corner], k: usize| {
+        let [last, next] = [ring.len() - 1, 1].map(|by| &ring[(k + by) % ring.len()]);
+        side(last, &ring[k], next) == Sign::NoSign
+    };
+    while let Some(k) = (0..ring.len()).find(|k| is_straight(&ring, *k)) {
+        ring.remove(k);
+    }
+    ring
+}
+
+/// A ring whose corners are moved by a length, halfway between its sides: to what it surrounds, or away from there. None where that turns it
+/// over, or it has corners that are too sharp to tell. In the order of the ring.
+fn inset(mut ring: Vec<Corner>, outwards: bool, by: &Interval) -> Option<Vec<Corner>> {
+    let turns_left = |ring: &[Corner]| {
+        let doubled = edges(ring).map(|([a, b], [c, d])| &(a * d) - &(b * c));
+        doubled.fold(Decimal::whole(0), |sum, area| &sum + &area).sign() == Sign::Plus
+    };
+    let is_reversed = turns_left(&ring) == outwards;
+    if is_reversed {
+        ring.reverse();
+    }
+    let points: Vec<Point> = ring.iter().map(point).collect();
+    let along = |way: &Point| {
+        let far = length(way);
+        (far.lower.bits() + SHARPEST > BITS.into()).then(|| way.each_ref().map(|c| c.divided(&far)))
+    };
+    let corner = |k: usize| {
+        let to = |other: usize| along(&minus(&points[other % points.len()], &points[k]));
+        let [x, y] = minus(&to(k + 1)?, &to(k + points.len() - 1)?);
+        // To the left of both.
+        // A corner that turns inwards stays off the lines of others, whatever rounding does.
+        let [last, next] = [points.len() - 1, 1].map(|other| &ring[(k + other) % ring.len()]);
+        let is_reflex = side(last, &ring[k], next) == Sign::Minus;
+        let by = if is_reflex { by - &by.in_halves(REFLEX) } else { by.clone() };
+        let moved = sum(&points[k], &times(&along(&[-&y, x])?, &by));
+        Some(moved.map(|c| Decimal::dyadic(&c.middle().0, BITS)))
+    };
+    let mut moved =
+        (0..points.len()).map(corner).collect::<Option<Vec<_>>>().filter(|moved| turns_left(moved) != outwards)?;
+    if is_reversed {
+        moved.reverse();
+    }
+    Some(moved)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn corners_move_into_the_solid_whichever_way_rings_turn() {
+        let ring = |text: &str| {
+            let numbers: Vec<Decimal> = text.split(' ').map(|n| n.parse().unwrap()).collect();
+            numbers.chunks(2).map(|p| [p[0].clone(), p[1].clone()]).collect::<Vec<Corner>>()
+        };
+        // Along the diagonal of a unit square; a corner in the middle of a side says nothing.
+        let by = Interval::whole(2).sqrt().over(10);
+        for (outwards, is_inside) in [(false, true), (true, false)] {
+            for text in ["0 0 1 0 1 1 0 1", "0 0 0 1 1 1 1 0", "0 0 0.5 0 1 0 1 1 0 1"] {
+                let moved = inset(bent(&ring(text)), outwards, &by).unwrap();
+                assert_eq!(moved.len(), 4);
+                let is_beside = |(own, moved): (&Corner, &Corner)| {
+                    let half = |c: &Decimal| *c > "0.5".parse().unwrap();
+                    own.each_ref().map(half) == moved.each_ref().map(half)
+                };
+                assert!(bent(&ring(text)).iter().zip(&moved).all(is_beside), "{text}: {moved:?}");
+                let near = |a: &Decimal, b: &str| {
+                    let off = a - &b.parse().unwrap();
+                    off < Decimal::power_of_ten(9) && -&off < Decimal::power_of_ten(9)
+                };
+                let [low, high] = if is_inside { ["0.1", "0.9"] } else { ["-0.1", "1.1"] };
+                assert!(moved.iter().flatten().all(|c| near(c, low) || near(c, high)), "{text}: {moved:?}");
+            }
+        }
+        assert!(inset(ring("0 0 1 0 1 1e-12"), false, &by).is_none());
+    }
+}

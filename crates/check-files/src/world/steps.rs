@@ -1,0 +1,328 @@
+//! Objects, pallets and steps as the world file has them.
+
+use super::task::{Action, Group, Node, Object, Passing, Step, Stroke, Task, Wrist};
+use super::{Read, Reader, Value};
+use cplan_check::decimal::Decimal;
+use cplan_check::interval::{Interval, Point, both_turns, sum, turned};
+use cplan_check::obstacle::{Obstacle, point};
+use cplan_check::polygon::Corner;
+use cplan_check::world::World;
+use std::collections::{BTreeMap, BTreeSet};
+use toml::de::{DeTable, DeValue};
+
+/// Places of the largest pallet.
+const MOST_PLACES: usize = 10_000;
+
+/// Places in rows and columns.
+struct Pallet {
+    /// Row and column as names have them, and where that is.
+    places: Vec<(String, Point)>,
+    turn: Point,
+}
+
+/// What steps refer to.
+struct Steps<'r, 'w> {
+    reader: &'r Reader<'r>,
+    world: &'w World,
+    first: usize,
+    objects: &'w [Object],
+    pallets: &'w BTreeMap<String, Pallet>,
+    count: usize,
+}
+
+impl Reader<'_> {
+    /// Reads the objects of a world and, if it has any, its steps.
+    pub(super) fn task(&self, table: &DeTable, world: &mut World) -> Read<Option<Task>> {
+        let list = |key: &str| table.get(key).map_or(Ok(Vec::new()), |value| self.list(value));
+        let mut pallets = BTreeMap::new();
+        for value in list("pallet")? {
+            let (name, pallet) = self.pallet(value)?;
+            if pallets.insert(name, pallet).is_some() {
+                return self.error(value, "a second pallet of this name");
+            }
+        }
+        let robot = table.get("robot").map_or(Ok(None), |robot| self.table(robot).map(Some))?;
+        let own = |key: &str| robot.and_then(|robot| robot.get(key));
+        let is_level = own("payload").map_or(Ok(false), |value| self.is_level(value))?;
+        let first = world.obstacles.len();
+        let mut taken: BTreeSet<String> = world.all().filter_map(|obstacle| obstacle.name.clone()).collect();
+        let mut objects = Vec::new();
+        // What they rest on may come after them in the file.
+        let mut resting = Vec::new();
+        for value in list("object")? {
+            let of_family = self.object(value, is_level, &pallets, &mut objects)?;
+            let family = objects.last().map(|object: &Object| object.family.clone());
+            let own: BTreeSet<String> = of_family.iter().filter_map(|one| one.name.clone()).chain(family).collect();
+            if own.len() < of_family.len() || own.iter().any(|name| !taken.insert(name.clone())) {
+                return self.error(value, "a second object, or an obstacle, of this name");
+            }
+            for obstacle in of_family {
+                resting.push(self.table(value)?.get("supports"));
+                world.obstacles.push(obstacle);
+            }
+        }
+        for (object, supports) in resting.into_iter().enumerate() {
+            if let Some(list) = supports {
+                objects[object].supports = self.supports(list, world, first, &objects)?;
+            }
+        }
+        let Some(steps) = table.get("step") else { return Ok(None) };
+        let manner = table.get("task").map_or(Ok(None), |task| self.table(task).map(Some))?;
+        let mut reading = Steps { reader: self, world, first, objects: &objects, pallets: &pallets, count: 0 };
+        let dwell = manner.and_then(|task| task.get("dwell"));
+        let dwell = dwell.map_or(Ok(Decimal::whole(0)), |dwell| self.number(dwell))?;
+        if let Some((key, _)) = manner.and_then(|task| task.iter().find(|(key, _)| !MANNER.contains(&&**key.get_ref())))
+        {
+            return self.error(steps, &format!("the checker does not know [task] {}", key.get_ref()));
+        }
+        let steps = reading.group(steps, manner, &dwell)?;
+        let stroke = own("stroke").map(|value| self.stroke(value)).transpose()?;
+        let joint = |value| self.table(value)?.get("joint").map(|name| self.text(name)).transpose();
+        let wrist = own("wrist").map(|value| Ok(Wrist { joint: joint(value)? })).transpose()?;
+        Ok(Some(Task { first, objects, steps, wrist, stroke }))
+    }
+
+    /// A whole number from 1 on.
+    fn count(&self, value: &Value) -> Read<usize> {
+        let count = match value.get_ref() {
+            DeValue::Integer(_) => self.number(value)?.to_string().parse().ok(),
+            _ => None,
+        };
+        count.filter(|count| *count > 0).map_or_else(|| self.error(value, "expected a whole number from 1 on"), Ok)
+    }
+
+    fn is_level(&self, value: &Value) -> Read<bool> {
+        match &*self.text(value)? {
+            "level" => Ok(true),
+            "rigid" => Ok(false),
+            _ => self.error(value, "a payload is \"rigid\" or \"level\""),
+        }
+    }
+
+    fn stroke(&self, value: &Value) -> Read<Stroke> {
+        let table = self.table(value)?;
+        let Some(joint) = table.get("joint") else { return self.error(value, "a stroke has a joint") };
+        Ok(Stroke { joint: self.text(joint)?, travel: table.get("travel").map(|n| self.number(n)).transpose()? })
+    }
+
+    fn pallet(&self, value: &Value) -> Read<(String, Pallet)> {
+        let table = self.table(value)?;
+        let (Some(name), Some(rows), Some(columns), Some(pitch), Some(at)) =
+            (table.get("name"), table.get("rows"), table.get("columns"), table.get("pitch"), table.get("at"))
+        else {
+            return self.error(value, "a pallet has a name, rows, columns, a pitch and a place");
+        };
+        let [rows, columns] = [self.count(rows)?, self.count(columns)?];
+        if rows.saturating_mul(columns) > MOST_PLACES {
+            return self.error(value, "the pallet has too many places");
+        }
+        let (pitch, at) = (self.two(pitch, |n| self.number(n))?, point(&self.two(at, |n| self.number(n))?));
+        let turn = table.get("angle").map_or(Ok(Interval::whole(0)), |a| Ok(Interval::around(&self.quantity(a)?)))?;
+        let turn = turn.sin_cos();
+        let place = |row: usize, column: usize| {
+            let by = [(column, &pitch[0]), (row, &pitch[1])];
+            let by = by.map(|(count, pitch)| Interval::from(&(pitch * &Decimal::whole(count as i32))));
+            (format!("{},{}", row + 1, column + 1), sum(&at, &turned(&by, &turn)))
+        };
+        let places = (0..rows).flat_map(|row| (0..columns).map(move |column| (row, column)));
+        Ok((self.text(name)?, Pallet { places: places.map(|(row, column)| place(row, column)).collect(), turn }))
+    }
+
+    /// Reads an object, or those of a pallet: added to `objects`, and as what stands where they lie at first.
+    fn object(
+        &self,
+        value: &Value,
+        is_level: bool,
+        pallets: &BTreeMap<String, Pallet>,
+        objects: &mut Vec<Object>,
+    ) -> Read<Vec<Obstacle>> {
+        let (table, lying) = (self.table(value)?, self.obstacle(value, true)?);
+        let Some(family) = lying.name.clone() else { return self.error(value, "an object has a name") };
+        let number = |key: &str| table.get(key).map(|value| self.number(value)).transpose();
+        let grasp = table.get("grasp").map(|grasp| self.two(grasp, |n| self.number(n))).transpose()?;
+        let is_level = table.get("payload").map_or(Ok(is_level), |value| self.is_level(value))?;
+        let renews = table.get("renew").is_some_and(|value| value.get_ref().as_bool() == Some(true));
+        let zero = Decimal::whole(0);
+        let (lift, grasp) = (number("lift")?.unwrap_or(zero.clone()), grasp.unwrap_or([zero.clone(), zero]));
+        let places: Vec<Obstacle> = match (table.get("pallet"), table.get("at")) {
+            (None, Some(_)) => vec![lying],
+            (None, None) if lying.course.is_some() => vec![lying],
+            (Some(pallet), None) if lying.course.is_none() => {
+                let Some(Pallet { places, turn }) = pallets.get(&self.text(pallet)?) else {
+                    return self.error(pallet, "there is no pallet of this name");
+                };
+                let turn = both_turns(turn, &lying.turn);
+                let on = |(place, at): &(String, Point)| Obstacle {
+                    course: None,
+                    name: Some(format!("{family} {place}")),
+                    at: at.clone(),
+                    turn: turn.clone(),
+                    ..lying.clone()
+                };
+                places.iter().map(on).collect()
+            }
+            _ => return self.error(value, "an object has either a place or a pallet"),
+        };
+        objects.extend(places.iter().map(|_| Object {
+            family: family.clone(),
+            lift: lift.clone(),
+            is_level,
+            grasp: grasp.clone(),
+            supports: Vec::new(),
+            renews,
+        }));
+        Ok(places)
+    }
+
+    /// The numbers of named obstacles, objects, and all objects on pallets that have a name in common.
+    fn supports(&self, list: &Value, world: &World, first: usize, objects: &[Object]) -> Read<Vec<usize>> {
+        let mut all = Vec::new();
+        for value in self.list(list)? {
+            let (name, before) = (self.text(value)?, all.len());
+            let is_named = |(number, obstacle): &(usize, &Obstacle)| {
+                let family = objects.get(number.wrapping_sub(first)).map(|object| &object.family);
+                [obstacle.name.as_ref(), family].contains(&Some(&name))
+            };
+            all.extend(world.obstacles.iter().enumerate().filter(is_named).map(|(number, _)| number));
+            if all.len() == before {
+                return self.error(value, "there is no obstacle and no object of this name");
+            }
+        }
+        Ok(all)
+    }
+}
+
+/// Keys of what holds for several steps.
+const MANNER: [&str; 4] = ["repeat", "order", "speed", "dwell"];
+
+impl Steps<'_, '_> {
+    /// A list of steps as one group; the manner is the table that has its repetitions and order.
+    fn group(&mut self, list: &Value, manner: Option<&DeTable>, dwell: &Decimal) -> Read<Group> {
+        let reader = self.reader;
+        let mut nodes = Vec::new();
+        for value in reader.list(list)? {
+            nodes.extend(self.nodes(value, dwell)?);
+        }
+        if nodes.is_empty() {
+            return reader.error(list, "there are no steps");
+        }
+        let of = |key: &str| manner.and_then(|table| table.get(key));
+        let repeat = of("repeat").map_or(Ok(1), |value| reader.count(value))?;
+        let is_free = match of("order").map(|value| reader.text(value)).transpose()?.as_deref() {
+            None | Some("fixed") => false,
+            Some("free") => true,
+            _ => return reader.error(list, "an order is \"free\" or \"fixed\""),
+        };
+        let is_pair = |pair: &[Node]| {
+            let [Node::Step(first), Node::Step(second)] = pair else { return false };
+            matches!((&first.action, &second.action), (Action::Pick { .. }, Action::Place { .. }))
+        };
+        if is_free && !nodes.chunks(2).all(is_pair) {
+            return reader.error(list, "steps in free order are pick, place, pick, place, and so on");
+        }
+        let mut renewed = Vec::new();
+        for node in &nodes {
+            match node {
+                Node::Step(Step { action: Action::Pick { object, .. }, .. }) if self.objects[*object].renews => {
+                    renewed.push(*object);
+                }
+                Node::Step(_) => {}
+                Node::Group(group) => renewed.extend(&group.renewed),
+            }
+        }
+        // One pair alone is done in its order.
+        Ok(Group { is_free: is_free && nodes.len() > 2, nodes, repeat, renewed })
+    }
+
+    /// What a table stands for: a step, a group, or the steps of a transfer.
+    fn nodes(&mut self, value: &Value, dwell: &Decimal) -> Read<Vec<Node>> {
+        let reader = self.reader;
+        let table = reader.table(value)?;
+        let dwell = table.get("dwell").map_or(Ok(dwell.clone()), |value| reader.number(value))?;
+        let known = ["pick", "place", "move", "transfer", "steps", "grasp", "supports", "at", "window"];
+        let is_known = |key: &str| known.contains(&key) || MANNER.contains(&key);
+        if let Some((key, _)) = table.iter().find(|(key, _)| !is_known(key.get_ref())) {
+            return reader.error(value, &format!("the checker does not know the key {} of a step", key.get_ref()));
+        }
+        let given: Vec<&str> = known[..5].iter().copied().filter(|key| table.get(*key).is_some()).collect();
+        let [what] = given[..] else { return reader.error(value, "a step does one thing") };
+        if what != "pick" && (table.contains_key("at") || table.contains_key("window")) {
+            return reader.error(value, "a place and a window of time are said of picks");
+        }
+        let of = &table[what];
+        let actions = match what {
+            "steps" => return Ok(vec![Node::Group(self.group(of, Some(table), &dwell)?)]),
+            "pick" => {
+                let named = Some(reader.text(of)?);
+                let object = self.world.obstacles[self.first..].iter().position(|object| object.name == named);
+                let Some(object) = object else { return reader.error(of, "there is no object of this name") };
+                let grasp = table.get("grasp").map(|grasp| reader.two(grasp, |n| reader.number(n))).transpose()?;
+                let passing = Passing {
+                    window: table.get("window").map(|w| reader.two(w, |n| reader.number(n))).transpose()?,
+                    at: table.get("at").map(|at| Ok(point(&reader.two(at, |n| reader.number(n))?))).transpose()?,
+                };
+                vec![self.pick(object, grasp, self.supports(table)?, passing)]
+            }
+            "place" => vec![self.place(of)?],
+            "move" => vec![Action::Move(reader.place(of)?)],
+            _ => self.transfer(of)?,
+        };
+        let step = |action| {
+            self.count += 1;
+            Node::Step(Step { number: self.count, action, dwell: dwell.clone() })
+        };
+        Ok(actions.into_iter().map(step).collect())
+    }
+
+    fn pick(&self, object: usize, grasp: Option<Corner>, supports: Option<Vec<usize>>, passing: Passing) -> Action {
+        let own = &self.objects[object];
+        let (grasp, supports) = (grasp.unwrap_or(own.grasp.clone()), supports.unwrap_or(own.supports.clone()));
+        Action::Pick { object, grasp, supports, passing: Box::new(passing) }
+    }
+
+    /// What is named as supports in a table.
+    fn supports(&self, table: &DeTable) -> Read<Option<Vec<usize>>> {
+        let list = table.get("supports");
+        list.map(|list| self.reader.supports(list, self.world, self.first, self.objects)).transpose()
+    }
+
+    fn angle(&self, table: &DeTable) -> Read<Option<Interval>> {
+        table.get("angle").map(|angle| Ok(Interval::around(&self.reader.quantity(angle)?))).transpose()
+    }
+
+    fn place(&self, value: &Value) -> Read<Action> {
+        let (reader, table) = (self.reader, self.reader.table(value)?);
+        let at = match (table.get("at"), table.get("on")) {
+            (Some(at), None) => point(&reader.two(at, |n| reader.number(n))?),
+            (None, Some(on)) => {
+                let wanted = reader.text(on)?;
+                let mut places =
+                    self.pallets.iter().flat_map(|(name, pallet)| pallet.places.iter().map(move |p| (name, p)));
+                let found = places.find(|(name, (place, _))| wanted == format!("{name} {place}"));
+                let Some((_, (_, at))) = found else { return reader.error(on, "no pallet has this place") };
+                at.clone()
+            }
+            _ => return reader.error(value, "a place needs either `at` or `on`"),
+        };
+        Ok(Action::Place { at, angle: self.angle(table)?, supports: self.supports(table)? })
+    }
+
+    /// Picks and places of all objects on a pallet that have a name in common, one after the other.
+    fn transfer(&self, value: &Value) -> Read<Vec<Action>> {
+        let (reader, table) = (self.reader, self.reader.table(value)?);
+        let (Some(name), Some(to)) = (table.get("objects"), table.get("to")) else {
+            return reader.error(value, "a transfer has objects, and a pallet that they go to");
+        };
+        let (family, pallet) = (reader.text(name)?, self.pallets.get(&reader.text(to)?));
+        let objects: Vec<usize> = (0..self.objects.len()).filter(|k| self.objects[*k].family == family).collect();
+        let Some(pallet) = pallet.filter(|pallet| pallet.places.len() == objects.len()) else {
+            return reader.error(value, "a transfer has as many objects as the pallet has places");
+        };
+        let (angle, supports) = (self.angle(table)?, self.supports(table)?);
+        let pair = |(object, (_, at)): (usize, &(String, Point))| {
+            let (at, angle, supports) = (at.clone(), angle.clone(), supports.clone());
+            [self.pick(object, None, None, Passing::default()), Action::Place { at, angle, supports }]
+        };
+        Ok(objects.into_iter().zip(&pallet.places).flat_map(pair).collect())
+    }
+}

@@ -1,0 +1,259 @@
+//! Falsified certificates of motions: each is refused, or the motion is still free, as an oracle in floating point has it that shares no
+//! code with the checker: samples of the motion, by power series of its own, and distances of sides and corners.
+
+#[path = "../../../tests/common/dice.rs"]
+mod dice;
+use cplan_cases as random;
+#[path = "common/two_bars.rs"]
+mod two_bars;
+
+use cplan_check_files::{CheckError, check};
+use dice::Dice;
+use two_bars::{LIMIT, TWO_BARS};
+
+const START: [f64; 2] = [-1.0, 0.2];
+const GOAL: [f64; 2] = [1.0, -0.3];
+
+/// Samples of each piece.
+const SAMPLES: u32 = 200;
+
+/// The same where it matters what is between them.
+const FINE: u32 = 4_000;
+
+type P = [f64; 2];
+
+/// A time and then values, velocities and accelerations.
+type Knot = [f64; 7];
+
+/// The obstacles are a ring, a bent wall and a disc.
+#[derive(Clone, Debug)]
+struct Claim {
+    way: usize,
+    knots: Vec<Knot>,
+    clearance: f64,
+    ring: Vec<P>,
+    wall: Vec<P>,
+    center: P,
+    radius: f64,
+}
+
+const WAYS: [&str; 4] = ["linear", "cubic", "quartic", "quintic"];
+
+impl Claim {
+    /// A motion with some knots, of a slow and a swinging joint, among obstacles that it keeps off.
+    fn honest(random: &mut Dice) -> Self {
+        loop {
+            let count = 2 + random.below(5);
+            let mut knots: Vec<Knot> = (0..count)
+                .map(|k| {
+                    let t = k as f64 / (count - 1) as f64;
+                    let q1 = START[0] + (GOAL[0] - START[0]) * t;
+                    let q2 = START[1] + (GOAL[1] - START[1]) * t + random.within(-1.5, 2.5) * t * (1.0 - t) * 4.0;
+                    let speed = |random: &mut Dice| random.within(-1.0, 1.0);
+                    [t * 2.0, q1, q2, speed(random), speed(random), speed(random), speed(random)]
+                })
+                .collect();
+            knots[0][1..3].copy_from_slice(&START);
+            knots[count - 1][1..3].copy_from_slice(&GOAL);
+            let around = |random: &mut Dice| {
+                let (angle, far) = (random.within(-3.0, 3.0), random.within(0.3, 2.2));
+                [far * angle.cos(), far * angle.sin()]
+            };
+            let near = |random: &mut Dice, [x, y]: P| [x + random.within(-0.4, 0.4), y + random.within(-0.4, 0.4)];
+            let [a, b] = [around(random), around(random)];
+            let claim = Self {
+                way: random.below(4),
+                knots,
+                clearance: [0.0, 0.01][random.below(2)],
+                // Five corners in no order: it may cross itself, and is then what lies within an odd number of times.
+                ring: (0..5).map(|_| near(random, a)).collect(),
+                wall: (0..3).map(|_| near(random, b)).collect(),
+                center: around(random),
+                radius: random.within(0.05, 0.3),
+            };
+            if claim.keeps_limits(1e-3) && claim.distance(SAMPLES) > claim.clearance + 1e-4 {
+                return claim;
+            }
+        }
+    }
+
+    fn falsify(&mut self, random: &mut Dice) {
+        let (number, other) = (random.below(self.knots.len()), random.below(self.knots.len()));
+        let column = 1 + random.below(6);
+        match random.below(10) {
+            0 if self.knots.len() > 2 => _ = self.knots.remove(number),
+            1 => {
+                let (a, b) = (self.knots[number][column], self.knots[other][column]);
+                (self.knots[number][column], self.knots[other][column]) = (b, a);
+            }
+            2 => self.knots[number][column] += random.within(-0.5, 0.5),
+            3 => self.knots[number][1 + random.below(2)] += random.within(-3e-5, 3e-5),
+            4 => self.knots[number][3 + random.below(4)] *= random.within(-3.0, 5.0),
+            5 => self.knots[number][0] += random.within(-0.3, 0.3),
+            6 => self.way = random.below(4),
+            7 => self.clearance = self.distance(SAMPLES).max(0.0) * random.within(0.8, 1.2),
+            8 => self.center = [self.center[0] + random.within(-0.3, 0.3), self.center[1] + random.within(-0.3, 0.3)],
+            _ => self.ring[random.below(5)] = [random.within(-2.0, 2.0), random.within(-2.0, 2.0)],
+        }
+    }
+
+    fn judged(&self) -> Result<String, CheckError> {
+        let world = format!(
+            "start.joints = {START:?}\ngoal.joints = {GOAL:?}\nclearance = {:?}\n[[obstacle]]\npolygon = {:?}\n\
+             [[obstacle]]\npolyline = {:?}\n[[obstacle]]\ncircle = {{ center = {:?}, radius = {:?} }}\n",
+            self.clearance, self.ring, self.wall, self.center, self.radius
+        );
+        let columns = [3, 5, 7, 7][self.way];
+        let knots: Vec<String> = self.knots.iter().map(|knot| format!("{:?}", &knot[..columns])).collect();
+        let certificate = format!(
+            r#"{{"format": "cplan certificate 1", "answer": "found",
+            "motion": {{"interpolation": ["{}"], "knots": [{}]}}}}"#,
+            WAYS[self.way],
+            knots.join(",")
+        );
+        check(TWO_BARS, &world, &certificate)
+    }
+
+    /// Samples of the motion.
+    fn samples(&self, count: u32) -> impl Iterator<Item = P> {
+        self.knots.windows(2).flat_map(move |pair| {
+            let (a, b) = (pair[0], pair[1]);
+            let h = b[0] - a[0];
+            (0..=count).map(move |i| {
+                let t = h * f64::from(i) / f64::from(count);
+                [0, 1].map(|joint| {
+                    let of = |knot: &Knot| [knot[1 + joint], knot[3 + joint], knot[5 + joint]];
+                    let ([p, v, a], [q, w, b]) = (of(&a), of(&b));
+                    // What the end asks for beyond what the beginning makes of value, velocity and acceleration.
+                    match self.way {
+                        0 => p + (q - p) * t / h,
+                        1 => {
+                            let (e, f) = (q - p - v * h, w - v);
+                            p + v * t
+                                + (3.0 * e / h.powi(2) - f / h) * t.powi(2)
+                                + (f / h.powi(2) - 2.0 * e / h.powi(3)) * t.powi(3)
+                        }
+                        2 => {
+                            let (e, f) = (q - p - v * h - a * h * h / 2.0, w - v - a * h);
+                            let series =
+                                (4.0 * e - f * h) / h.powi(3) * t.powi(3) + (f * h - 3.0 * e) / h.powi(4) * t.powi(4);
+                            p + v * t + a * t * t / 2.0 + series
+                        }
+                        _ => {
+                            let (e, f, g) = (q - p - v * h - a * h * h / 2.0, w - v - a * h, b - a);
+                            let c = (10.0 * e - 4.0 * f * h + g * h * h / 2.0) / h.powi(3);
+                            let d = (-15.0 * e + 7.0 * f * h - g * h * h) / h.powi(4);
+                            let k = (6.0 * e - 3.0 * f * h + g * h * h / 2.0) / h.powi(5);
+                            p + v * t + a * t * t / 2.0 + c * t.powi(3) + d * t.powi(4) + k * t.powi(5)
+                        }
+                    }
+                })
+            })
+        })
+    }
+
+    fn keeps_limits(&self, room: f64) -> bool {
+        self.samples(SAMPLES).all(|q| q.iter().all(|value| value.abs() <= LIMIT - room))
+    }
+
+    /// The least distance that samples have from the obstacles; negative in the ring or the disc.
+    fn distance(&self, count: u32) -> f64 {
+        let round =
+            |points: &[P]| (0..points.len()).map(|i| [points[i], points[(i + 1) % points.len()]]).collect::<Vec<_>>();
+        let ring = round(&self.ring);
+        let sides: Vec<[P; 2]> = ring.iter().copied().chain(self.wall.windows(2).map(|w| [w[0], w[1]])).collect();
+        let mut least = f64::INFINITY;
+        for q in self.samples(count) {
+            for shape in 0..2 {
+                let bar = bar(q, shape);
+                let edges = round(&bar);
+                for edge in &edges {
+                    for side in &sides {
+                        least = least.min(between(*edge, *side));
+                    }
+                    least = least.min(off(self.center, *edge) - self.radius);
+                }
+                if within(bar[0], &ring)
+                    || within(self.center, &edges)
+                    || sides.iter().any(|side| within(side[0], &edges))
+                {
+                    least = -1.0;
+                }
+            }
+        }
+        least
+    }
+
+    /// Whether what a certificate says is true, up to rounding.
+    fn is_true(&self) -> bool {
+        let last = self.knots.len() - 1;
+        let meets = |knot: &Knot, end: P| (0..2).all(|k| (knot[1 + k] - end[k]).abs() <= 1.0000001e-5);
+        self.knots.windows(2).all(|k| k[0][0] < k[1][0])
+            && meets(&self.knots[0], START)
+            && meets(&self.knots[last], GOAL)
+            && self.keeps_limits(-1e-9)
+            && self.distance(SAMPLES) > self.clearance - 1e-9
+    }
+}
+
+/// A bar's corners at a configuration, in order.
+fn bar(q: P, shape: usize) -> [P; 4] {
+    let length = [1.0, 0.8][shape];
+    let turned = |[x, y]: P, angle: f64| {
+        let (s, c) = angle.sin_cos();
+        [c * x - s * y, s * x + c * y]
+    };
+    [[0.0, -0.05], [length, -0.05], [length, 0.05], [0.0, 0.05]].map(|corner| {
+        let [x, y] = if shape == 0 { corner } else { turned(corner, q[1]) };
+        turned([x + shape as f64, y], q[0])
+    })
+}
+
+/// The distance of a point from a segment.
+fn off(p: P, [a, b]: [P; 2]) -> f64 {
+    let (u, v) = ([b[0] - a[0], b[1] - a[1]], [p[0] - a[0], p[1] - a[1]]);
+    let share = ((u[0] * v[0] + u[1] * v[1]) / (u[0] * u[0] + u[1] * u[1])).clamp(0.0, 1.0);
+    (v[0] - share * u[0]).hypot(v[1] - share * u[1])
+}
+
+/// The distance of two segments, 0 where they cross.
+fn between(s: [P; 2], t: [P; 2]) -> f64 {
+    let side = |[a, b]: [P; 2], p: P| (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
+    if side(s, t[0]) * side(s, t[1]) < 0.0 && side(t, s[0]) * side(t, s[1]) < 0.0 {
+        return 0.0;
+    }
+    off(s[0], t).min(off(s[1], t)).min(off(t[0], s)).min(off(t[1], s))
+}
+
+/// Whether a point is within a ring, which may cross itself, an odd number of times: by the sides that a ray to the right crosses.
+fn within(p: P, ring: &[[P; 2]]) -> bool {
+    let crossed = ring
+        .iter()
+        .filter(|[a, b]| (a[1] > p[1]) != (b[1] > p[1]) && p[0] < a[0] + (b[0] - a[0]) * (p[1] - a[1]) / (b[1] - a[1]));
+    crossed.count() % 2 == 1
+}
+
+#[test]
+fn what_is_falsified_is_refused_or_still_true() {
+    let (mut held, mut refused) = (0, 0);
+    for seed in random::seeds(120) {
+        let mut random = Dice::new(seed);
+        let mut claim = Claim::honest(&mut random);
+        // What comes too near between two samples is no honest claim.
+        if seed % 4 == 0 && claim.distance(FINE) > claim.clearance + 1e-6 {
+            claim.judged().unwrap_or_else(|why| panic!("seed {seed}: {why}\n{claim:?}"));
+        }
+        for _ in 0..=random.below(2) {
+            claim.falsify(&mut random);
+        }
+        match claim.judged() {
+            Ok(_) => {
+                assert!(claim.is_true(), "seed {seed}: {claim:?}");
+                held += 1;
+            }
+            Err(CheckError::Fails(_)) => refused += 1,
+            Err(error) => panic!("seed {seed}: {error}"),
+        }
+    }
+    assert!(held > random::times(15) && refused > random::times(20), "{held} held, {refused} refused");
+}

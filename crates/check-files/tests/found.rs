@@ -1,0 +1,388 @@
+//! Certificates of motions, written by hand, and falsified ones.
+
+use cplan_check_files::{CheckError, Input, check};
+
+/// A bar of 1 m and 0.1 m about the origin, and one of 0.8 m at its end.
+fn robot(first: &str, second: &str) -> String {
+    format!(
+        r#"<robot name="r">
+  <link name="base"> <visual> <geometry> <mesh filename="m"/> </geometry> </visual> </link>
+  <joint name="a" type="{first}">
+    <parent link="base"/> <child link="upper"/> <axis xyz="{}"/> <limit lower="-2.9" upper="2.9"/>
+  </joint>
+  <link name="upper">
+    <collision> <origin xyz="0.5 0 0"/> <geometry> <box size="1.0 0.1 0.1"/> </geometry> </collision>
+  </link>
+  <joint name="b" type="{second}">
+    <parent link="upper"/> <child link="fore"/> <origin xyz="1 0 0"/> <axis xyz="{}"/> <limit lower="-2.9" upper="2.9"/>
+  </joint>
+  <link name="fore">
+    <collision> <origin xyz="0.4 0 0"/> <geometry> <box size="0.8 0.1 0.1"/> </geometry> </collision>
+  </link>
+</robot>"#,
+        if first == "prismatic" { "1 0 0" } else { "0 0 1" },
+        if second == "prismatic" { "0 1 0" } else { "0 0 1" },
+    )
+}
+
+const ENDS: &str = "start.joints = [-1, 0]\ngoal.joints = [1, 0]\n";
+
+fn arm() -> String {
+    robot("revolute", "revolute")
+}
+
+fn world(obstacles: &str) -> String {
+    format!("{ENDS}{obstacles}")
+}
+
+fn certificate(extra: &str, interpolation: &str, knots: &str) -> String {
+    format!(
+        r#"{{"format": "cplan certificate 1", "answer": "found", {extra}
+        "motion": {{"interpolation": [{interpolation}], "knots": [{knots}]}}}}"#
+    )
+}
+
+const LINEAR: &str = r#""linear""#;
+
+/// Whether it holds, by its exit code, and what is said.
+fn judged(urdf: &str, world: &str, certificate: &str) -> (i32, String) {
+    match check(urdf, world, certificate) {
+        Ok(said) => (0, said),
+        Err(CheckError::Fails(why)) => (3, why),
+        Err(CheckError::Input { message, .. }) => (1, message),
+    }
+}
+
+/// Straight from the start to the goal, whatever the obstacles.
+fn straight(urdf: &str, obstacles: &str) -> (i32, String) {
+    judged(urdf, &world(obstacles), &certificate("", LINEAR, "[0, -1, 0], [1, 1, 0]"))
+}
+
+fn is_free(urdf: &str, obstacles: &str) {
+    let (code, said) = straight(urdf, obstacles);
+    assert_eq!(code, 0, "{obstacles}: {said}");
+}
+
+fn fails(urdf: &str, obstacles: &str, part: &str) {
+    let (code, said) = straight(urdf, obstacles);
+    assert!(code == 3 && said.contains(part), "{obstacles}: {code} {said}");
+}
+
+/// Both bars turn about the origin as one, up to 1.8 m and sqrt(1.8^2 + 0.05^2) at the corners.
+#[test]
+fn distances_are_those_of_the_closed_form() {
+    let reach = (1.8f64 * 1.8 + 0.05 * 0.05).sqrt();
+    for (gap, holds) in [(1e-3, true), (1e-6, true), (1e-9, true), (-1e-9, false), (-0.1, false)] {
+        let post = format!("[[obstacle]]\ncircle = {{ center = [{}, 0], radius = 0.5 }}\n", reach + 0.5 + gap);
+        if holds {
+            is_free(&arm(), &post)
+        } else {
+            fails(&arm(), &post, "link \"fore\", collision 0")
+        }
+        // Beyond it the wall is straight, and only its middle is near.
+        let wall = reach + gap;
+        let wall = format!("[[obstacle]]\npolyline = [[{wall}, -3], [{wall}, 3]]\n");
+        if holds { is_free(&arm(), &wall) } else { fails(&arm(), &wall, "obstacle 0") }
+    }
+    // A corner that the long side passes as the arm comes to rest: where it turns no farther.
+    for (gap, holds) in [(1e-3, true), (1e-9, true), (-1e-9, false)] {
+        let (sine, cosine) = 1f64.sin_cos();
+        let at = |along: f64, beside: f64| [along * cosine - beside * sine, along * sine + beside * cosine];
+        let [x, y] = at(1.5, 0.05 + gap);
+        let [u, v] = at(1.7, 0.4);
+        let [s, t] = at(1.2, 0.4);
+        let block = format!("[[obstacle]]\npolygon = [[{x}, {y}], [{u}, {v}], [{s}, {t}]]\n");
+        if holds { is_free(&arm(), &block) } else { fails(&arm(), &block, "link \"fore\"") }
+    }
+}
+
+#[test]
+fn clearance_counts_and_what_is_asked_elsewhere_is_said() {
+    let post = "[[obstacle]]\ncircle = { center = [2.2, 0], radius = 0.1 }\n";
+    let at = |extra: &str| judged(&arm(), &world(post), &certificate(extra, LINEAR, "[0, -1, 0], [1, 1, 0]"));
+    assert_eq!(at("").0, 0);
+    // 2.1 - sqrt(1.8^2 + 0.05^2) = 0.299305...
+    assert_eq!(at(r#""clearance": 0.2993,"#).0, 0);
+    let (code, why) = at(r#""clearance": 0.2994,"#);
+    assert!(code == 3 && why.contains("farther than 0.2994 from obstacle 0"), "{why}");
+    let place = format!("clearance = 0.2994\n{}", world(post));
+    assert_eq!(judged(&arm(), &place, &certificate("", LINEAR, "[0, -1, 0], [1, 1, 0]")).0, 3);
+    let (_, said) = at(r#""clearance": 0.25, "start": [-1.0, 0.0], "goal": [1, 5e-10],"#);
+    for part in
+        ["start (-1, 0) to", "goal (1, 0.0000000005), within 1e-9,", "clearance 0.25", "2 knots, read as linear"]
+    {
+        assert!(said.contains(part), "{said}");
+    }
+    assert!(at(r#""goal": [1, 0.00002],"#).1.contains("misses the goal by more than 1e-5"));
+    assert!(at(r#""start": [1, 0],"#).1.contains("misses the start"));
+}
+
+/// The same motion with a knot moved, and what is named.
+#[test]
+fn what_is_falsified_is_named() {
+    // Beside the stretched arm, in the way of the folded one.
+    let post = "[[obstacle]]\ncircle = { center = [0.7, 0.8], radius = 0.15 }\n";
+    let judge = |knots: &str| judged(&arm(), &world(post), &certificate("", LINEAR, knots));
+    let fold = "[0, -1, 0], [1, -1, 2.5], [2, 1, 2.5], [3, 1, 0]";
+    let (code, why) = judge(fold);
+    assert!(code == 3 && why.contains("from knot 1") && why.contains("\"fore\""), "{why}");
+    let post = "[[obstacle]]\ncircle = { center = [1.4, 0], radius = 0.15 }\n";
+    let judge = |knots: &str| judged(&arm(), &world(post), &certificate("", LINEAR, knots));
+    assert_eq!(judge(fold).0, 0);
+    for (knots, part) in [
+        ("[0, -1, 0], [3, 1, 0]", "from knot 0"),
+        ("[0, -1, 0], [1, -1, 1], [3, 1, 0]", "from knot 1"),
+        ("[0, -1, 0], [1, -0.2, 2.5], [2, 1, 2.5], [3, 1, 0]", "from knot 0"),
+        ("[0, -1, 0], [1, -1, 2.5], [2, 1, 2.5], [3, 1, 0.1]", "goal"),
+        ("[0, -1.1, 0], [1, -1, 2.5], [2, 1, 2.5], [3, 1, 0]", "start"),
+        ("[0, -1, 0], [1, -1, 2.5], [1, 1, 2.5], [3, 1, 0]", "knot 2 is no later"),
+        ("[0, -1, 0], [1, -1, 2.91], [2, 1, 2.5], [3, 1, 0]", "after knot 0 (linear) joint \"b\" leaves its limits"),
+        ("[0, -1, 0], [1, -1, 2.9000000000000000000000000000000000001], [2, 1, 2.5], [3, 1, 0]", "limits"),
+        ("[0, -1, 0], [1, 1e300, 2.5], [3, 1, 0]", "limits"),
+    ] {
+        let (code, why) = judge(knots);
+        assert!(code == 3 && why.contains(part), "{knots}: {code} {why}");
+    }
+    // At the limit itself, and in time that is as long as one likes.
+    assert_eq!(judge("[-1e9, -1, 0], [1, -1, 2.90], [2, 1, 2.9], [3e9, 1, 0]").0, 0);
+}
+
+/// An arm that stands inside an obstacle touches none of its sides.
+#[test]
+fn inside_is_not_off() {
+    let ring = "polygon = [[-9, -9], [9, -9], [9, 9], [-9, 9]]\n";
+    fails(&arm(), &format!("[[obstacle]]\n{ring}"), "link \"upper\", collision 0 is inside obstacle 0");
+    // In its hole it is off.
+    is_free(&arm(), &format!("[[obstacle]]\n{ring}holes = [[[-3, -3], [3, -3], [3, 3], [-3, 3]]]\n"));
+    fails(&arm(), &format!("[[obstacle]]\n{ring}holes = [[[-3, -3], [1, -3], [1, 3], [-3, 3]]]\n"), "obstacle 0");
+    let turned = format!(
+        "[[obstacle]]\nat = [0.1, 0.2]\nangle = \"30deg\"\n{ring}holes = [[[-3, -3], [3, -3], [3, 3], [-3, 3]]]\n"
+    );
+    is_free(&arm(), &turned);
+    // A disc around all of it, and one that the second bar alone is in.
+    fails(&arm(), "[[obstacle]]\ncircle = { center = [0, 0], radius = 9 }\n", "from knot 0");
+    fails(
+        &arm(),
+        "[[obstacle]]\ncircle = { center = [0, 0.9], radius = 0.1 }\n[[obstacle]]\npolyline = [[1.2, 0], [1.3, 0]]\n",
+        "obstacle 1",
+    );
+}
+
+/// What the second joint does where the first turns or slides: the tip passes a wall at some distance in closed form.
+#[test]
+fn all_kinds_of_joints() {
+    for (first, second, farthest) in [
+        // Slid to the right by 1 at most, the first bar reaches to 2, and the second's corner to where it is from there.
+        ("prismatic", "revolute", 2.0 + (0.8f64 * 0.8 + 0.05 * 0.05).sqrt()),
+        ("prismatic", "prismatic", 2.8),
+        // Slid across by at most 1: its outermost corner at (1.8, 1.05).
+        ("revolute", "prismatic", (1.8f64 * 1.8 + 1.05 * 1.05).sqrt()),
+    ] {
+        let urdf = robot(first, second);
+        let world = |gap: f64| {
+            let at = farthest + gap;
+            format!(
+                "start.joints = [-1, -1]\ngoal.joints = [1, 1]\n[[obstacle]]\ncircle = {{ center = [0, 0], radius = 0.001 }}\nheight = [1, 2]\n\
+                     [[obstacle]]\npolyline = [[{at}, -5], [{at}, 5]]\n"
+            )
+        };
+        let knots = "[0, -1, -1], [1, 1, 0], [2, 1, 1]";
+        let (code, why) = judged(&urdf, &world(1e-6), &certificate("", LINEAR, knots));
+        assert_eq!(code, 0, "{first} {second}: {why}");
+        if first == "prismatic" {
+            let (code, _) = judged(&urdf, &world(-1e-6), &certificate("", LINEAR, knots));
+            assert_eq!(code, 3, "{first} {second}");
+        }
+    }
+}
+
+/// Heights that are known to be disjoint leave a pair out; that touch, do not.
+#[test]
+fn heights() {
+    let at = |height: &str| {
+        straight(&arm(), &format!("[[obstacle]]\ncircle = {{ center = [1.4, 0], radius = 0.1 }}\nheight = {height}\n"))
+            .0
+    };
+    assert_eq!((at("[0.06, 0.2]"), at("[-1, -0.06]"), at("[0.05, 0.2]"), at("[-1, 0]")), (0, 0, 3, 3));
+    assert_eq!(at("[0.2, 0.06]"), 1);
+}
+
+/// Between knots it is the interpolation that counts: by cubics with these velocities the arm swings out, by lines it does not.
+#[test]
+fn interpolations_are_those_of_their_readers() {
+    // q2 stays at 2.5 at both knots; with slopes 4 and -4 over a second the cubic goes up by 1, 8 / 27 = 0.296 with (4, 0).
+    let world = |limit: &str| {
+        format!("start.joints = [0, 1]\ngoal.joints = [0, 1]\nrobot.limits = {{ b = [-2.9, {limit}] }}\n")
+    };
+    let knots = "[0, 0, 1, 0, 4, 0, -8], [1, 0, 1, 0, -4, 0, -8]";
+    let code = |ways: &str, limit: &str| judged(&arm(), &world(limit), &certificate("", ways, knots)).0;
+    // All are the parabola 1 + 4 t (1 - t), which reaches 2.
+    for way in [r#""cubic", "quartic", "quintic""#, r#""quintic", "linear", "cubic""#] {
+        assert_eq!((code(way, "2"), code(way, "1.99999999999999999999")), (0, 3), "{way}");
+    }
+    let code = |ways: &str, knots: &str, limit: &str| judged(&arm(), &world(limit), &certificate("", ways, knots)).0;
+    let cubic = "[0, 0, 1, 0, 4], [1, 0, 1, 0, 0]";
+    // 1 + 4 t (1 - t)^2 is at most 1 + 16 / 27 = 1.5925926 at 1/3.
+    assert_eq!((code(r#""cubic""#, cubic, "1.5925926"), code(r#""cubic""#, cubic, "1.5925925")), (0, 3));
+    // 1 + 4 t - 12 t^3 + 8 t^4: position 1, velocity 4, acceleration 0; then 1 and 0. Greatest 2 - 1/3 sqrt(3) ... by samples below.
+    let quartic = |t: f64| 1.0 + 4.0 * t - 12.0 * t.powi(3) + 8.0 * t.powi(4);
+    let most = (0..=1_000_000).map(|i| quartic(f64::from(i) / 1e6)).fold(0.0, f64::max);
+    let knots = "[0, 0, 1, 0, 4, 0, 0], [1, 0, 1, 0, 0, 0, 0]";
+    let limits = [most + 1e-9, most - 1e-9].map(|limit| limit.to_string());
+    assert_eq!(limits.each_ref().map(|limit| code(r#""quartic""#, knots, limit)), [0, 3]);
+    // 1 + 4 t - 24 t^3 + 32 t^4 - 12 t^5.
+    let quintic = |t: f64| 1.0 + 4.0 * t - 24.0 * t.powi(3) + 32.0 * t.powi(4) - 12.0 * t.powi(5);
+    let most = (0..=1_000_000).map(|i| quintic(f64::from(i) / 1e6)).fold(0.0, f64::max);
+    let limits = [most + 1e-9, most - 1e-9].map(|limit| limit.to_string());
+    assert_eq!(limits.each_ref().map(|limit| code(r#""quintic""#, knots, limit)), [0, 3]);
+}
+
+/// A joint that turns without end has no limits; whole turns are no matter for where it ends.
+#[test]
+fn joints_without_end() {
+    let urdf = arm().replacen("revolute", "continuous", 1);
+    let post = "[[obstacle]]\ncircle = { center = [1.4, 0], radius = 0.15 }\n";
+    let code = |goal: &str, last: &str| {
+        let world = format!("start.joints = [-1, 0]\ngoal.joints = [{goal}, 0]\n{post}");
+        let (code, said) = judged(&urdf, &world, &certificate("", LINEAR, &format!("[0, -1, 0], [1, {last}, 0]")));
+        assert!(code == 3 || said.contains("within 1e-15"), "{said}");
+        code
+    };
+    assert_eq!((code("1", "-5.283185307179586"), code("1", "7.283185307179586")), (0, 3));
+    assert_eq!((code("-11.566370614359172", "-5.283185307179586"), code("1.1", "-5.283185307179586")), (0, 3));
+}
+
+/// A goal that is a place of the tip: how near it comes is said.
+#[test]
+fn places_of_the_tip() {
+    let urdf = arm().replace(
+        "</robot>",
+        r#"<joint name="t" type="fixed"> <parent link="fore"/> <child link="tool"/> <origin xyz="0.8 0 0"/> </joint> <link name="tool"/></robot>"#,
+    );
+    let (x, y) = (1.8 * 1f64.cos(), 1.8 * 1f64.sin());
+    let line = certificate("", LINEAR, "[0, -1, 0], [1, 1, 0]");
+    let world = |tip: &str| format!("start.tip = [{x}, {}]\n{tip}", -y);
+    let (code, said) = judged(&urdf, &world(&format!("goal.tip = [{x}, {y}]")), &line);
+    assert!(code == 0 && said.contains("the goal, a place of the tip \"tool\", within 1e-1"), "{said}");
+    assert_eq!(judged(&urdf, &world(&format!("goal.tip = [{x}, {}]", y + 2e-5)), &line).0, 3);
+    // Asked for elsewhere, and of another link.
+    let asked = certificate(&format!(r#""goal_tip": [{x}, {y}],"#), LINEAR, "[0, -1, 0], [1, 1, 0]");
+    let (code, said) = judged(&urdf, ENDS, &asked);
+    assert!(code == 0 && said.contains("goal (0.97"), "{said}");
+    let (code, why) = judged(&urdf, &format!("{ENDS}robot.tip = \"fore\""), &asked);
+    assert!(code == 3 && why.contains("misses the goal"), "{why}");
+    let two = asked.replace("\"motion\"", "\"goal\": [1, 0], \"motion\"");
+    assert!(judged(&urdf, ENDS, &two).1.contains("two goals"));
+    // The robot stands elsewhere, turned by half a right angle, and so does its surrounding.
+    let turn = std::f64::consts::FRAC_PI_4;
+    let place =
+        |angle: f64, r: f64| format!("[{}, {}]", 5.0 + r * (turn + angle).cos(), -2.0 + r * (turn + angle).sin());
+    let at = |r: f64| {
+        let world = format!(
+            "robot.at = [5, -2]\nrobot.angle = \"45deg\"\nstart.joints = [-1, 0]\ngoal.tip = {}\n[[obstacle]]\ncircle = {{ center = {}, radius = 0.1 }}\n",
+            place(1.0, 1.8),
+            place(0.5, r)
+        );
+        judged(&urdf, &world, &line).0
+    };
+    assert_eq!((at(1.901), at(1.899)), (0, 3));
+}
+
+/// One knot is an arm that stands.
+#[test]
+fn standing_still() {
+    let post =
+        "start.joints = [-1, 0]\ngoal.joints = [-1, 0]\n[[obstacle]]\ncircle = { center = [1.4, 0], radius = 0.15 }\n";
+    assert_eq!(judged(&arm(), post, &certificate("", r#""cubic""#, "[0, -1, 0, 0, 0]")).0, 0);
+    assert_eq!(judged(&arm(), &post.replace("-1, 0", "0, 0"), &certificate("", r#""cubic""#, "[0, 0, 0, 0, 0]")).0, 3);
+}
+
+/// What the checker does not know it refuses, and never leaves out.
+#[test]
+fn bad_input_is_named() {
+    let place = world("[[obstacle]]\npolyline = [[3, 0], [4, 0]]\n");
+    let good = certificate("", LINEAR, "[0, -1, 0], [1, 1, 0]");
+    let bad =
+        |urdf: &str, world: &str, certificate: &str, file: Input, part: &str| match check(urdf, world, certificate)
+            .map(|_| ())
+        {
+            Err(CheckError::Input { input, message, .. }) => {
+                assert!(input == file && message.contains(part), "{input:?} {message}");
+            }
+            other => panic!("{part}: {other:?}"),
+        };
+    assert_eq!(judged(&arm(), &place, &good).0, 0);
+    let urdf = |from: &str, to: &str, part: &str| {
+        assert!(arm().contains(from), "{from}");
+        bad(&arm().replace(from, to), &place, &good, Input::Urdf, part);
+    };
+    urdf("box size=\"0.8 0.1 0.1\"", "mesh filename=\"m\"", "mesh");
+    urdf("<collision> <origin xyz=\"0.4 0 0\"/> <geometry>", "<collision> <geometry/> <geometry>", "second element");
+    urdf("<link name=\"fore\">", "<link name=\"fore\"> <collision/>", "no geometry");
+    urdf("<box size=\"0.8 0.1 0.1\"/>", "<box size=\"0.8 0.1 0.1\"/> <sphere radius=\"3\"/>", "of several shapes");
+    urdf("collision", "nothing", "could collide");
+    urdf("<link name=\"fore\">", "<joint name=\"m\" type=\"revolute\"> <parent link=\"fore\"/> <child link=\"c\"/> <mimic joint=\"a\"/> </joint>
+          <link name=\"c\"> <collision> <geometry> <sphere radius=\"0.1\"/> </geometry> </collision> </link> <link name=\"fore\">", "mimic");
+    urdf("<limit lower=\"-2.9\" upper=\"2.9\"/>", "<limit lower=\"2.9\" upper=\"2.9\"/>", "no limits");
+    let worlds = |text: &str, part: &str| bad(&arm(), &world(text), &good, Input::World, part);
+    worlds("[[obstacle]]\nimage = \"map.yaml\"", "check_files");
+    worlds("[[obstacle]]\npolygon = [[0, 0], [1, 1]]", "too few");
+    worlds("[[obstacle]]\npolyline = [[0, 0]]", "too few");
+    worlds("[[obstacle]]\ncircle = { center = [9, 9], radius = -1 }", "no radius");
+    worlds("[map]\nfile = \"m\"", "check_files");
+    worlds("[[object]]\nname = \"m\"", "one shape");
+    let bars = arm().replace(
+        "<collision> <origin xyz=\"0.4 0 0\"/> <geometry> <box size=\"0.8 0.1 0.1\"/> </geometry> </collision>",
+        "",
+    );
+    assert_eq!(judged(&bars, &place, &good).0, 0);
+    // The bar goes from the second joint to the tip, which is there.
+    let at = |x: f64| format!("robot.bar = 0.05\n{ENDS}[[obstacle]]\npolyline = [[{x}, 0], [4, 0]]\n");
+    assert_eq!((judged(&bars, &at(1.051), &good).0, judged(&bars, &at(1.049), &good).0), (0, 3));
+    let certificates = |text: String, part: &str| bad(&arm(), &place, &text, Input::Certificate, part);
+    certificates(certificate("", "", "[0, -1, 0], [1, 1, 0]"), "no interpolation");
+    certificates(certificate("", LINEAR, ""), "no knots");
+    certificates(certificate("", r#""cubic""#, "[0, -1, 0], [1, 1, 0]"), "needs 5");
+    certificates(certificate("", LINEAR, "[0, -1, 0], [1, 1, 0, 2, 3]"), "knot 1 has 5");
+    certificates(certificate("", r#""spline""#, "[0, -1, 0], [1, 1, 0]"), "spline");
+    certificates(certificate("", LINEAR, "[0, -1, NaN], [1, 1, 0]"), "certificate");
+    certificates(certificate(r#""boxes": [],"#, LINEAR, "[0, -1, 0], [1, 1, 0]"), "boxes");
+    certificates(good.replace("motion", "motions"), "motion");
+    certificates(good.replace("certificate 1", "certificate 2"), "certificate 2");
+}
+
+/// Visual shapes stand in where there are no others, one part of the arm at a time; solids lie and stand as they do.
+#[test]
+fn every_shape_counts() {
+    let visual = arm().replacen("collision", "visual", 2);
+    let wall = |at: f64| format!("[[obstacle]]\npolyline = [[{at}, -3], [{at}, 3]]\n");
+    assert_eq!((straight(&visual, &wall(1.81)).0, straight(&visual, &wall(1.79)).0), (0, 3));
+    // A solid at the tip, in several ways: how far it reaches beyond 1.8.
+    let tipped = |solid: &str, turn: &str| {
+        arm().replace(
+            "<link name=\"fore\">",
+            &format!("<link name=\"fore\"> <collision> <origin xyz=\"1.8 0 0\" rpy=\"{turn}\"/> <geometry> <{solid}/> </geometry> </collision>"),
+        )
+    };
+    let oblique = |angle: f64| 0.3 * angle.sin() + 0.2 * angle.cos();
+    for (solid, turn, reach) in [
+        ("sphere radius=\"0.2\"", "0 0 0", 0.2),
+        ("cylinder radius=\"0.2\" length=\"0.6\"", "0 0 0", 0.2),
+        ("cylinder radius=\"0.2\" length=\"0.6\"", "0 1.5707963267948966 0", (0.3f64 * 0.3 + 0.0).sqrt()),
+        ("cylinder radius=\"0.2\" length=\"0.6\"", "0 0.7 0", oblique(0.7)),
+        ("cylinder radius=\"0.2\" length=\"0.6\"", "0 1.3 0", oblique(1.3)),
+        ("capsule radius=\"0.2\" length=\"0.6\"", "0 1.5707963267948966 0", 0.5),
+        ("box size=\"0.6 0.2 0.1\"", "0 0 0.3", 0.3 * 0.3f64.cos() + 0.1 * 0.3f64.sin()),
+    ] {
+        let urdf = tipped(solid, turn);
+        // The tip is at 2.8 when the arm is stretched out, and the wall is bent: a ring's inner border, nearly.
+        let at = |gap: f64| {
+            straight(&urdf, &format!("[[obstacle]]\npolyline = [[{0}, -0.001], [{0}, 0.001]]\n", 2.8 + reach + gap)).0
+        };
+        let corner = if solid.starts_with("box") || turn.starts_with("0 1.57") { 0.15 } else { 0.02 };
+        assert_eq!((at(corner), at(-0.005)), (0, 3), "{solid} {turn}");
+    }
+    // Turned by so much that nobody knows how it lies.
+    let urdf = tipped("cylinder radius=\"0.2\" length=\"0.6\"", "0 1e14 0");
+    assert_eq!(straight(&urdf, "[[obstacle]]\npolyline = [[2.9, 0], [3, 0]]\n").0, 3);
+}

@@ -1,0 +1,187 @@
+//! Obstacles and objects that move: motions by hand, and what holds of what stands in spite of them.
+
+use cplan_check_files::{CheckError, Input, check};
+
+/// A gantry with a square of 1 m at its tip.
+const GANTRY: &str = r#"<robot name="g">
+  <link name="base"/>
+  <joint name="x" type="prismatic">
+    <parent link="base"/> <child link="bridge"/> <axis xyz="1 0 0"/> <limit lower="0" upper="9"/>
+  </joint>
+  <link name="bridge"/>
+  <joint name="y" type="prismatic">
+    <parent link="bridge"/> <child link="tool"/> <axis xyz="0 1 0"/> <limit lower="0" upper="9"/>
+  </joint>
+  <link name="tool"> <collision> <geometry> <box size="1 1 1"/> </geometry> </collision> </link>
+</robot>"#;
+
+const ENDS: &str = "start.joints = [1, 1]\ngoal.joints = [9, 1]\n";
+const WALL: &str = "[[obstacle]]\npolygon = [[4, -1], [6, -1], [6, 10], [4, 10]]\n";
+const MOTIONS: [&str; 2] =
+    ["{ velocity = [0.1, 0] }", "{ stops = [{ time = 0, at = [3, 3] }, { time = 1, at = [8, 8] }] }"];
+
+/// Something far off that moves.
+fn cart(motion: &str) -> String {
+    format!(
+        "[[obstacle]]\nname = \"cart\"\ncircle = {{ center = [0, 0], radius = 0.1 }}\nat = [50, 50]\nmotion = {motion}\n"
+    )
+}
+
+fn certificate(answer: &str, evidence: &str) -> String {
+    format!(
+        r#"{{"format": "cplan certificate 1", "answer": "{answer}", {evidence},
+             "shapes": [{{"link": "tool", "collision": 0}}],
+             "parts": [{{"obstacle": 0, "corners": [[4, -1], [6, -1], [6, 10], [4, 10]]}}]}}"#
+    )
+}
+
+const BOUND: &str = r#""bound": {"to": [9, 1], "length": 8, "walls": [], "potentials": []}"#;
+
+/// Boxes all along the wall, a metre each: the square in the middle of one is deeper in the wall than it can move there.
+fn boxes() -> String {
+    let stuck = |y: i32| {
+        let above = y + 1;
+        format!(r#"{{"lower": [4.8, {y}], "upper": [5.2, {above}], "shape": 0, "part": 0}}"#)
+    };
+    format!(r#""boxes": [{}]"#, (0..9).map(stuck).collect::<Vec<_>>().join(", "))
+}
+
+/// Parts go by their number among the obstacles that stand, whatever moves before them in the file.
+#[test]
+fn what_is_impossible_among_what_stands_is_so_among_more() {
+    for motion in MOTIONS {
+        let worlds =
+            [[&cart(motion), WALL], [WALL, &cart(motion)]].map(|obstacles| format!("{ENDS}{}", obstacles.concat()));
+        for world in worlds {
+            check(GANTRY, &world, &certificate("infeasible", &boxes())).unwrap();
+            check(GANTRY, &world, &certificate("no_shorter", BOUND)).unwrap();
+            let other = certificate("infeasible", &boxes()).replace(r#""obstacle": 0"#, r#""obstacle": 1"#);
+            let why = check(GANTRY, &world, &other).unwrap_err();
+            assert!(matches!(&why, CheckError::Fails(why) if why.contains("there is no obstacle 1")), "{why}");
+        }
+    }
+}
+
+/// In eight seconds from the start to the goal, a metre a second.
+const DRIVEN: &str = r#""motion": {"interpolation": ["linear"], "knots": [[0, 1, 1], [8, 9, 1]]}"#;
+
+/// What the checker says of a motion as it is given, among some obstacles.
+fn judged(obstacles: &str, evidence: &str) -> Result<String, CheckError> {
+    let text = format!(r#"{{"format": "cplan certificate 1", "answer": "found", {evidence}}}"#);
+    check(GANTRY, &format!("{ENDS}{obstacles}"), &text)
+}
+
+fn fails(judged: Result<String, CheckError>, with: &str) {
+    assert!(matches!(&judged, Err(CheckError::Fails(why)) if why.contains(with)), "{judged:?}");
+}
+
+/// The square has its left side at `0.5 + t` and its right one at `1.5 + t`, the upper at 1.5. A disc of radius 0.1 comes down along x = 5.
+#[test]
+fn in_time_by_hand() {
+    let disc = |motion: &str| {
+        format!("[[obstacle]]\ncircle = {{ center = [0, 0], radius = 0.1 }}\nat = [5, 5]\nmotion = {motion}\n")
+    };
+    let falling = |from: &str| disc(&format!("{{ stops = [{{ time = 0, at = [5, {from}] }}], velocity = [0, -1] }}"));
+    // At 4.6 s the square is past it: then the disc's lowest point is at `from - 4.7`. At 3.4 s it comes, and the uppermost is at `from - 3.3`.
+    for (from, is_free) in
+        [("6.21", true), ("6.19", true), ("6.1", false), ("5", false), ("3.9", false), ("3.7", true), ("1.7", true)]
+    {
+        let judged = judged(&falling(from), DRIVEN);
+        if is_free {
+            judged.unwrap();
+        } else {
+            fails(judged, "obstacle 0");
+        }
+    }
+    // It waits until it is time, and comes too late or is just there; it stays where the last stop is.
+    let late = |from: f64| {
+        let until = from + 4.0;
+        disc(&format!("{{ stops = [{{ time = {from:?} }}, {{ time = {until:?}, at = [5, 1] }}] }}"))
+    };
+    judged(&late(1.3), DRIVEN).unwrap();
+    fails(judged(&late(1.0), DRIVEN), "obstacle 0");
+    fails(judged(&disc("{ stops = [{ time = 0 }, { time = 1, at = [5, 1] }] }"), DRIVEN), "obstacle 0");
+    // With it, ever in front, it goes; a little slower it is run into.
+    let ahead = |speed: &str| disc(&format!("{{ stops = [{{ time = 0, at = [1.7, 1] }}], velocity = [{speed}, 0] }}"));
+    judged(&ahead("1"), DRIVEN).unwrap();
+    fails(judged(&ahead("0.98"), DRIVEN), "obstacle 0");
+    // The clock begins with the motion.
+    let later = DRIVEN.replace("[[0,", "[[2,").replace("[8,", "[10,");
+    judged(&falling("6.19"), &later).unwrap();
+    fails(judged(&falling("5"), &later), "obstacle 0");
+    // What begins around it.
+    let around =
+        "[[obstacle]]\npolygon = [[-3, -3], [3, -3], [3, 3], [-3, 3]]\nat = [1, 1]\nmotion = { velocity = [1, 0] }\n";
+    fails(judged(around, DRIVEN), "inside obstacle 0");
+    // Numbers go on after those that stand.
+    let post = "[[obstacle]]\ncircle = { center = [5, 9], radius = 1 }\n";
+    fails(judged(&format!("{}{post}", falling("5")), DRIVEN), "obstacle 1");
+    // A bound is about what stands.
+    judged(&falling("7"), &format!("{DRIVEN}, {BOUND}")).unwrap();
+}
+
+/// A bar from 2 m on one side of a pivot above the square's way to 2 m on the other.
+#[test]
+fn what_turns() {
+    let bar = |stops: &str| {
+        let shape = "polygon = [[-2, -0.01], [2, -0.01], [2, 0.01], [-2, 0.01]]\nat = [5, 3]";
+        format!("[[obstacle]]\n{shape}\nmotion = {{ stops = [{stops}] }}\n")
+    };
+    judged(&bar("{ time = 0 }"), DRIVEN).unwrap();
+    fails(judged(&bar("{ time = 0, angle = \"90deg\" }"), DRIVEN), "obstacle 0");
+    // One end comes down behind the square, or upon it.
+    judged(&bar("{ time = 5 }, { time = 6, angle = \"90deg\" }"), DRIVEN).unwrap();
+    fails(judged(&bar("{ time = 5 }, { time = 6, angle = \"-90deg\" }"), DRIVEN), "obstacle 0");
+    // After half a turn it is as before; not on the way.
+    judged(&bar("{ time = 9 }, { time = 10, angle = \"180deg\" }"), DRIVEN).unwrap();
+    fails(judged(&bar("{ time = 3 }, { time = 4, angle = \"180deg\" }"), DRIVEN), "obstacle 0");
+}
+
+/// Bottles on a belt along y = 4, picked at the corner of their frame that the tip goes to, and brought to where they are put down.
+#[test]
+fn picks_of_what_moves() {
+    let world = |step: &str| {
+        let belt = "[[object]]\nname = \"bottle\"\ncircle = { center = [0, 0], radius = 0.1 }\nat = [9, 4]\nmotion = { velocity = [-1, 0] }\n";
+        let steps = format!("[[step]]\npick = \"bottle\"\n{step}\n[[step]]\nplace = {{ at = [2, 8] }}\n");
+        format!("start.joints = [1, 1]\n{belt}{steps}")
+    };
+    // At 4 s the bottle is at (5, 4).
+    let done = |pick: &str, late: &str| {
+        let knots = format!("[0, 1, 1], [2, {pick}], [4, {pick}], [{late}, {pick}], [9, 2, 8]");
+        let steps = r#"[{"step": 1, "knots": [0, 2]}, {"step": 2, "knots": [3, 4]}]"#;
+        format!(
+            r#"{{"format": "cplan certificate 1", "answer": "found", "steps": {steps},
+                 "motion": {{"interpolation": ["linear"], "knots": [{knots}]}}}}"#
+        )
+    };
+    let judged = |step: &str, pick: &str, late: &str| check(GANTRY, &world(step), &done(pick, late));
+    judged("", "5, 4", "5").unwrap();
+    judged("window = [3.5, 4]\nat = [5, 4]", "5, 4", "5").unwrap();
+    fails(judged("", "5.01, 4", "5"), "misses the target");
+    fails(judged("window = [1, 3.9]", "5, 4", "5"), "outside its window");
+    fails(judged("at = [5.1, 4]", "5, 4", "5"), "not picked where it is to be then");
+    // The second bottle runs into the arm while it stands at the first, unless that goes in time: its square begins at x = 5.5.
+    let second = "[[object]]\nname = \"other\"\ncircle = { center = [0, 0], radius = 0.1 }\nat = [10.5, 4]\nmotion = { velocity = [-1, 0] }\n";
+    let both = |late: &str| check(GANTRY, &format!("{}{second}", world("")), &done("5, 4", late));
+    both("4.5").unwrap();
+    fails(both("5"), "obstacle 1");
+}
+
+#[test]
+fn courses_that_are_none() {
+    let refused = |motion: &str| match judged(&cart(motion), DRIVEN) {
+        Err(CheckError::Input { input: Input::World, line: Some(_), message }) => message,
+        other => panic!("{motion}: {other:?}"),
+    };
+    for (motion, message) in [
+        ("{ stops = [] }", "each later than the one before"),
+        ("{ stops = [{ time = 1 }, { time = 1, at = [0, 9] }] }", "each later than the one before"),
+        ("{ stops = [{ at = [0, 9] }] }", "a stop has a time"),
+        ("{ stops = [{ time = 1, speed = 3 }] }", "the key speed of a stop"),
+        ("{ turn = 3 }", "the key turn of a motion"),
+        ("3", "expected a table"),
+    ] {
+        let why = refused(motion);
+        assert!(why.contains(message), "{motion}: {why}");
+    }
+}

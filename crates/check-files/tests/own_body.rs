@@ -1,0 +1,372 @@
+//! The robot's own body: links that stand still and links that joint 1 carries are obstacles for other links.
+
+#[path = "common/scara.rs"]
+mod scara;
+
+use cplan_check_files::check;
+use scara::{LIMITS, QUILL, fails, folded, holds, scara, shut, told, world};
+
+/// Adds a link beside the base.
+fn beside(scara: &str, kind: &str, shape: &str) -> String {
+    let joint = format!(
+        r#"<joint name="c" type="{kind}"> <parent link="base"/> <child link="box"/> <limit lower="-1" upper="1"/> </joint>"#
+    );
+    scara.replace("</robot>", &format!("{joint} <link name=\"box\"> {shape} </link> </robot>"))
+}
+
+fn judged(urdf: &str, robot: &str, certificate: &str) -> (i32, String) {
+    told(check(urdf, &world(robot), certificate))
+}
+
+const HIT: [&str; 3] = ["from knot 0", "link \"quill\", collision 0", "link \"base\", collision 0"];
+
+/// Links of a robot may touch each other above and below; links and obstacles may not.
+#[test]
+fn a_base_is_hit_and_passed_over() {
+    let fold = |lowest: f64| judged(&scara(lowest), "", &folded(""));
+    fails(fold(0.1), &HIT);
+    fails(fold(0.2999), &HIT);
+    for over in [0.3, 0.31] {
+        holds(fold(over));
+    }
+    // The same base as an obstacle.
+    let bare = scara(0.3).replacen("<collision>", "<lamp>", 1).replacen("</collision>", "</lamp>", 1);
+    let block = "[[obstacle]]\npolygon = [[-0.2, -0.15], [0.2, -0.15], [0.2, 0.15], [-0.2, 0.15]]\n";
+    let among = |heights: &str| told(check(&bare, &format!("{}{block}{heights}", world("")), &folded("")));
+    fails(among("height = [0, 0.3]"), &["obstacle 0"]);
+    // The upper arm begins at 0.25 m, and is no neighbour of an obstacle.
+    holds(among("height = [0, 0.24]"));
+    // Folded less, the quill stays beside the base, by less than 0.3 m.
+    let turned = |extra: &str| judged(&scara(0.1), "", &folded(extra).replace("2.8]]", "2.2]]"));
+    holds(turned(r#""goal": [-1, 2.2],"#));
+    fails(turned(r#""goal": [-1, 2.2], "clearance": 0.3,"#), &HIT);
+}
+
+/// The base moves with the robot.
+#[test]
+fn a_base_stands_where_the_world_puts_the_robot() {
+    for at in ["", "at = [3, -2]", "at = [3, -2]\nangle = \"70deg\""] {
+        fails(judged(&scara(0.1), at, &folded("")), &HIT);
+        holds(judged(&scara(0.31), at, &folded("")));
+    }
+}
+
+#[test]
+fn the_world_says_which_links_may_meet() {
+    let said = |robot: &str| judged(&scara(0.1), robot, &folded(""));
+    holds(said("own_body = false"));
+    fails(said("own_body = true"), &HIT);
+    for pair in ["[\"base\", \"quill\"]", "[\"quill\", \"base\"]"] {
+        holds(said(&format!("ignore_contact = [{pair}]")));
+    }
+    fails(said("ignore_contact = [[\"base\", \"fore\"], [\"upper\", \"quill\"]]"), &HIT);
+    for (robot, part) in [
+        ("ignore_contact = [[\"base\", \"hand\"]]", "no link \"hand\""),
+        ("ignore_contact = [[\"base\"]]", "a list of two"),
+        ("ignore_contact = [[\"base\", 1]]", "expected a text"),
+        ("own_body = 1", "true or false"),
+    ] {
+        let (code, why) = said(robot);
+        assert!(code == 1 && why.contains(part), "{robot}: {why}");
+    }
+}
+
+/// A cylinder that leans is an obstacle, too: its outline is at most 0.5 mm wider than 0.1 m.
+#[test]
+fn a_leaning_base_is_as_wide_as_it_is() {
+    let leaning = |turn: &str| {
+        let shape = "<cylinder radius=\"0.1\" length=\"0.4\"/>";
+        let urdf = scara(0.1).replacen("<box size=\"0.4 0.3 0.3\"/>", shape, 1);
+        urdf.replacen("<origin xyz=\"0 0 0.15\"/>", &format!("<origin xyz=\"0 0 0.15\" rpy=\"{turn}\"/>"), 1)
+    };
+    fails(judged(&leaning("0 1.2 0"), "", &folded("")), &HIT);
+    holds(judged(&leaning("1.2 0 0"), "", &folded(r#""clearance": 0.0465,"#)));
+    fails(judged(&leaning("1.2 0 0"), "", &folded(r#""clearance": 0.0485,"#)), &HIT);
+}
+
+/// Neighbours may overlap. A link without a shape separates no neighbours.
+#[test]
+fn neighbours_may_meet() {
+    let sunk = scara(0.31).replacen("size=\"0.4 0.3 0.3\"", "size=\"0.4 0.3 0.6\"", 1);
+    // Up to 0.45 m high, the base is in the way of the quill, and not of the forearm.
+    fails(judged(&sunk, "", &folded("")), &["link \"quill\""]);
+    holds(judged(&sunk, "ignore_contact = [[\"base\", \"quill\"]]", &folded("")));
+    let higher = sunk.replacen("0.4 0.3 0.6", "0.4 0.3 0.62", 1);
+    let ignored = "ignore_contact = [[\"base\", \"quill\"]]";
+    fails(judged(&higher, ignored, &folded("")), &["link \"fore\", collision 0", "link \"base\""]);
+    // If the upper arm has no shape, base and forearm are neighbours.
+    let bare = higher.replacen("size=\"0.6 0.1 0.2\"", "size=\"0 0 0\"", 1);
+    holds(judged(&bare, ignored, &folded("")));
+    // A link beside the base is no neighbour of the upper arm: the base is between them.
+    let shape =
+        r#"<collision> <origin xyz="0.1 -0.2 0.35"/> <geometry> <sphere radius="0.05"/> </geometry> </collision>"#;
+    fails(judged(&beside(&scara(0.31), "fixed", shape), "", &folded("")), &["link \"upper\"", "link \"box\""]);
+    // On a joint of its own, its place is unknown.
+    holds(judged(&beside(&scara(0.31), "prismatic", shape), "joints = [\"a\", \"b\"]", &folded("")));
+}
+
+/// The visual shapes of a link count if it has no collision shapes, whatever other links have. A mesh of the base that cannot be read is reported.
+#[test]
+fn each_link_has_its_visual_shapes_by_itself() {
+    let of = |link: &str, urdf: &str| {
+        let (before, after) = urdf.split_once(&format!("<link name=\"{link}\">")).unwrap();
+        let (own, after) = after.split_once("</link>").unwrap();
+        format!("{before}<link name=\"{link}\">{}</link>{after}", own.replace("collision", "visual"))
+    };
+    let seen = of("quill", &of("base", &scara(0.1)));
+    fails(judged(&seen, "", &folded("")), &["link \"quill\", visual 0", "link \"base\", visual 0"]);
+    let both = seen.replace(
+        "<link name=\"quill\">",
+        "<link name=\"quill\"> <collision> <geometry> <sphere radius=\"0.01\"/> </geometry> </collision>",
+    );
+    // A small ball as collision shape replaces the visual shape.
+    fails(judged(&both, "", &folded("")), &["link \"quill\", collision 0"]);
+    holds(judged(&both.replace("<sphere radius=\"0.01\"/>", "<box size=\"0 0 0\"/>"), "own_body = false", &folded("")));
+    let unread = |link: &str, kind: &str, urdf: &str| {
+        let mesh = format!("<{kind}> <geometry> <mesh filename=\"none.stl\"/> </geometry> </{kind}>");
+        urdf.replace(&format!("<link name=\"{link}\">"), &format!("<link name=\"{link}\">{mesh}"))
+    };
+    let said = holds(judged(&unread("base", "collision", &scara(0.31)), "", &folded("")));
+    assert!(said.contains("collision of link \"base\" is left out"), "{said}");
+    // The other shape of the base still counts.
+    fails(judged(&unread("base", "collision", &scara(0.1)), "", &folded("")), &HIT);
+    let said = holds(judged(&unread("quill", "visual", &of("quill", &scara(0.31))), "", &folded("")));
+    assert!(said.contains("visual of link \"quill\" is left out"), "{said}");
+    let (code, why) = judged(&unread("quill", "collision", &scara(0.31)), "", &folded(""));
+    assert!(code == 1 && why.contains("other files"), "{why}");
+}
+
+/// A certificate may ignore links that always overlap. They have to overlap where its motion begins.
+#[test]
+fn a_pair_that_does_not_meet_is_not_ignored() {
+    let ignored = r#""ignored": [["base", "quill"]],"#;
+    let why = "do not overlap where the motion begins";
+    fails(judged(&scara(0.1), "", &folded(ignored)), &["\"base\" and \"quill\"", why]);
+    let plate = scara(0.1).replacen("size=\"0.4 0.3 0.3\"", "size=\"4 4 0.3\"", 1);
+    fails(judged(&plate, "", &folded("")), &HIT);
+    for pair in [ignored, r#""ignored": [["quill", "base"]],"#] {
+        let said = holds(judged(&plate, "", &folded(pair)));
+        assert!(said.contains("is ignored, as the certificate says"), "{said}");
+    }
+    let below = plate.replacen("xyz=\"0 0 0.15\"", "xyz=\"0 0 -0.1\"", 1);
+    fails(judged(&below, "", &folded(ignored)), &[why]);
+    fails(judged(&plate, "", &folded(r#""ignored": [["base", "hand"]],"#)), &[why]);
+    fails(judged(&plate, "", &folded(r#""ignored": [["fore", "quill"]],"#)), &[why]);
+}
+
+const BASE: &str = r#"{"own": "base", "collision": 0}"#;
+
+fn round(lowest: f64) -> String {
+    scara(lowest).replacen("<box size=\"0.4 0.3 0.3\"/>", "<cylinder radius=\"0.3\" length=\"0.3\"/>", 1)
+}
+
+#[test]
+fn proofs_name_links_that_stand_still() {
+    let certificate = shut(QUILL, BASE);
+    holds(judged(&round(0.1), LIMITS, &certificate));
+    holds(judged(&round(0.1), &format!("{LIMITS}\nat = [1, 1]\nangle = 2"), &certificate));
+    holds(judged(
+        &round(0.1).replacen("collision", "visual", 2),
+        LIMITS,
+        &certificate.replace("base\", \"collision", "base\", \"visual"),
+    ));
+    for (lowest, robot, shape, part, why) in [
+        (0.3, "", QUILL, BASE, "passes over or under"),
+        (0.1, "own_body = false", QUILL, BASE, "no collision shape number 0"),
+        (0.1, "ignore_contact = [[\"quill\", \"base\"]]", QUILL, BASE, "may meet link \"base\""),
+        (0.1, "", r#"{"link": "upper", "collision": 0}"#, BASE, "may meet link \"base\""),
+        (0.1, "", QUILL, r#"{"own": "base", "collision": 1}"#, "no collision shape number 1"),
+        (0.1, "", QUILL, r#"{"own": "base", "visual": 0}"#, "no visual shape"),
+        (0.1, "", QUILL, r#"{"own": "fore", "collision": 0}"#, "link \"fore\" has no"),
+        (0.1, "", QUILL, r#"{"obstacle": 0}"#, "no obstacle 0"),
+    ] {
+        fails(judged(&round(lowest), &format!("{LIMITS}\n{robot}"), &shut(shape, part)), &[why]);
+    }
+    for part in [
+        "{}",
+        r#"{"own": "base"}"#,
+        r#"{"own": "base", "obstacle": 0}"#,
+        r#"{"own": "base", "collision": 0, "corners": []}"#,
+    ] {
+        let (code, why) = judged(&round(0.1), LIMITS, &shut(QUILL, part));
+        assert_eq!(code, 1, "{part}: {why}");
+    }
+    // A smaller base leaves room.
+    let small = round(0.1).replacen("radius=\"0.3\"", "radius=\"0.2\"", 1);
+    fails(judged(&small, LIMITS, &certificate), &["can come off"]);
+}
+
+/// A carried object must not hit links that stand still.
+#[test]
+fn what_is_carried_stays_off_the_base() {
+    let base = r#"<link name="base"> <collision> <origin xyz="2 0.87 0"/> <geometry> <sphere radius="0.04"/> </geometry> </collision> </link>"#;
+    let gantry = format!(
+        r#"<robot name="g"> {base}
+  <joint name="x" type="prismatic">
+    <parent link="base"/> <child link="bridge"/> <axis xyz="1 0 0"/> <limit lower="-9" upper="9"/>
+  </joint>
+  <link name="bridge"> <collision> <geometry> <box size="0.02 0.02 0.02"/> </geometry> </collision> </link>
+  <joint name="y" type="prismatic">
+    <parent link="bridge"/> <child link="head"/> <axis xyz="0 1 0"/> <limit lower="-9" upper="9"/>
+  </joint>
+  <link name="head"> <collision> <geometry> <box size="0.1 0.1 0.1"/> </geometry> </collision> </link> </robot>"#
+    );
+    let carried = |size: &str, robot: &str| {
+        let world = format!(
+            "robot = {{ payload = \"level\", wrist = {{ velocity = 1 }}, {robot} }}\nstart.joints = [0, 1]\n[[object]]\nname = \"block\"\nat = [1, 1]\n\
+             polygon = [[-0.2, -{size}], [0.2, -{size}], [0.2, 0.1], [-0.2, 0.1]]\nheight = [0.02, 0.04]\n\
+             [[step]]\npick = \"block\"\n[[step]]\nplace = {{ at = [3, 1] }}\n"
+        );
+        let certificate = r#"{"format": "cplan certificate 1", "answer": "found",
+            "steps": [{"step": 1, "knots": [0, 1]}, {"step": 2, "knots": [2, 3]}],
+            "motion": {"interpolation": ["linear"], "knots": [[0, 0, 1], [1, 1, 1], [2, 1, 1], [3, 3, 1]]}}"#;
+        told(check(&gantry, &world, certificate))
+    };
+    holds(carried("0.08", ""));
+    fails(carried("0.1", ""), &["step 2", "what is carried", "link \"base\", collision 0"]);
+    holds(carried("0.1", "own_body = false"));
+    fails(carried("0.1", "ignore_contact = [[\"base\", \"head\"]]"), &["what is carried"]);
+}
+
+/// A bar stands in for a link.
+#[test]
+fn bars_are_kept_apart() {
+    let bare = scara(0.2).replacen("<collision>", "<lamp>", 4).replacen("</collision>", "</lamp>", 4);
+    let base = bare
+        .replacen("lamp>", "collision>", 1)
+        .replacen("</lamp>", "</collision>", 1)
+        .replace("0.45 0 -0.45", "0.45 0 0");
+    let high = |height: &str| base.replacen("0.4 0.3 0.3", height, 1);
+    // The bar of the forearm is 0.4 m to 0.5 m high, and reaches to the quill.
+    fails(judged(&high("0.4 0.3 0.7"), "bar = 0.05", &folded("")), &["the bar of link \"fore\"", "link \"base\""]);
+    holds(judged(&high("0.4 0.3 0.4"), "bar = 0.05", &folded("")));
+}
+
+/// A SCARA whose elbow goes all round, and whose upper arm is as wide as this.
+fn turning(lowest: f64, wide: f64) -> String {
+    let upper = scara(lowest).replacen("0.6 0.1 0.2", &format!("0.6 {wide} 0.2"), 1);
+    upper.replacen("name=\"b\" type=\"revolute\"", "name=\"b\" type=\"continuous\"", 1)
+}
+
+/// Folded back, the quill is in the middle of the upper arm. It passes above if it is high enough.
+#[test]
+fn the_upper_arm_is_hit_and_passed_over() {
+    let fold = |urdf: &str, robot: &str, knots: &str, extra: &str| {
+        let certificate = format!(
+            r#"{{"format": "cplan certificate 1", "answer": "found", {extra}
+                "motion": {{"interpolation": ["linear"], "knots": [{knots}]}}}}"#
+        );
+        judged(urdf, robot, &certificate)
+    };
+    let goal = |to: f64| format!(r#""goal": [1, {to}],"#);
+    let round = "[0, -1, 0], [1, 1, 4]";
+    let hit = ["from knot 0", "link \"quill\", collision 0", "link \"upper\", collision 0"];
+    for lowest in [0.35, 0.449] {
+        fails(fold(&turning(lowest, 0.1), "", round, &goal(4.0)), &hit);
+        fails(fold(&turning(lowest, 0.1), "at = [3, -2]\nangle = 1", round, &goal(4.0)), &hit);
+        holds(fold(&turning(lowest, 0.1), "own_body = false", round, &goal(4.0)));
+        holds(fold(&turning(lowest, 0.1), "ignore_contact = [[\"upper\", \"quill\"]]", round, &goal(4.0)));
+    }
+    holds(fold(&turning(0.45, 0.1), "", round, &goal(4.0)));
+    // 0.45 sin(2.8) - 0.02 - 0.05 = 0.0807 beside it, wherever the shoulder is.
+    for (clearance, is_free) in [(0.08, true), (0.081, false)] {
+        let extra = format!("{}\"clearance\": {clearance},", goal(2.8));
+        let (code, said) = fold(&turning(0.35, 0.1), "", "[0, -1, 0], [1, 1, 2.8]", &extra);
+        assert_eq!(code, if is_free { 0 } else { 3 }, "{clearance}: {said}");
+    }
+    // It is let through only if they overlap where the motion begins.
+    let ignored = format!(r#"{} "ignored": [["quill", "upper"]],"#, goal(4.0));
+    fails(fold(&turning(0.35, 0.1), "", round, &ignored), &["do not overlap where the motion begins"]);
+    let wide = turning(0.35, 2.5).replacen("0.6 2.5 0.2", "2.5 2.5 0.2", 1);
+    fails(fold(&wide, "", round, &goal(4.0)), &hit);
+    let said = holds(fold(&wide, "", round, &ignored));
+    assert!(said.contains("\"quill\" and \"upper\" is ignored"), "{said}");
+}
+
+/// If joint 1 slides, the carriage is an obstacle for what the elbow swings, wherever it is.
+#[test]
+fn a_carriage_is_hit_wherever_it_slides() {
+    let slides = turning(0.35, 0.1).replacen("name=\"a\" type=\"revolute\"", "name=\"a\" type=\"prismatic\"", 1);
+    let slides = slides.replacen("<axis xyz=\"0 0 1\"/>", "<axis xyz=\"0 1 0\"/>", 1);
+    let slid = |lowest: &str, to: f64| {
+        let certificate = folded(&format!(r#""start": [1, 0], "goal": [2, {to}],"#));
+        let certificate = certificate.replace("[0, -1, 0], [1, -1, 2.8]", &format!("[0, 1, 0], [1, 2, {to}]"));
+        judged(&slides.replacen("0.425", lowest, 1), "", &certificate)
+    };
+    fails(slid("0.425", 4.0), &["link \"quill\"", "link \"upper\""]);
+    holds(slid("0.425", 2.8));
+    holds(slid("0.53", 4.0));
+}
+
+const UPPER: &str = r#"{"own": "upper", "collision": 0}"#;
+
+/// Whether a part of the upper arm is met depends on the elbow alone: a box may be as wide as the shoulder goes.
+#[test]
+fn proofs_name_links_that_joint_1_carries() {
+    let proof = |boxes: &[f64], shape: &str, part: &str| {
+        let stuck = |at: &f64| {
+            let [low, high] = [at - 0.01, at + 0.01];
+            format!(r#"{{"lower": [-0.6, {low}], "upper": [0.6, {high}], "shape": 0, "part": 0}}"#)
+        };
+        let boxes: Vec<String> = boxes.iter().map(stuck).collect();
+        format!(
+            r#"{{"format": "cplan certificate 1", "answer": "infeasible", "start": [-0.1, 0], "goal": [0.1, 2.9],
+                "shapes": [{shape}], "parts": [{part}], "boxes": [{}]}}"#,
+            boxes.join(",")
+        )
+    };
+    let both = proof(&[2.65, -2.65], QUILL, UPPER);
+    holds(judged(&turning(0.35, 0.5), LIMITS, &both));
+    holds(judged(&turning(0.35, 0.5), &format!("{LIMITS}\nat = [1, 1]\nangle = 2"), &both));
+    // The elbow may also turn to the right.
+    fails(judged(&turning(0.35, 0.5), LIMITS, &proof(&[2.65], QUILL, UPPER)), &["do not separate"]);
+    holds(judged(&scara(0.35).replacen("0.6 0.1 0.2", "0.6 0.5 0.2", 1), LIMITS, &proof(&[2.65], QUILL, UPPER)));
+    for (lowest, wide, robot, shape, part, why) in [
+        (0.35, 0.3, "", QUILL, UPPER, "can come off"),
+        (0.45, 0.5, "", QUILL, UPPER, "passes over or under"),
+        (0.35, 0.5, "own_body = false", QUILL, UPPER, "no collision shape number 0"),
+        (0.35, 0.5, "ignore_contact = [[\"quill\", \"upper\"]]", QUILL, UPPER, "no collision shape number 0"),
+        (0.35, 0.5, "", r#"{"link": "upper", "collision": 0}"#, UPPER, "may meet link \"upper\""),
+        (
+            0.35,
+            0.5,
+            "",
+            r#"{"link": "upper", "collision": 0}"#,
+            r#"{"own": "quill", "collision": 0}"#,
+            "link \"quill\"",
+        ),
+    ] {
+        let robot = format!("{LIMITS}\n{robot}");
+        fails(judged(&turning(lowest, wide), &robot, &proof(&[2.65, -2.65], shape, part)), &[why]);
+    }
+    let ignored = both.replace("\"start\"", r#""ignored": [["upper", "quill"]], "start""#);
+    fails(judged(&turning(0.35, 0.5), LIMITS, &ignored), &["may meet link \"upper\""]);
+}
+
+/// What is held rigidly turns with the forearm. What is held level turns beside the upper arm, and needs room all round.
+#[test]
+fn what_is_carried_stays_off_the_upper_arm() {
+    let carried = |long: f64, elbow: f64, robot: &str| {
+        let tip = [f64::cos, f64::sin].map(|of| 0.5 * of(1.0) + 0.45 * of(1.0 + elbow));
+        let world = format!(
+            "[robot]\n{robot}\n[start]\njoints = [0, 0]\n[[object]]\nname = \"block\"\nat = [0.95, 0]\nheight = [0.31, 0.4]\n\
+             polygon = [[-{long}, -0.02], [0.02, -0.02], [0.02, 0.02], [-{long}, 0.02]]\n\
+             [[step]]\npick = \"block\"\n[[step]]\nplace = {{ at = {tip:?} }}\n"
+        );
+        let certificate = format!(
+            r#"{{"format": "cplan certificate 1", "answer": "found",
+            "steps": [{{"step": 1, "knots": [0, 1]}}, {{"step": 2, "knots": [1, 2]}}],
+            "motion": {{"interpolation": ["linear"], "knots": [[0, 0, 0], [1, 0, 0], [2, 1, {elbow}]]}}}}"#
+        );
+        told(check(&scara(0.46), &world, &certificate))
+    };
+    let level = "payload = \"level\"\nwrist = { velocity = 1 }";
+    let hit = ["step 2", "what is carried", "link \"upper\", collision 0"];
+    holds(carried(0.3, 2.2, ""));
+    fails(carried(0.3, 2.8, ""), &hit);
+    // The tip is 0.3138 m beside the upper arm.
+    holds(carried(0.31, 2.2, level));
+    fails(carried(0.32, 2.2, level), &hit);
+    holds(carried(0.32, 2.2, ""));
+    holds(carried(0.32, 2.2, &format!("{level}\nown_body = false")));
+}

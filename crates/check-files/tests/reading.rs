@@ -1,0 +1,71 @@
+//! What the documentation says of how much there is to read.
+
+use std::collections::BTreeSet;
+use std::path::Path;
+
+/// Greatest number of lines that an answer about one motion may rest on: as much as can be read in a few days.
+const MOST: usize = 3300;
+
+/// Greatest number of lines of the crate that judges.
+const MOST_OF_THE_JUDGE: usize = 3000;
+
+/// Lines of code of a file, without comments and tests.
+fn lines(path: &Path) -> usize {
+    let text = std::fs::read_to_string(path).unwrap_or_else(|why| panic!("{}: {why}", path.display()));
+    let code = text.split("#[cfg(test)]").next().unwrap().lines().map(str::trim);
+    code.filter(|line| !line.is_empty() && !line.starts_with("//")).count()
+}
+
+/// All files of a folder, as the table names them.
+fn sources(folder: &Path, root: &Path) -> BTreeSet<String> {
+    let mut found = BTreeSet::new();
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            found.extend(sources(&path, root));
+        } else {
+            found.insert(path.strip_prefix(root).unwrap().with_extension("").display().to_string());
+        }
+    }
+    found
+}
+
+/// The numbers of a table, which names each file of a crate once and is off by no more than a twentieth; and the lines of all files.
+fn numbers(section: &str, folder: &str) -> (Vec<usize>, usize) {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(folder).join("src");
+    let heading = format!("| subject | files in `crates/{folder}/src` | lines |\n");
+    let table = section.split(&heading).nth(1).expect("a table of each crate").split("\n\n").next().unwrap();
+    let mut left = sources(&root, &root);
+    let (mut numbers, mut all) = (Vec::new(), 0);
+    for row in table.lines().skip(1) {
+        let [_, what, files, said, _] = row.split('|').collect::<Vec<_>>()[..] else { panic!("{row:?}") };
+        let said: usize = said.trim().parse().unwrap();
+        let mut count = 0;
+        for file in files.split(',').map(|file| file.trim().trim_matches('`')) {
+            assert!(left.remove(file), "{file} is not there, or for the second time");
+            count += lines(&root.join(file).with_extension("rs"));
+        }
+        assert!(said.abs_diff(count) * 20 <= count, "{what}: the page has {said} lines, there are {count}");
+        numbers.push(said);
+        all += count;
+    }
+    assert!(left.is_empty(), "the page does not name {left:?}");
+    (numbers, all)
+}
+
+#[test]
+fn the_page_says_how_much_there_is_to_read() {
+    let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/certificate_checks.md");
+    let page = std::fs::read_to_string(page).unwrap();
+    let section = page.split("## How much there is to read").nth(1).unwrap().split("\n## ").next().unwrap();
+    let (judge, all) = numbers(section, "check");
+    let (files, _) = numbers(section, "check-files");
+    assert!(all <= MOST_OF_THE_JUDGE, "{all} lines judge one motion");
+    // What it says of sums is of the same rows, and no answer about one motion grows beyond what the page says.
+    let below: usize = judge[..3].iter().chain(&files[..3]).sum();
+    let answers = [(judge[3], "on 2 828 lines"), (judge[4], "on 3 118"), (judge[3] + judge[5], "on 3 294")];
+    for (answer, said) in answers {
+        let digits: usize = said.chars().filter(char::is_ascii_digit).collect::<String>().parse().unwrap();
+        assert!(section.contains(said) && (below + answer).abs_diff(digits) < 10 && digits <= MOST, "{said}");
+    }
+}

@@ -1,0 +1,554 @@
+//! Certificates of tasks, written by hand, and falsified ones.
+
+use cplan_check_files::{CheckError, check};
+
+/// A gantry: the tip is at the joints' values. A small head, on a bridge that is smaller still.
+const GANTRY: &str = r#"<robot name="g">
+  <link name="base"/>
+  <joint name="x" type="prismatic">
+    <parent link="base"/> <child link="bridge"/> <axis xyz="1 0 0"/> <limit lower="-9" upper="9"/>
+  </joint>
+  <link name="bridge"> <collision> <geometry> <box size="0.02 0.02 0.02"/> </geometry> </collision> </link>
+  <joint name="y" type="prismatic">
+    <parent link="bridge"/> <child link="head"/> <axis xyz="0 1 0"/> <limit lower="-9" upper="9"/>
+  </joint>
+  <link name="head"> <collision> <geometry> <box size="0.1 0.1 0.1"/> </geometry> </collision> </link>
+  <joint name="z" type="prismatic">
+    <parent link="head"/> <child link="quill"/> <origin xyz="0 0 0.5"/> <axis xyz="0 0 -1"/> <limit lower="0" upper="1"/>
+  </joint>
+  <link name="quill"> <collision> <geometry> <sphere radius="0.01"/> </geometry> </collision> </link>
+</robot>"#;
+
+const HEAD: &str =
+    "robot = { joints = [\"x\", \"y\"], payload = \"level\", wrist = { velocity = 1 } }\nstart.joints = [0, 1]\n";
+const BLOCK: &str =
+    "[[object]]\nname = \"block\"\nat = [1, 1]\npolygon = [[-0.2, -0.1], [0.2, -0.1], [0.2, 0.1], [-0.2, 0.1]]\n";
+const STEPS: &str =
+    "[[step]]\npick = \"block\"\n[[step]]\nplace = { at = [3, 1] }\n[[step]]\nmove = { joints = [3, 2] }\n";
+const KNOTS: &str = "[0, 0, 1], [1, 1, 1], [2, 1, 1], [3, 3, 1], [4, 3, 1], [5, 3, 2]";
+const DONE: &str = r#"{"step": 1, "knots": [0, 1]}, {"step": 2, "knots": [2, 3]}, {"step": 3, "knots": [4, 5]}"#;
+
+fn certificate(knots: &str, steps: &str) -> String {
+    format!(
+        r#"{{"format": "cplan certificate 1", "answer": "found", "steps": [{steps}],
+        "motion": {{"interpolation": ["linear"], "knots": [{knots}]}}}}"#
+    )
+}
+
+/// Whether it holds, by its exit code, and what is said.
+fn judged(urdf: &str, world: &str, knots: &str, steps: &str) -> (i32, String) {
+    match check(urdf, world, &certificate(knots, steps)) {
+        Ok(said) => (0, said),
+        Err(CheckError::Fails(why)) => (3, why),
+        Err(CheckError::Input { message, .. }) => (1, message),
+    }
+}
+
+/// Of the block that is carried from (1, 1) to (3, 1), in a world with more in it.
+fn carried(more: &str) -> (i32, String) {
+    judged(GANTRY, &format!("{HEAD}{BLOCK}{more}{STEPS}"), KNOTS, DONE)
+}
+
+#[track_caller]
+fn holds((code, said): (i32, String)) -> String {
+    assert_eq!(code, 0, "{said}");
+    said
+}
+
+#[track_caller]
+fn fails((code, said): (i32, String), part: &str) {
+    assert!(code == 3 && said.contains(part), "{code} {said}");
+}
+
+#[track_caller]
+fn is_wrong((code, said): (i32, String), part: &str) {
+    assert!(code == 1 && said.contains(part), "{code} {said}");
+}
+
+#[test]
+fn a_block_is_carried() {
+    let said = holds(carried(""));
+    assert!(said.starts_with("a motion of \"x\" and \"y\" does all 3 steps from the start on"), "{said}");
+}
+
+#[test]
+fn every_step_is_done_once_and_in_its_order() {
+    let world = format!("{HEAD}{BLOCK}{STEPS}");
+    let with = |steps: &str| judged(GANTRY, &world, KNOTS, steps);
+    let [one, two, three] = <[&str; 3]>::try_from(DONE.split(", {").collect::<Vec<_>>()).unwrap();
+    let [two, three] = [two, three].map(|step| format!("{{{step}"));
+    fails(with(&format!("{one}, {two}")), "asks for step 3 then, and there are no more");
+    fails(with(&format!("{one}, {three}")), "steps[1] is step 3, where the world asks for step 2");
+    fails(with(&format!("{two}, {one}, {three}")), "steps[0] is step 2");
+    fails(with(&format!("{DONE}, {three}")), "asks for no more");
+    fails(with(""), "asks for step 1");
+    fails(with(&DONE.replace("[2, 3]", "[1, 2]")), "after knot 2, which belongs to no step, the arm moves");
+    fails(with(&DONE.replace("[0, 1]", "[0, 2]").replace("[2, 3]", "[1, 3]")), "steps[1] begins before");
+    fails(with(&DONE.replace("[4, 5]", "[4, 6]")), "steps[2] ends before");
+    fails(with(&DONE.replace("[2, 3]", "[3, 2]").replace("[0, 1]", "[0, 3]")), "steps[1] ends before");
+    is_wrong(judged(GANTRY, &format!("{HEAD}goal.joints = [3, 2]\n{BLOCK}"), KNOTS, DONE), "it has no steps");
+    let goal = certificate(KNOTS, DONE).replacen("\"steps\"", "\"goal\": [3, 2], \"steps\"", 1);
+    assert!(matches!(check(GANTRY, &world, &goal), Err(CheckError::Input { .. })));
+}
+
+#[test]
+fn everything_is_where_it_is_asked_for_up_to_a_hair() {
+    let world = format!("{HEAD}{BLOCK}{STEPS}");
+    let at = |old: &str, new: &str| judged(GANTRY, &world, &KNOTS.replace(old, new), DONE);
+    assert!(holds(at("1, 1, 1], [2, 1, 1]", "1, 1.000009, 1], [2, 1.000009, 1]")).contains("within 1e-5"));
+    for [old, new] in [
+        ["1, 1, 1], [2, 1, 1]", "1, 1.000011, 1], [2, 1.000011, 1]"],
+        ["3, 1], [4, 3, 1]", "3, 1.000011], [4, 3, 1.000011]"],
+        ["3, 2]", "3.000011, 2]"],
+        ["[0, 0, 1]", "[0, 0.000011, 1]"],
+    ] {
+        fails(at(old, new), "by more than 1e-5");
+    }
+    // What is picked aside of where it is asked for lies beside where it is to be.
+    fails(
+        at(
+            "1, 1, 1], [2, 1, 1], [3, 3, 1], [4, 3, 1]",
+            "1, 1.000009, 1], [2, 1.000009, 1], [3, 2.999994, 1], [4, 2.999994, 1]",
+        ),
+        "step 2",
+    );
+    fails(at("[4, 3, 1]", "[4, 3, 1.0000001]"), "the arm moves");
+}
+
+#[test]
+fn what_is_carried_stays_off_what_the_arm_alone_passes() {
+    for (y, is_free) in [(0.79, true), (0.81, false)] {
+        let post = format!("[[obstacle]]\ncircle = {{ center = [2, {y}], radius = 0.1 }}\n");
+        let (code, said) = carried(&post);
+        assert_eq!(code, if is_free { 0 } else { 3 }, "{said}");
+        assert!(is_free || said.contains("steps[1], step 2: from knot 2 to the next what is carried"), "{said}");
+        let other =
+            format!("[[object]]\nname = \"other\"\ncircle = {{ center = [0, 0], radius = 0.1 }}\nat = [2, {y}]\n");
+        assert_eq!(carried(&other).0, code);
+    }
+    // 0.1 m from the tip's way: the clearance decides.
+    let wall = "[[obstacle]]\npolyline = [[2.5, 0.8], [3.5, 0.8]]\n";
+    holds(carried(wall));
+    let world = |clearance: &str| format!("clearance = {clearance}\n{HEAD}{BLOCK}{wall}{STEPS}");
+    holds(judged(GANTRY, &world("0.0999"), KNOTS, DONE));
+    fails(judged(GANTRY, &world("0.1"), KNOTS, DONE), "farther than 0.1 from obstacle 0");
+}
+
+#[test]
+fn the_target_may_be_touched_by_the_second_link_alone_and_other_objects_by_none() {
+    // The bridge runs along y = 0. What is carried may meet it.
+    let head = HEAD.replace("wrist =", "own_body = false, wrist =");
+    let low = |y: f64| {
+        let world = format!("{head}{BLOCK}{STEPS}").replace("[1, 1]", &format!("[1, {y}]"));
+        judged(GANTRY, &world, &KNOTS.replace("1, 1, 1], [2, 1, 1]", &format!("1, 1, {y}], [2, 1, {y}]")), DONE)
+    };
+    holds(low(0.2));
+    fails(low(0.1), "link \"bridge\", collision 0 is not shown");
+    // From where it was placed the head may go on once, not come back.
+    let more = "[[step]]\nmove = { joints = [3, 1] }\n";
+    let world = format!("{HEAD}{BLOCK}{STEPS}{more}");
+    let knots = format!("{KNOTS}, [6, 3, 2], [7, 3, 1]");
+    let done = format!("{DONE}, {{\"step\": 4, \"knots\": [6, 7]}}");
+    fails(judged(GANTRY, &world, &knots, &done), "steps[3], step 4: from knot 6 to the next link \"head\"");
+    // The last step may end in what has just been let go of, and not with the bridge in it.
+    let placed = |y: f64| {
+        let steps = STEPS.split("[[step]]\nmove").next().unwrap().replace("[3, 1]", &format!("[3, {y}]"));
+        let knots = KNOTS.split(", [4").next().unwrap().replace("[3, 3, 1]", &format!("[3, 3, {y}]"));
+        judged(GANTRY, &format!("{head}{BLOCK}{steps}"), &knots, DONE.split(", {\"step\": 3").next().unwrap())
+    };
+    holds(placed(0.2));
+    fails(placed(0.1), "step 2");
+}
+
+/// The bridge reaches 1.01 m, so 0.101 mm are allowed, and 0.0714 mm beside right angles.
+#[test]
+fn what_rests_on_a_support_presses_no_deeper_than_it_may() {
+    let on = |deep: f64, supports: &str| {
+        let table = format!(
+            "[[obstacle]]\nname = \"table\"\npolygon = [[-5, 0], [9, 0], [9, {}], [-5, {}]]\n",
+            0.9 + deep,
+            0.9 + deep
+        );
+        let flat = GANTRY.replace(
+            "<link name=\"bridge\"> <collision> <geometry>",
+            "<link name=\"bridge\"> <collision> <origin xyz=\"0 -1 0\"/> <geometry>",
+        );
+        let block = BLOCK.replace("at =", &format!("{supports}\nat ="));
+        judged(&flat, &format!("{HEAD}{block}{table}{STEPS}"), KNOTS, DONE)
+    };
+    let table = "supports = [\"table\"]";
+    holds(on(0.0, table));
+    holds(on(7.1e-5, table));
+    fails(on(7.2e-5, table), "no deeper than it may press into obstacle 0");
+    for supports in ["", "supports = []"] {
+        holds(on(-1e-9, supports));
+        fails(on(0.0, supports), "what is carried");
+    }
+    is_wrong(on(0.0, "supports = [\"tablet\"]"), "no obstacle and no object of this name");
+}
+
+#[test]
+fn the_wrist_turns_what_it_carries() {
+    let world = |more: &str| format!("{HEAD}{BLOCK}{more}{STEPS}").replace("[3, 1] }", "[3, 1], angle = 1.5708 }");
+    let turned = |by: &str| DONE.replace("[2, 3]", &format!("[2, 3], \"turn\": {by}"));
+    holds(judged(GANTRY, &world(""), KNOTS, &turned("1.5708")));
+    holds(judged(GANTRY, &world(""), KNOTS, &turned("-4.712385307")));
+    fails(judged(GANTRY, &world(""), KNOTS, DONE), "by more than 1e-5");
+    fails(judged(GANTRY, &world(""), KNOTS, &turned("1.57082")), "by more than 1e-5");
+    for round in ["7.853981634", "-7000000", "1e300"] {
+        fails(judged(GANTRY, &world(""), KNOTS, &turned(round)), "by more than a turn");
+    }
+    let level = |world: String| judged(GANTRY, &world, KNOTS, &turned("1.5708"));
+    fails(level(world("").replace(", wrist = { velocity = 1 }", "")), "there is no wrist");
+    fails(level(world("").replace("\"level\"", "\"rigid\"")), "there is no wrist");
+    // A corner sweeps past 0.2236 m from the tip, at the angle of 26.6 degrees from each end.
+    for (far, is_free) in [(0.2237, true), (0.2235, false)] {
+        let [x, y] = [3.0 + far * 0.8, 1.0 + far * 0.6];
+        let post = format!("[[obstacle]]\ncircle = {{ center = [{x}, {y}], radius = 1e-9 }}\n");
+        let (code, said) = level(world(&post));
+        assert_eq!(code, if is_free { 0 } else { 3 }, "{far}: {said}");
+    }
+    // Turned where it is picked, it is carried upright.
+    let tall = "[[obstacle]]\ncircle = { center = [2, 1.2], radius = 0.05 }\n";
+    holds(level(world(tall)));
+    let before = DONE.replace("[0, 1]", "[0, 1], \"turn\": 1.5708");
+    fails(judged(GANTRY, &world(tall), KNOTS, &before), "what is carried");
+    holds(judged(GANTRY, &world(""), KNOTS, &before));
+}
+
+/// Two bars of 1 m and 0.8 m, of which the second reaches to the tip.
+fn bars() -> String {
+    let link = |name: &str, length: f64| {
+        format!(
+            "<link name=\"{name}\"> <collision> <origin xyz=\"{} 0 0\"/> <geometry> <box size=\"{length} 0.1 0.1\"/> </geometry> </collision> </link>",
+            length / 2.0
+        )
+    };
+    let joint = |name: &str, kind: &str, parent: &str, child: &str, x: f64| {
+        format!(
+            "<joint name=\"{name}\" type=\"{kind}\"> <parent link=\"{parent}\"/> <child link=\"{child}\"/> <origin xyz=\"{x} 0 0\"/> \
+             <axis xyz=\"0 0 1\"/> <limit lower=\"-2.9\" upper=\"2.9\"/> </joint>"
+        )
+    };
+    format!(
+        "<robot name=\"r\"> <link name=\"base\"/> {} {} {} {} {} <link name=\"tool\"/> </robot>",
+        joint("a", "revolute", "base", "upper", 0.0),
+        link("upper", 1.0),
+        joint("b", "revolute", "upper", "fore", 1.0),
+        link("fore", 0.8),
+        joint("t", "fixed", "fore", "tool", 0.8),
+    )
+}
+
+/// Straight out it takes an object at (1.8, 0), and turns a quarter: the object comes to lie a quarter turned at (0, 1.8).
+#[test]
+fn what_is_held_rigidly_turns_with_the_arm() {
+    let world = |angle: &str, post: f64| {
+        format!(
+            "start.joints = [0, 0.5]\n[[object]]\nname = \"bar\"\nat = [1.8, 0]\npolygon = [[0, -0.01], [0.3, -0.01], [0.3, 0.01], [0, 0.01]]\n\
+             [[obstacle]]\ncircle = {{ center = [0, {post}], radius = 0.01 }}\n[[step]]\npick = \"bar\"\n\
+             [[step]]\nplace = {{ at = [0, 1.8]{angle} }}\n"
+        )
+    };
+    let quarter = "1.5707963267948966";
+    let knots = format!("[0, 0, 0.5], [1, 0, 0], [2, {quarter}, 0]");
+    let done = r#"{"step": 1, "knots": [0, 1]}, {"step": 2, "knots": [1, 2]}"#;
+    let with = |world: &str| judged(&bars(), world, &knots, done);
+    holds(with(&world("", 2.2)));
+    holds(with(&world(&format!(", angle = {quarter}"), 2.2)));
+    holds(with(&world(", angle = \"90deg\"", 2.2)));
+    fails(with(&world(", angle = 1.5708", 2.2).replace("1.5708", "1.5709")), "by more than 1e-5");
+    fails(with(&world("", 2.105)), "what is carried");
+    // Kept level by a wrist its end does not get there.
+    holds(with(&world("", 2.105).replacen("start", "robot.payload = \"level\"\nstart", 1)));
+}
+
+/// Three discs on a pallet go to another, in any order, by pairs.
+#[test]
+fn pairs_in_free_order() {
+    let pallet = |name: &str, y: f64| {
+        format!("[[pallet]]\nname = \"{name}\"\nrows = 1\ncolumns = 3\npitch = [1, 0]\nat = [1, {y}]\n")
+    };
+    let world = |order: &str| {
+        format!(
+            "{HEAD}{}{}[[object]]\nname = \"pin\"\npallet = \"feeder\"\ncircle = {{ center = [0, 0], radius = 0.02 }}\n\
+             [task]\norder = \"{order}\"\n[[step]]\ntransfer = {{ objects = \"pin\", to = \"tray\" }}\n",
+            pallet("feeder", 1.0),
+            pallet("tray", 2.0)
+        )
+    };
+    // Each from above, and back up: nothing lies at y = 3.
+    let done = |order: &[usize]| {
+        let (mut knots, mut steps) = (vec!["[0, 0, 1]".to_owned(), "[1, 0, 0.5]".into()], Vec::new());
+        for &k in order {
+            let (x, first) = (k as f64 + 1.0, knots.len() - 1);
+            let time = |more: usize| first + 1 + more;
+            knots.push(format!("[{}, {x}, 0.5]", time(0)));
+            knots.push(format!("[{}, {x}, 1]", time(1)));
+            knots.push(format!("[{}, {x}, 2]", time(2)));
+            knots.push(format!("[{}, {}, 2]", time(3), x + 0.5));
+            knots.push(format!("[{}, {}, 0.5]", time(4), x + 0.5));
+            steps.push(format!(
+                "{{\"step\": {}, \"knots\": [{}, {}]}}",
+                2 * k + 1,
+                if steps.is_empty() { 0 } else { first - 2 },
+                first + 2
+            ));
+            steps.push(format!("{{\"step\": {}, \"knots\": [{}, {}]}}", 2 * k + 2, first + 2, first + 3));
+        }
+        knots.truncate(knots.len() - 2);
+        (knots.join(", "), steps.join(", "))
+    };
+    let with = |order: &str, k: &[usize]| {
+        let (knots, steps) = done(k);
+        judged(GANTRY, &world(order), &knots, &steps)
+    };
+    holds(with("fixed", &[0, 1, 2]));
+    for order in [[0, 1, 2], [2, 0, 1], [1, 2, 0], [2, 1, 0]] {
+        let (code, said) = with("free", &order);
+        assert_eq!(code, 0, "{order:?}: {said}");
+    }
+    fails(with("fixed", &[1, 0, 2]), "steps[0] is step 3, where the world asks for step 1");
+    fails(with("free", &[0, 1, 1]), "where the world asks for step 5");
+    fails(with("free", &[0, 1]), "asks for step 5 then");
+}
+
+#[test]
+fn repetitions_find_a_new_object_where_it_is_renewed() {
+    let world = |renew: &str| {
+        format!(
+            "{HEAD}{BLOCK}{renew}[task]\nrepeat = 2\n[[step]]\npick = \"block\"\n[[step]]\nplace = {{ at = [3, 1] }}\n"
+        )
+    };
+    let again = "[0, 0, 1], [1, 1, 1], [2, 3, 1], [3, 3, 3], [4, 1, 3], [5, 1, 1], [6, 1, 2], [7, 3, 2], [8, 3, 1]";
+    let steps = |last: &str| {
+        format!(
+            r#"{{"step": 1, "knots": [0, 1]}}, {{"step": 2, "knots": [1, 2]}}, {{"step": 1, "knots": [2, {last}]}}, {{"step": 2, "knots": [{last}, 8]}}"#
+        )
+    };
+    // The first lies where the second is to go: they are one object.
+    holds(judged(GANTRY, &world("renew = true\n"), again, &steps("5")));
+    fails(judged(GANTRY, &world(""), again, &steps("5")), "steps[2], step 1: the motion misses the target");
+    // Without a new one it is picked where it lies.
+    holds(judged(
+        GANTRY,
+        &world(""),
+        "[0, 0, 1], [1, 1, 1], [2, 3, 1], [3, 3, 2], [4, 3, 1], [8, 3, 1]",
+        &steps("4").replace("8]", "4]"),
+    ));
+}
+
+/// The head goes through where the new one lies, which has the number of the one that it has just let go of.
+#[test]
+fn a_new_object_is_not_the_one_that_was_let_go_of() {
+    let side = "[[object]]\nname = \"pin\"\nat = [6, 5]\ncircle = { center = [0, 0], radius = 0.01 }\n";
+    let world = |renew: &str| {
+        format!(
+            "{HEAD}{BLOCK}{renew}{side}[task]\nrepeat = 2\n[[step]]\nmove = {{ joints = [5, 1] }}\n[[step]]\npick = \"block\"\n             [[step]]\nplace = {{ at = [1, 1] }}\n"
+        )
+    };
+    let knots = "[0, 0, 1], [1, 0, 3], [2, 5, 3], [3, 5, 1], [4, 5, 3], [5, 1, 3], [6, 1, 1], [7, 5, 1], [8, 1, 1]";
+    let steps = r#"{"step": 1, "knots": [0, 3]}, {"step": 2, "knots": [3, 6]}, {"step": 3, "knots": [6, 6]},
+                   {"step": 1, "knots": [6, 7]}, {"step": 2, "knots": [7, 8]}, {"step": 3, "knots": [8, 8]}"#;
+    // It leaves what it has let go of, and no other.
+    holds(judged(GANTRY, &world(""), knots, steps));
+    fails(judged(GANTRY, &world("renew = true\n"), knots, steps), "link \"head\"");
+}
+
+/// The bridge stands in what is put down on it, before there is a new one elsewhere.
+#[test]
+fn what_is_renewed_lies_where_it_was_put_until_the_arm_goes_on() {
+    let head = HEAD.replace("wrist =", "own_body = false, wrist =");
+    let world = format!(
+        "{head}{BLOCK}renew = true\n[task]\nrepeat = 2\n[[step]]\npick = \"block\"\n[[step]]\nplace = {{ at = [3, 0.05] }}\n"
+    );
+    let knots = "[0, 0, 1], [1, 1, 1], [2, 3, 0.05], [3, 3, 0.05], [4, 1, 1], [5, 3, 0.05]";
+    let steps = r#"{"step": 1, "knots": [0, 1]}, {"step": 2, "knots": [1, 2]}, {"step": 1, "knots": [3, 4]}, {"step": 2, "knots": [4, 5]}"#;
+    fails(judged(GANTRY, &world, knots, steps), "steps[2], step 1: link \"bridge\", collision 0 is inside obstacle 0");
+}
+
+/// Read as a cubic, a motion that goes on at the end of a step does not stand there.
+#[test]
+fn the_arm_stands_where_a_step_ends() {
+    let played = |speed: &str| {
+        let knots = format!("[0, 0, 1, 0, 0], [1, 1, 1, {speed}, 0], [3, 3, 1, 0, 0], [5, 3, 2, 0, 0]");
+        let steps = r#"{"step": 1, "knots": [0, 1]}, {"step": 2, "knots": [1, 2]}, {"step": 3, "knots": [2, 3]}"#;
+        let certificate = certificate(&knots, steps).replace("linear", "cubic");
+        check(GANTRY, &format!("{HEAD}{BLOCK}{STEPS}"), &certificate)
+    };
+    assert!(played("0").is_ok(), "{:?}", played("0"));
+    let fails =
+        |speed: &str| matches!(played(speed), Err(CheckError::Fails(why)) if why.contains("at its end the arm moves"));
+    assert!(fails("0.5") && fails("1e-300"));
+}
+
+/// The wrist turns what is held about the tip, and the stroke lowers it: both carry the tip, and the wrist's axis goes through it.
+#[test]
+fn the_tool_carries_the_tip() {
+    let with = |wrist: &str, tip: &str| {
+        let end = format!(
+            "<link name=\"spindle\"/> <joint name=\"w\" type=\"revolute\"> <parent link=\"quill\"/> <child link=\"spindle\"/>
+               <axis xyz=\"0 0 1\"/> <limit lower=\"-3\" upper=\"3\"/> </joint>
+             <link name=\"flange\"/> <joint name=\"f\" type=\"fixed\"> <parent link=\"{wrist}\"/> <child link=\"flange\"/>
+               <origin xyz=\"{tip} 0 -0.1\"/> </joint> </robot>"
+        );
+        let head = HEAD
+            .replace("velocity = 1", "velocity = 1, joint = \"w\"")
+            .replace("robot = {", "robot = { tip = \"flange\",");
+        judged(&GANTRY.replace("</robot>", &end), &format!("{head}{BLOCK}{STEPS}"), KNOTS, DONE)
+    };
+    holds(with("spindle", "0"));
+    is_wrong(with("spindle", "1e-5"), "does not go through");
+    is_wrong(with("quill", "0"), "does not carry the tip");
+}
+
+#[test]
+fn a_stroke_takes_the_tool_through_all_heights() {
+    let world = |robot: &str, height: &str| {
+        let head = HEAD.replace("wrist =", &format!("{robot} wrist ="));
+        let block = BLOCK.replace("at =", "height = [0, 0.05]\nlift = 0.3\nat =");
+        let shelf = format!(
+            "[[obstacle]]\nheight = {height}\npolygon = [[2.9, 1.05], [3.1, 1.05], [3.1, 1.08], [2.9, 1.08]]\n"
+        );
+        format!("{head}{block}{shelf}{STEPS}")
+    };
+    let with = |robot: &str, height: &str| judged(GANTRY, &world(robot, height), KNOTS, DONE);
+    let stroke = "stroke = { joint = \"z\" },";
+    // Between where it lies and where it is carried.
+    holds(with("", "[0.1, 0.2]"));
+    fails(with(stroke, "[0.1, 0.2]"), "what is carried");
+    // The quill's ball is at 0.49 to 0.51, and goes down by 0.3 or as far as is said.
+    let beneath = |travel: &str| {
+        let post = "[[obstacle]]\nheight = [0.3, 0.35]\ncircle = { center = [3, 1], radius = 0.001 }\n";
+        let world = world(&format!("stroke = {{ joint = \"z\"{travel} }},"), "[7, 8]").replacen(
+            "[[step]]",
+            &format!("{post}[[step]]"),
+            1,
+        );
+        // Carried as high as the post the block would meet it.
+        judged(GANTRY, &world.replace("lift = 0.3", "lift = 0.2"), KNOTS, DONE)
+    };
+    holds(beneath(", travel = 0.1"));
+    holds(beneath(", travel = 0.13"));
+    fails(beneath(", travel = 0.15"), "link \"quill\", collision 0");
+    fails(beneath(""), "link \"quill\", collision 0");
+    is_wrong(with("stroke = { joint = \"y\" },", "[0.1, 0.2]"), "does not move the tool along the normal");
+}
+
+/// Whatever way it is lowered, nothing may be where it is going to lie; what is beside that may.
+#[test]
+fn without_a_stroke_what_is_placed_is_free_where_it_lies() {
+    let lying = |at: f64, height: &str| {
+        let block = BLOCK.replace("at =", "height = [-0.3, -0.25]\nlift = 0.15\nat =");
+        let other = block.replace("\"block\"", "\"other\"").replace("at = [1, 1]", &format!("at = [{at}, 1]"));
+        let other = other.replace("[-0.3, -0.25]", height);
+        judged(GANTRY, &format!("{HEAD}{block}{other}{STEPS}"), KNOTS, DONE)
+    };
+    fails(lying(3.0, "[-0.3, -0.25]"), "step 2: obstacle 1 is inside what is carried");
+    fails(lying(3.39, "[-0.3, -0.25]"), "step 2");
+    holds(lying(3.41, "[-0.3, -0.25]"));
+    holds(lying(3.0, "[-0.24, -0.16]"));
+}
+
+#[test]
+fn the_arm_stands_for_the_dwell() {
+    let world = |dwell: &str| {
+        format!("{HEAD}{BLOCK}{STEPS}").replacen("pick = \"block\"", &format!("pick = \"block\"\ndwell = {dwell}"), 1)
+    };
+    holds(judged(GANTRY, &world("1.0000009"), KNOTS, DONE));
+    fails(judged(GANTRY, &world("1.000002"), KNOTS, DONE), "does not stand for 1.000002 s");
+}
+
+#[test]
+fn objects_that_are_not_convex() {
+    let block = |corners: &str| BLOCK.replace("[[-0.2, -0.1], [0.2, -0.1], [0.2, 0.1], [-0.2, 0.1]]", corners);
+    let angle = "[[-0.2, -0.2], [0.2, -0.2], [0.2, -0.1], [-0.1, -0.1], [-0.1, 0.2], [-0.2, 0.2]]";
+    let with = |more: &str| judged(GANTRY, &format!("{HEAD}{}{more}{STEPS}", block(angle)), KNOTS, DONE);
+    holds(with(""));
+    // A long wall over the whole way is in the notch all the time, or in one arm.
+    let wall = |y: f64| {
+        format!("[[obstacle]]\npolygon = [[1.7, {y}], [1.8, {y}], [1.8, {}], [1.7, {}]]\n", y + 0.01, y + 0.01)
+    };
+    fails(with(&wall(1.1)), "what is carried");
+    holds(with(&wall(1.21)));
+    // Small things inside of it, which none of its sides touches.
+    for inside in
+        ["circle = { center = [1, 0.85], radius = 0.01 }", "polygon = [[0.99, 0.84], [1.01, 0.84], [1, 0.86]]"]
+    {
+        let (code, said) = with(&format!("[[obstacle]]\n{inside}\n"));
+        assert!(code == 3 && said.contains("inside what is carried"), "{code} {said}");
+    }
+    holds(with("[[obstacle]]\ncircle = { center = [1.05, 1.4], radius = 0.01 }\n"));
+}
+
+/// A block like a C, open to the right, over a rail that it takes into its slot. The arm reaches 1.01 m, so that sides beside right angles give
+/// way by 0.0714 mm.
+#[test]
+fn what_is_not_convex_presses_no_deeper_than_it_may() {
+    let slotted =
+        "[[-0.2, -0.1], [0.2, -0.1], [0.2, 0.2], [-0.1, 0.2], [-0.1, 0.3], [0.2, 0.3], [0.2, 0.5], [-0.2, 0.5]]";
+    let flat = GANTRY.replace(
+        "<link name=\"bridge\"> <collision> <geometry>",
+        "<link name=\"bridge\"> <collision> <origin xyz=\"0 -1 0\"/> <geometry>",
+    );
+    let over = |outline: &str, support: &str, rests: bool| {
+        let supports = if rests { "supports = [\"rail\"]" } else { "" };
+        let block = format!("[[object]]\nname = \"block\"\nat = [1, 1]\n{outline}\n{supports}\n");
+        let world = format!("{HEAD}{block}[[obstacle]]\nname = \"rail\"\n{support}\n{STEPS}");
+        judged(&flat, &world, KNOTS, DONE)
+    };
+    let rail = |y: f64| format!("polyline = [[3.06, {y}], [9, {y}]]");
+    let backwards =
+        "[[-0.2, 0.5], [0.2, 0.5], [0.2, 0.3], [-0.1, 0.3], [-0.1, 0.2], [0.2, 0.2], [0.2, -0.1], [-0.2, -0.1]]";
+    for outline in [slotted, backwards] {
+        let slotted = format!("polygon = {outline}");
+        holds(over(&slotted, &rail(1.25), false));
+        fails(over(&slotted, &rail(1.2), false), "farther than 0 from obstacle 0");
+        for (y, is_free) in
+            [(1.25, true), (1.2 - 7.1e-5, true), (1.2 - 7.2e-5, false), (1.3 + 7.1e-5, true), (1.31, false)]
+        {
+            let (code, said) = over(&slotted, &rail(y), true);
+            assert!(code == if is_free { 0 } else { 3 }, "{y}: {said}");
+            assert!(is_free || said.contains("no deeper than it may press into obstacle 0"), "{y}: {said}");
+        }
+        // It may touch it, and not hold it inside.
+        let button = "circle = { center = [1, 1.1], radius = 1e-6 }";
+        fails(over(&slotted, button, true), "obstacle 0 is inside what is carried");
+    }
+    let foil = |thick: f64| {
+        let top = thick - 0.1;
+        format!("polygon = [[-0.2, -0.1], [0.2, -0.1], [0.2, {top}], [-0.2, {top}]]")
+    };
+    holds(over(&foil(1.5e-4), &rail(1.25), true));
+    is_wrong(over(&foil(1.4e-4), &rail(1.25), true), "too thin for what it may press into them");
+}
+
+#[test]
+fn worlds_that_ask_for_nothing_that_is_known() {
+    let with = |old: &str, new: &str| judged(GANTRY, &format!("{HEAD}{BLOCK}{STEPS}").replace(old, new), KNOTS, DONE);
+    for (old, new, part) in [
+        ("pick = \"block\"", "pick = \"blok\"", "no object of this name"),
+        ("place = {", "place = { on = \"tray 1,1\",", "either `at` or `on`"),
+        ("pick = \"block\"", "pick = \"block\"\nplace = { at = [3, 1] }", "a step does one thing"),
+        ("pick = \"block\"", "pick = \"block\"\nhow = 1", "does not know the key how"),
+        ("at = [1, 1]", "pallet = \"tray\"", "no pallet of this name"),
+        ("\"level\"", "\"lose\"", "\"rigid\" or \"level\""),
+        (
+            "[[step]]\npick",
+            "[[object]]\nname = \"block\"\nat = [5, 5]\ncircle = { center = [0, 0], radius = 1 }\n[[step]]\npick",
+            "a second object",
+        ),
+        (
+            "[[step]]\npick",
+            "[[obstacle]]\nname = \"block\"\npolyline = [[5, 5], [6, 6]]\n[[step]]\npick",
+            "an obstacle, of this name",
+        ),
+        ("[[step]]\npick", "[task]\norder = \"free\"\n[[step]]\npick", "pick, place, pick, place"),
+        ("[[step]]\npick", "[task]\nrepeat = 0\n[[step]]\npick", "a whole number from 1 on"),
+        ("[[step]]\npick", "[[step]]\nsteps = []\n[[step]]\npick", "there are no steps"),
+    ] {
+        is_wrong(with(old, new), part);
+    }
+    // As many repetitions as there can be are not looked for one by one.
+    fails(with("[[step]]\npick", "[task]\nrepeat = 900000000000000\n[[step]]\npick"), "there are no more");
+}

@@ -1,0 +1,159 @@
+//! Walls and their ends in the plane of a metric.
+
+use crate::certificate::Metric;
+use crate::decimal::Decimal;
+use crate::domain::Rectangle;
+use crate::interval::{BITS, Interval, Point};
+use num_bigint::{BigInt, Sign};
+use std::collections::BTreeMap;
+
+/// A place in the plane of the metric, whose units make lengths those of the metric.
+#[derive(Clone)]
+pub(super) struct Place {
+    pub(super) at: Point,
+    /// The same in coarser units, from a little below to a little above.
+    pub(super) coarse: [[i64; 2]; 2],
+    /// The value of joint 1 as it is written, and the turns from there, if it is one number.
+    pub(super) line: Option<Line>,
+}
+
+/// Configurations with one value of joint 1.
+pub(super) type Line = (Decimal, i64);
+
+/// Places are at most so far from the origin, in coarse units: products of differences are exact in 128 bits.
+pub(super) const FARTHEST: i64 = 1 << 58;
+
+/// Coarse units, of `2^-40`, are `2^COARSER` times as long.
+pub(super) const COARSER: u32 = BITS - 40;
+
+/// A wall as it is met on some turn of each joint.
+pub(super) struct Copy {
+    pub(super) wall: usize,
+    pub(super) turns: [i64; 2],
+    pub(super) ends: [Place; 2],
+}
+
+/// Walls on a line that overlap one another, from end to end, and where walls end within that come from either side.
+pub(super) struct Run {
+    pub(super) ends: [Interval; 2],
+    pub(super) beside: [Vec<Interval>; 2],
+}
+
+/// The runs of upright walls, with the ends of others in them.
+pub(super) fn runs(copies: &[Copy]) -> BTreeMap<Line, Vec<Run>> {
+    let mut runs: BTreeMap<Line, Vec<Run>> = BTreeMap::new();
+    for Copy { ends: [a, b], .. } in copies {
+        if let (Some(line), true) = (&a.line, a.line == b.line) {
+            let mut ends = [a.at[1].clone(), b.at[1].clone()];
+            if ends[1].lower < ends[0].lower {
+                ends.reverse();
+            }
+            runs.entry(line.clone()).or_default().push(Run { ends, beside: [vec![], vec![]] });
+        }
+    }
+    for list in runs.values_mut() {
+        list.sort_by(|a, b| a.ends[0].lower.cmp(&b.ends[0].lower));
+        let mut merged: Vec<Run> = Vec::new();
+        for run in list.drain(..) {
+            match merged.last_mut() {
+                Some(last) if below(&run.ends[0], &last.ends[1]) => {
+                    if last.ends[1].lower < run.ends[1].lower {
+                        last.ends[1] = run.ends[1].clone();
+                    }
+                }
+                _ => merged.push(run),
+            }
+        }
+        *list = merged;
+    }
+    for Copy { ends: [a, b], .. } in copies {
+        for (end, other) in [(a, b), (b, a)] {
+            let side = match (below(&other.at[0], &end.at[0]), below(&end.at[0], &other.at[0])) {
+                (true, _) => 0,
+                (_, true) => 1,
+                _ => continue,
+            };
+            let list = end.line.as_ref().and_then(|line| runs.get_mut(line));
+            let is_within = |run: &&mut Run| below(&run.ends[0], &end.at[1]) && below(&end.at[1], &run.ends[1]);
+            if let Some(run) = list.and_then(|list| list.iter_mut().find(is_within)) {
+                run.beside[side].push(end.at[1].clone());
+            }
+        }
+    }
+    runs
+}
+
+impl Place {
+    /// The copy of a rectangle on some turns; none where that is too far away.
+    pub(super) fn new(metric: &Metric, rectangle: &Rectangle, turns: [i64; 2]) -> Option<Self> {
+        let at = [0, 1].map(|k| {
+            let turns = Interval::exactly(BigInt::from(2 * turns[k]) << BITS);
+            metric.scaled(k, &(&Interval::around(&rectangle[k]) + &(Interval::pi() * &turns)))
+        });
+        let coarse = |n: BigInt| i64::try_from(n).ok().filter(|n| n.abs() < FARTHEST);
+        let both =
+            at.each_ref().map(|value| Some([coarse(&value.lower >> COARSER)?, coarse((&value.upper >> COARSER) + 1)?]));
+        let [first, second] = both;
+        let line = (rectangle[0][0] == rectangle[0][1]).then(|| (rectangle[0][0].clone(), turns[0]));
+        Some(Self { at, coarse: [first?, second?], line })
+    }
+
+    /// On which side of the line through two others it certainly is; 0 if neither.
+    pub(super) fn side(&self, a: &Self, b: &Self) -> i8 {
+        // Coarse middles are off by less than two units, so differences by less than four.
+        let middle = |place: &Self| place.coarse.map(|[low, high]| (low + high) / 2);
+        let wide = |place: &Self| place.coarse.iter().any(|[low, high]| high - low > 2);
+        let ([ax, ay], [bx, by], [px, py]) = (middle(a), middle(b), middle(self));
+        let (ux, uy, vx, vy) = (bx - ax, by - ay, px - ax, py - ay);
+        let product = |a: i64, b: i64| i128::from(a) * i128::from(b);
+        let area = product(ux, vy) - product(uy, vx);
+        let error = product(8, ux.abs() + uy.abs() + vx.abs() + vy.abs() + 8);
+        if area.abs() > error && ![a, b, self].into_iter().any(wide) {
+            return if area > 0 { 1 } else { -1 };
+        }
+        if self.coarse == a.coarse && self.at == a.at || self.coarse == b.coarse && self.at == b.at {
+            return 0;
+        }
+        let (a, b, p) = (&a.at, &b.at, &self.at);
+        let area = &(&(&b[0] - &a[0]) * &(&p[1] - &a[1])) - &(&(&b[1] - &a[1]) * &(&p[0] - &a[0]));
+        match (area.lower.sign(), area.upper.sign()) {
+            (Sign::Plus, _) => 1,
+            (_, Sign::Minus) => -1,
+            _ => 0,
+        }
+    }
+
+    /// Whether it certainly is on one side of the line through two others, and another place on the other.
+    pub(super) fn is_opposite(&self, other: &Self, a: &Self, b: &Self) -> bool {
+        let side = self.side(a, b);
+        side != 0 && other.side(a, b) == -side
+    }
+}
+
+impl Copy {
+    /// Where it begins along joint 1, in coarse units, ...
+    pub(super) fn begins(&self) -> i64 {
+        self.ends[0].coarse[0][0].min(self.ends[1].coarse[0][0])
+    }
+
+    /// ... and where it ends.
+    pub(super) fn stops(&self) -> i64 {
+        self.ends[0].coarse[0][1].max(self.ends[1].coarse[0][1])
+    }
+
+    /// Whether every straight leg from a place to any in a rectangle goes through its inside, from one side to the other.
+    pub(super) fn crosses(&self, from: &Place, to: &Place) -> bool {
+        let [a, b] = &self.ends;
+        let apart = |k: usize| {
+            let ends = |place: &Place| place.coarse[k];
+            ends(a)[0].min(ends(b)[0]) > ends(from)[1].max(ends(to)[1])
+                || ends(a)[1].max(ends(b)[1]) < ends(from)[0].min(ends(to)[0])
+        };
+        !apart(0) && !apart(1) && from.is_opposite(to, a, b) && a.is_opposite(b, from, to)
+    }
+}
+
+/// Whether the first is certainly below the second.
+pub(super) fn below(a: &Interval, b: &Interval) -> bool {
+    a.upper < b.lower
+}

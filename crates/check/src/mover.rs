@@ -1,0 +1,222 @@
+//! Where the arm's shapes are, and how far they can move.
+
+use crate::arm::{Arm, Motion};
+use crate::decimal::Decimal;
+use crate::domain::{Range, Rectangle};
+use crate::interval::{BITS, Interval, Point, both_turns, length, rough, roughly, sum, times, turned};
+use crate::overlap::{Shape, overlap_by_more_than, seem_to_overlap};
+use crate::shapes::{Body, Owner};
+use num_bigint::BigInt;
+use std::cell::RefCell;
+
+/// A box of configurations by its middle and half its sides.
+#[derive(Clone)]
+pub struct Cell {
+    middle: [Interval; 2],
+    half: [Interval; 2],
+}
+
+impl Cell {
+    /// The box in which to look for contact with a link of the robot: if joint 1 carries it, joint 1 is at zero.
+    pub fn beside(mut self, link: Option<&Owner>) -> Self {
+        if link.is_some_and(|link| link.is_carried) {
+            (self.middle[0], self.half[0]) = (Interval::whole(0), Interval::whole(0));
+        }
+        self
+    }
+
+    /// What a straight segment covers from `k / 2^cuts` to `(k + 1) / 2^cuts` of its length.
+    pub fn of_segment(from: &Point, along: &Point, k: i64, cuts: u32) -> Self {
+        let middle = sum(from, &times(along, &Interval::exactly(BigInt::from(2 * k + 1) << (BITS - cuts - 1))));
+        Self { middle, half: along.each_ref().map(|along| along.abs().in_halves(cuts + 1)) }
+    }
+}
+
+impl From<&Rectangle> for Cell {
+    fn from(ranges: &Rectangle) -> Self {
+        let middle = ranges.each_ref().map(|[low, high]| Interval::from(&Decimal::middle(low, high)));
+        let half = ranges.each_ref().map(|[low, high]| Interval::from(&(high - low)).half());
+        Self { middle, half }
+    }
+}
+
+/// What moves by no more than this when it turns by up to an angle at distance 1: the chord, which grows until half a turn.
+fn chord(angle: &Interval) -> Interval {
+    if angle.upper >= Interval::pi().lower {
+        return Interval::whole(2);
+    }
+    if angle.upper < Interval::whole(1).in_halves(4).lower {
+        // Its series alternates: so far it is longer.
+        let square = angle * angle;
+        let cubed = (&square * angle).over(24);
+        return &(angle - &cubed) + &(&cubed * &square).over(80);
+    }
+    let sine = &angle.half().sin_cos()[0];
+    sine + sine
+}
+
+impl Arm {
+    /// What a joint does at a value: the sine and cosine by which it turns, and by how much it slides.
+    fn displaced(&self, joint: usize, value: &Interval) -> [Point; 2] {
+        let [none, one] = [0, 1].map(Interval::whole);
+        match &self.joints[joint].motion {
+            Motion::Turn(sign) => [(value * &Interval::whole(*sign)).sin_cos(), [none.clone(), none]],
+            Motion::Slide(direction) => [[none, one], times(direction, value)],
+        }
+    }
+}
+
+/// A body, where it is and how far it gets in boxes, by what does not depend on the box.
+pub struct Mover<'a> {
+    arm: &'a Arm,
+    body: &'a Body,
+    /// Its corners, about.
+    rough: Vec<[f64; 2]>,
+    /// The first joint at the value that it had last: many boxes have it in common.
+    first: RefCell<(Interval, [Point; 2])>,
+    /// How far the second joint is from the first, and the body's points from the joint that moves it last.
+    offset: Interval,
+    reach: Interval,
+}
+
+/// The greatest length of some vectors.
+fn reach(points: &[Point]) -> Interval {
+    points.iter().map(|p| length(p).upper).max().map_or(Interval::whole(0), Interval::exactly)
+}
+
+impl<'a> Mover<'a> {
+    pub fn new(arm: &'a Arm, body: &'a Body) -> Self {
+        let zero = Interval::whole(0);
+        let first = RefCell::new((zero.clone(), arm.displaced(0, &zero)));
+        let rough = body.shape.points.iter().map(rough).collect();
+        Self { arm, body, rough, first, offset: length(&arm.offset), reach: reach(&body.shape.points) }
+    }
+
+    /// The body's shape in the middle of a box, in plane coordinates.
+    fn placed(&self, cell: &Cell) -> Shape {
+        let Self { arm, body, first, .. } = self;
+        let (value, first) = &mut *first.borrow_mut();
+        if *value != cell.middle[0] {
+            (*value, *first) = (cell.middle[0].clone(), arm.displaced(0, &cell.middle[0]));
+        }
+        let [turn, at] = match body.link {
+            0 => first.clone(),
+            _ => {
+                let [turn, at] = arm.displaced(1, &cell.middle[1]);
+                [both_turns(&first[0], &turn), sum(&turned(&sum(&arm.offset, &at), &first[0]), &first[1])]
+            }
+        };
+        let origin = sum(&arm.base, &at);
+        let point = |p: &Point| sum(&origin, &turned(p, &turn));
+        Shape { points: body.shape.points.iter().map(point).collect(), radius: body.shape.radius.clone() }
+    }
+
+    /// No point of the body is farther than this from where it is in the middle of a box, while the joints stay within the box.
+    ///
+    /// Of a convex hull it is a corner that moves farthest: where a point is depends on it affinely.
+    pub fn farthest(&self, cell: &Cell) -> BigInt {
+        let Self { arm, body, offset, reach: own, .. } = self;
+        let half = &cell.half;
+        let slid = |k: usize, direction: &Point| &length(direction) * &half[k];
+        let bound = match (&arm.joints[0].motion, (body.link == 1).then_some(&arm.joints[1].motion)) {
+            (Motion::Turn(_), None) => own * &chord(&half[0]),
+            (Motion::Slide(direction), None) => slid(0, direction),
+            (Motion::Turn(_), Some(Motion::Turn(_))) => {
+                &(offset * &chord(&half[0])) + &(own * &chord(&(&half[0] + &half[1])))
+            }
+            (Motion::Turn(_), Some(Motion::Slide(direction))) => {
+                // The second joint first, then the turn at the farther of the ends of the slide: distance is convex.
+                let slide = [&cell.middle[1] - &half[1], &cell.middle[1] + &half[1]];
+                let ends = slide.map(|value| sum(&arm.offset, &times(direction, &value)));
+                let points = &body.shape.points;
+                let out: Vec<Point> = ends.iter().flat_map(|end| points.iter().map(move |p| sum(end, p))).collect();
+                &slid(1, direction) + &(&reach(&out) * &chord(&half[0]))
+            }
+            (Motion::Slide(direction), Some(Motion::Turn(_))) => &slid(0, direction) + &(own * &chord(&half[1])),
+            (Motion::Slide(first), Some(Motion::Slide(second))) => &slid(0, first) + &slid(1, second),
+        };
+        bound.upper
+    }
+
+    /// Whether the body is seen to overlap a shape all over a box.
+    pub fn overlaps(&self, shape: &Shape, cell: &Cell) -> bool {
+        let farthest = self.farthest(cell);
+        self.seems_to_overlap(shape, cell, &farthest) && overlap_by_more_than(&self.placed(cell), shape, &farthest)
+    }
+
+    /// A guess in floating point, which spares looks in vain: no more than whether to look depends on it.
+    fn seems_to_overlap(&self, shape: &Shape, cell: &Cell, farthest: &BigInt) -> bool {
+        let mut placed = self.rough.clone();
+        for joint in (0..=self.body.link).rev() {
+            let value = roughly(&cell.middle[joint].lower);
+            let [x, y] = rough([&self.arm.base, &self.arm.offset][joint]);
+            match &self.arm.joints[joint].motion {
+                Motion::Turn(sign) => {
+                    let (sine, cosine) = (value * f64::from(*sign)).sin_cos();
+                    placed.iter_mut().for_each(|[a, b]| {
+                        [*a, *b] = [x + cosine * *a - sine * *b, y + sine * *a + cosine * *b];
+                    });
+                }
+                Motion::Slide(direction) => {
+                    let [u, v] = rough(direction);
+                    placed.iter_mut().for_each(|[a, b]| [*a, *b] = [x + value * u + *a, y + value * v + *b]);
+                }
+            }
+        }
+        let needed = farthest - &self.body.shape.radius.lower - &shape.radius.lower;
+        seem_to_overlap(&placed, &shape.points.iter().map(rough).collect::<Vec<_>>(), roughly(&needed))
+    }
+}
+
+impl Arm {
+    /// Rectangles that hold all configurations that put the tip at a place, but what is left out. The domain is cut in four, again and again;
+    /// parts are dropped that are left out, or in whose middle the tip is farther from the place than it can move within. Parts that touch
+    /// are put together; what a cut makes more of than `most` is not cut.
+    pub fn places(&self, place: &Point, most: usize, is_left_out: impl Fn(&Rectangle) -> bool) -> Vec<Rectangle> {
+        let mover = Mover::new(self, &self.tip);
+        let is_far = |rectangle: &Rectangle| {
+            let cell = Cell::from(rectangle);
+            let at = &mover.placed(&cell).points[0];
+            length(&[&at[0] - &place[0], &at[1] - &place[1]]).lower > mover.farthest(&cell)
+        };
+        let halves = |[low, high]: &Range| {
+            let middle = Decimal::middle(low, high);
+            [[low.clone(), middle.clone()], [middle, high.clone()]]
+        };
+        let mut parts = vec![self.domain.ranges.clone()];
+        for _ in 0..MOST_CUTS {
+            let mut smaller = Vec::new();
+            for part in &parts {
+                let [first, second] = part.each_ref().map(halves);
+                let four = first.iter().flat_map(|a| second.iter().map(move |b| [a.clone(), b.clone()]));
+                smaller.extend(four.filter(|part| !is_left_out(part) && !is_far(part)));
+            }
+            if smaller.len() > most {
+                break;
+            }
+            parts = smaller;
+        }
+        let mut merged: Vec<Rectangle> = Vec::new();
+        for mut part in parts {
+            while let Some(other) = merged.iter().position(|other| (0..2).all(|k| touch(&other[k], &part[k]))) {
+                let other = merged.swap_remove(other);
+                part = [0, 1].map(|k| hull(&part[k], &other[k]));
+            }
+            merged.push(part);
+        }
+        merged
+    }
+}
+
+/// Whether two ranges have a number in common.
+fn touch(a: &Range, b: &Range) -> bool {
+    a[0] <= b[1] && b[0] <= a[1]
+}
+
+/// The least range that holds two.
+fn hull(a: &Range, b: &Range) -> Range {
+    [(&a[0]).min(&b[0]).clone(), (&a[1]).max(&b[1]).clone()]
+}
+
+/// How often the domain is cut where the tip may be at a place: a part in 10^12 of each range is left.
+const MOST_CUTS: u32 = 40;

@@ -1,0 +1,158 @@
+//! The lower bound of a result, with what a checker needs to see it.
+
+use super::bound::{LeastLength, Potential, Ways};
+use super::contacts::Contacts;
+use super::{Evidence, inward, lines, ruled_out};
+use crate::bound::{Bound, evidence, motions};
+use cplan_core::check::StuckBox;
+use cplan_core::model::{Arm, MotionProblem, inverse};
+use cplan_core::space::{Configuration, Metric, Segment};
+use cplan_geometry::cross;
+use cplan_proofs::ClosedSegment;
+use cplan_world::Overrides;
+use serde_json::json;
+
+/// That no motion is shorter than a length, which is the bound of a result up to a hair.
+///
+/// It is about motions to one configuration, or to wherever the tip is at the place that was asked for. Then there are boxes about those of
+/// these configurations that are not free.
+pub(super) struct LowerBound {
+    least: LeastLength,
+    metric: Metric,
+    to: Option<Configuration>,
+    boxes: Vec<StuckBox>,
+}
+
+impl LowerBound {
+    /// Finds the evidence anew. None if goals are a curve, or not told from what is beside them.
+    pub fn of(problem: &MotionProblem, stated: &Bound, asked: &Overrides, care: &Care) -> Option<Self> {
+        let motions = motions(problem, stated.metric);
+        let topology = problem.scene().arm().topology();
+        let Ends { to, goals, boxes } = Ends::of(problem, asked)?;
+        let ways = Ways {
+            topology: &topology,
+            metric: stated.metric,
+            start: topology.wrap(motions.start),
+            goals: &goals,
+            about: if to.is_some() { 0.0 } else { ABOUT_A_GOAL },
+            limit: stated.upper,
+        };
+        let evidence = evidence(&motions, stated);
+        let of = |looks: usize| LeastLength::new(&ways, evidence.segments(motions.scene, motions.clearance, looks));
+        let (first, more) = care.looks.split_first()?;
+        let mut least = of(*first)?;
+        for looks in more {
+            if least.length < stated.lower * (1.0 - care.loss) {
+                least = of(*looks).filter(|closer| closer.length > least.length).unwrap_or(least);
+            }
+        }
+        Some(Self { least, metric: stated.metric, to, boxes })
+    }
+
+    /// The length.
+    pub fn length(&self) -> f64 {
+        self.least.length
+    }
+
+    /// The number of walls that bar shorter ways.
+    pub fn walls(&self) -> usize {
+        self.least.walls.len()
+    }
+
+    /// The members of a certificate that show it.
+    pub fn evidence(&self, contacts: &mut Contacts) -> Evidence {
+        let wall = |wall: &ClosedSegment| {
+            let (shape, part) = contacts.numbers(wall.pair);
+            let [from, to] = wall.ends.map(<[f64; 2]>::from);
+            json!({ "from": from, "to": to, "shape": shape, "part": part })
+        };
+        let walls: Vec<_> = self.least.walls.iter().map(wall).collect();
+        let potential = |p: &Potential| match p.turns {
+            [0, 0] => json!({ "wall": p.wall, "end": p.end, "value": p.value }),
+            turns => json!({ "wall": p.wall, "end": p.end, "turns": turns, "value": p.value }),
+        };
+        let potentials: Vec<_> = self.least.potentials.iter().map(potential).collect();
+        let metric = match self.metric {
+            Metric::Euclidean => json!("euclidean"),
+            Metric::Weighted { weights } => json!({ "weights": weights }),
+            Metric::Time { speeds } => json!({ "speeds": speeds }),
+        };
+        let to = self.to.map_or_else(String::new, |to| format!("\"to\": {}, ", json!(to)));
+        let (length, walls, potentials) = (self.least.length, lines(&walls), lines(&potentials));
+        let members =
+            format!(r#"{to}"length": {length}, "metric": {metric}, "walls": {walls}, "potentials": {potentials}"#);
+        let boxes = (!self.boxes.is_empty()).then(|| contacts.boxes(&self.boxes));
+        boxes.into_iter().chain([("bound", format!("{{ {members} }}"))]).collect()
+    }
+}
+
+/// How closely walls are looked at.
+pub(super) struct Care {
+    /// Looks along a wall in either direction, where a checker is to look as well that takes longer: as many as do for most, and then more ...
+    looks: &'static [usize],
+    /// ... if the bound loses more than this share. Where shapes come apart slowly, as in a slot, walls end too early.
+    loss: f64,
+}
+
+impl Care {
+    /// For certificates, which are to be small and soon checked.
+    pub const USUAL: Self = Self { looks: &[60, 300], loss: 1e-3 };
+
+    /// For bounds that are to be seen whole.
+    pub const CLOSE: Self = Self { looks: &[60, 300, 2000], loss: 1e-7 };
+}
+
+/// Where a bound leads to.
+struct Ends {
+    /// One configuration, if it is about that; or else the goal, wherever the tip is at the place.
+    to: Option<Configuration>,
+    /// All that may count as goals.
+    goals: Vec<Configuration>,
+    /// About those that are none.
+    boxes: Vec<StuckBox>,
+}
+
+impl Ends {
+    /// None where goals are a curve, or not told from what is beside them.
+    fn of(problem: &MotionProblem, asked: &Overrides) -> Option<Self> {
+        let (arm, pieces) = (problem.scene().arm(), problem.goals().pieces());
+        let topology = arm.topology();
+        if !pieces.iter().all(Segment::is_point) {
+            return None;
+        }
+        let goals: Vec<Configuration> = pieces.iter().map(|goal| inward(&topology, goal.ends()[0])).collect();
+        if let ([goal], None) = (&goals[..], asked.goal_tip) {
+            return Some(Self { to: Some(*goal), goals, boxes: Vec::new() });
+        }
+        let solved = inverse(arm, arm.tip_at(*goals.first()?), problem.start());
+        // All of them share the parts that a checker looks at: those on other turns, too.
+        let least = STRETCHED * solved.solutions(arm).len().max(1) as f64;
+        if solved.free.is_some() || solved.branches.iter().any(|q| tells_apart(arm, *q) <= least) {
+            return None;
+        }
+        let (boxes, left) = ruled_out(problem);
+        Some(Self { to: None, goals: [goals, left].concat(), boxes })
+    }
+}
+
+/// What a checker leaves open of where the tip is at a place, as a share of the way: it looks for these configurations itself, down to a
+/// part in 10^12 of the joints' ranges.
+const ABOUT_A_GOAL: f64 = 1e-6;
+
+/// Where [`tells_apart`] is less, a checker does not tell configurations that put the tip at a place from those beside them, as it cuts both
+/// joints' ranges in equal shares.
+const STRETCHED: f64 = 0.012;
+
+/// The area between the ways in which the joints move the tip, as a share of the square of both together: at most a quarter, and nothing where
+/// the arm is stretched or folded.
+fn tells_apart(arm: &Arm, q: Configuration) -> f64 {
+    const STEP: f64 = 1e-6;
+    let ranges = arm.topology().ranges;
+    let moved = |k: usize| {
+        let (lower, upper) = ranges[k].domain();
+        let step = Configuration::from_fn(|i, _| if i == k { STEP * (upper - lower) } else { 0.0 });
+        arm.tip_at(q + step) - arm.tip_at(q - step)
+    };
+    let [a, b] = [moved(0), moved(1)];
+    cross(a, b).abs() / (a.norm() + b.norm()).powi(2)
+}

@@ -1,0 +1,47 @@
+//! Certificates of what a result states, made anew for its files.
+
+use super::contacts::Contacts;
+use super::lower_bound::{Care, LowerBound};
+use super::{about, ruled_out, said, written};
+use crate::bound::Bound;
+use cplan_core::check::StuckBox;
+use cplan_core::model::MotionProblem;
+use cplan_world::Overrides;
+
+/// A certificate that no motion is shorter than a length.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BoundCertificate {
+    /// The length. The evidence is found anew, so it can differ from the bound that was stated.
+    pub length: f64,
+    /// The number of walls that bar shorter motions.
+    pub walls: usize,
+    /// The text for a checker.
+    pub text: String,
+}
+
+/// Returns the certificate that boxes separate the start from all goals, whether they do or not. What `asked` says in place of the world
+/// file is in it.
+///
+/// # Errors
+/// The first box whose shapes are none of the problem's, or never meet.
+pub fn certificate_of_boxes(problem: &MotionProblem, stuck: &[StuckBox], asked: &Overrides) -> Result<String, usize> {
+    let scene = problem.scene();
+    if let Some(odd) = stuck.iter().position(|stuck| scene.pairs().binary_search(&stuck.pair).is_err()) {
+        return Err(odd);
+    }
+    let mut contacts = Contacts::new(scene);
+    let boxes = contacts.boxes(&[stuck, &ruled_out(problem).0].concat());
+    let said = [about(None, scene.arm()), said(problem, asked)].concat();
+    Ok(written("infeasible", said, contacts.named().into_iter().chain([boxes])))
+}
+
+/// Returns the certificate of a bound. None if goals are a curve, or not told from configurations beside them.
+#[must_use]
+pub fn certificate_of_bound(problem: &MotionProblem, stated: &Bound, asked: &Overrides) -> Option<BoundCertificate> {
+    let bound = LowerBound::of(problem, stated, asked, &Care::CLOSE)?;
+    let mut contacts = Contacts::new(problem.scene());
+    let evidence = bound.evidence(&mut contacts);
+    let said = [about(None, problem.scene().arm()), said(problem, asked)].concat();
+    let text = written("no_shorter", said, contacts.named().into_iter().chain(evidence));
+    Some(BoundCertificate { length: bound.length(), walls: bound.walls(), text })
+}

@@ -1,0 +1,49 @@
+//! What closes ways shorter than a bound, as evidence for a checker.
+
+use super::closed::Wall as FoundWall;
+use super::strips::Strips;
+use crate::evidence::{Barrier, Slice, Wall};
+use cplan_core::check::{Deviation, Posture};
+use cplan_core::model::{Pair, Scene};
+use cplan_core::space::Configuration;
+use cplan_geometry::Ordered;
+
+impl Strips<'_> {
+    /// All slices that were looked at, with what was found closed. What link 1 closes is closed all along the slices beside it.
+    pub fn evident(&self, scene: &Scene) -> Vec<Slice> {
+        let pairs = self.closed.by_number();
+        let (bottom, top) = self.topology().ranges[1].domain();
+        let count = self.strips.len();
+        let round = self.topology().ranges[0].is_circle();
+        let whole = |q1: f64| deepest(scene, q1).map(|pair| Wall { lower: bottom, upper: top, pair });
+        let mut slices: Vec<Slice> = (0..count)
+            .map(|number| {
+                let strip = &self.strips[number];
+                let before = number.checked_sub(1).or(round.then_some(count - 1));
+                let closed = strip.closed || before.is_some_and(|before| self.strips[before].closed);
+                let mut walls = found_closed(strip.walls.as_deref().unwrap_or(&[]), &pairs);
+                walls.extend(whole(strip.from).filter(|_| closed));
+                let found = strip.barriers.as_deref().unwrap_or(&[]);
+                let barriers = found.iter().map(|&(ends, number)| Barrier { ends, pair: pairs[number] }).collect();
+                Slice { q1: strip.from, walls, barriers }
+            })
+            .collect();
+        if let Some(strip) = self.strips.last().filter(|_| !round) {
+            let mut walls = found_closed(&self.last, &pairs);
+            walls.extend(whole(strip.to).filter(|_| strip.closed));
+            slices.push(Slice { q1: strip.to, walls, barriers: Vec::new() });
+        }
+        slices
+    }
+}
+
+fn found_closed(walls: &[FoundWall], pairs: &[Pair]) -> Vec<Wall> {
+    walls.iter().map(|wall| Wall { lower: wall.lower, upper: wall.upper, pair: pairs[wall.pair] }).collect()
+}
+
+/// The pair of link 1 that overlaps most at a value of joint 1.
+fn deepest(scene: &Scene, q1: f64) -> Option<Pair> {
+    let posture = Posture::new(scene, Configuration::new(q1, scene.arm().joints[1].range.domain().0));
+    let distance = |pair: &Pair| Ordered(posture.bound(*pair, Deviation::Box([0.0; 2])).here.distance);
+    scene.pairs().iter().filter(|pair| pair.link == 0).min_by_key(|pair| distance(pair)).copied()
+}
