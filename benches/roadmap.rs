@@ -1,8 +1,6 @@
 //! Roadmap planners among random disjoint polygons, 23 % of the area filled: what they build, the whole visibility graph,
 //! one query; and beside it the textbook's visibility graph, every pair of corners against every side.
 
-#[path = "../tests/common/dice.rs"]
-mod dice;
 #[path = "../tests/common/roadmap.rs"]
 #[allow(dead_code, reason = "the judges of the test suite are not needed here")]
 mod roadmap;
@@ -11,8 +9,8 @@ use cplan::cspace::Regions;
 use cplan::geometry::{Point, segments_cross};
 use cplan::planner::{Planner, Proposal, Query, Trapezoid, Visibility};
 use cplan::space::Metric;
+use cplan_cases::dice::{self, Dice};
 use criterion::{BatchSize, BenchmarkId, Criterion, criterion_group, criterion_main};
-use dice::Dice;
 use roadmap::{configuration, sides, star_crowd};
 use std::hint::black_box;
 

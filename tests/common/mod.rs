@@ -1,13 +1,11 @@
 //! Arms and scenes made in code, for tests and benchmarks.
 #![allow(dead_code, reason = "every test and benchmark uses some of it")]
 
-pub mod dice;
-pub mod mazes;
 pub mod reference;
 pub mod roadmap;
-pub mod slips;
 
 pub use cplan_cases as random;
+pub use cplan_cases::dice;
 
 use cplan::check::{Disconnection, ProofError, StuckBox};
 use cplan::geometry::{Convex, Point, Vector};
@@ -16,13 +14,7 @@ use cplan::model::{
     Arm, Heights, Joint, JointType, Link, MotionProblem, Obstacle, OutlineSource, Part, Plane, Scene, Shape, Workspace,
 };
 use cplan::space::{Configuration, GoalSet, JointRange};
-use dice::Dice;
 use nalgebra::Vector3;
-
-/// The generator of this number; another one with another `CPLAN_SEED`.
-pub fn dice(stream: u64) -> Dice {
-    Dice::new(stream ^ random::seed().wrapping_mul(0xd134_2543_de82_ef95))
-}
 
 pub fn q(a: f64, b: f64) -> Configuration {
     Configuration::new(a, b)

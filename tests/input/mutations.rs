@@ -2,8 +2,8 @@
 
 use crate::common::dice;
 use crate::common::random::times;
-use crate::common::slips::slipped;
 use cplan::input::{InputError, Overrides, RobotFile, Source, load_recording, scene_from};
+use cplan_cases::slips::slipped;
 
 const ARM: &str = include_str!("../../src/cli/starter/rr.urdf");
 

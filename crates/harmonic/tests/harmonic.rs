@@ -1,9 +1,7 @@
 //! The harmonic field at any length: exact values where they are far below the least double, mazes and spirals, and the
 //! curve between the cells.
 
-#[path = "../../../tests/common/mazes.rs"]
-mod mazes;
-
+use cplan_cases::mazes;
 use cplan_harmonic::{Component, Field, Lattice, Place, Potential, Uphill, follow, harmonic, harmonic_way, residual};
 use num_rational::BigRational;
 use proptest::prelude::*;

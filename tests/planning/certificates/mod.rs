@@ -17,11 +17,11 @@ mod tasks;
 
 use crate::common::dice::Dice;
 use crate::common::random::{seeds, times, usual};
-use crate::common::slips::slipped;
 use cplan::input::{self, Overrides, Source};
 use cplan::model::Status;
 use cplan::space::Configuration;
 use cplan::{Options, Planner, Problem, plan};
+use cplan_cases::slips::slipped;
 use cplan_check::{CheckError, check};
 use drawn::{Drawn, Goal, Kind, Outline};
 use serde_json::{Value, json};

@@ -1,7 +1,7 @@
 //! Corridors exactly one cell wide, through the whole program: a pen on two slides among walls without thickness.
 
 use super::Place;
-use crate::common::mazes;
+use cplan_cases::mazes;
 use std::fmt::Write;
 
 /// Side of a cell along the second slide, metres; along the first it is less, since an outer grid grows walls by half of
