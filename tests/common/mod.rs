@@ -3,9 +3,12 @@
 
 pub mod reference;
 pub mod roadmap;
+#[path = "../../crates/geometry/tests/oracles/shapes.rs"]
+mod shapes;
 
 pub use cplan_cases as random;
 pub use cplan_cases::dice;
+pub use shapes::{convex, disc, wall};
 
 use cplan::check::{Disconnection, ProofError, StuckBox};
 use cplan::geometry::{Convex, Point, Vector};
@@ -29,21 +32,6 @@ pub fn recheck(
     clearance: f64,
 ) -> Result<(), ProofError> {
     Disconnection::new(stuck.to_vec()).checked(scene, start, goals, clearance).map(drop)
-}
-
-/// A convex polygon grown by a radius, which must be one.
-pub fn convex(core: Vec<Point>, radius: f64) -> Convex {
-    Convex::new(core, radius).expect("a convex shape")
-}
-
-/// A disc; with radius 0 a point.
-pub fn disc(center: Point, radius: f64) -> Convex {
-    Convex::disc(center, radius).expect("a disc")
-}
-
-/// A wall without thickness.
-pub fn wall(a: Point, b: Point) -> Convex {
-    Convex::segment(a, b).expect("a wall")
 }
 
 /// The rectangle `[x0, x1] x [y0, y1]`.

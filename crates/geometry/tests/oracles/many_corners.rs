@@ -2,7 +2,7 @@
 //! itself, and which sides of a broken one are named, against looking at all pairs.
 
 use crate::lattice::{Corner, cross, meet, points};
-use cplan::geometry::{Convex, MOST_CORNERS, Point, PolygonError, SimplePolygon, decompose};
+use cplan_geometry::{Convex, MOST_CORNERS, Point, PolygonError, SimplePolygon, decompose};
 use proptest::prelude::*;
 
 /// A ring around the origin on the lattice, with one corner in each of `count` directions; `radius` of each.
