@@ -81,9 +81,9 @@ fn ways(seed: u64, tally: &mut Tally) {
 #[test]
 fn certificates_of_random_motions_hold() {
     let mut tally = Tally::default();
-    for seed in seeds(20) {
+    for seed in seeds(40) {
         ways(seed, &mut tally);
     }
     println!("{tally:?}");
-    assert!(!usual() || tally.found.iter().all(|count| *count > 1) && tally.to_tips > 0, "{tally:?}");
+    assert!(!usual() || tally.found.iter().all(|count| *count > 3) && tally.to_tips > 0, "{tally:?}");
 }
