@@ -1,8 +1,9 @@
-//! The source text itself: who imports whom, what comes from outside, and that no test is left to chance.
+//! The source text itself: who imports whom, what comes from outside, and that no test is left to chance or left out.
 
 mod dependencies;
 mod imports;
 mod seeds;
+mod targets;
 
 use std::path::{Path, PathBuf};
 

@@ -1,13 +1,15 @@
 //! Arms and scenes made in code, for tests and benchmarks.
 #![allow(dead_code, reason = "every test and benchmark uses some of it")]
 
-pub mod dice;
-pub mod mazes;
 pub mod reference;
 pub mod roadmap;
-pub mod slips;
+#[path = "../../crates/geometry/tests/oracles/shapes.rs"]
+mod shapes;
 
+#[allow(unused_imports, reason = "tests use it, benchmarks do not")]
 pub use cplan_cases as random;
+pub use cplan_cases::dice;
+pub use shapes::{convex, disc, wall};
 
 use cplan::check::{Disconnection, ProofError, StuckBox};
 use cplan::geometry::{Convex, Point, Vector};
@@ -16,13 +18,7 @@ use cplan::model::{
     Arm, Heights, Joint, JointType, Link, MotionProblem, Obstacle, OutlineSource, Part, Plane, Scene, Shape, Workspace,
 };
 use cplan::space::{Configuration, GoalSet, JointRange};
-use dice::Dice;
 use nalgebra::Vector3;
-
-/// Returns the generator with this number. With another `CPLAN_SEED`, it is a different one.
-pub fn dice(stream: u64) -> Dice {
-    Dice::new(stream ^ random::seed().wrapping_mul(0xd134_2543_de82_ef95))
-}
 
 pub fn q(a: f64, b: f64) -> Configuration {
     Configuration::new(a, b)
@@ -39,22 +35,7 @@ pub fn recheck(
     Disconnection::new(stuck.to_vec()).checked(scene, start, goals, clearance).map(drop)
 }
 
-/// Returns a convex polygon grown by a radius; panics if it is not convex.
-pub fn convex(core: Vec<Point>, radius: f64) -> Convex {
-    Convex::new(core, radius).expect("a convex shape")
-}
-
-/// Returns a disc; with radius 0 a point.
-pub fn disc(center: Point, radius: f64) -> Convex {
-    Convex::disc(center, radius).expect("a disc")
-}
-
-/// Returns a wall without thickness.
-pub fn wall(a: Point, b: Point) -> Convex {
-    Convex::segment(a, b).expect("a wall")
-}
-
-/// Returns the rectangle `[x0, x1] x [y0, y1]`.
+/// The rectangle `[x0, x1] x [y0, y1]`.
 pub fn rectangle(x0: f64, x1: f64, y0: f64, y1: f64) -> Convex {
     convex(vec![Point::new(x0, y0), Point::new(x1, y0), Point::new(x1, y1), Point::new(x0, y1)], 0.0)
 }

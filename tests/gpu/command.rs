@@ -1,7 +1,7 @@
 //! `--on gpu`, from outside.
 
-use assert_cmd::Command;
 use serde_json::Value;
+use std::process::Command;
 
 /// Where Vulkan's loader looks for drivers, by both its names, and a place that has none.
 const DRIVERS: [&str; 2] = ["VK_DRIVER_FILES", "VK_ICD_FILENAMES"];

@@ -143,14 +143,16 @@ fn files_that_are_no_urdf() {
     );
     bad_arm("xyz=\"1 0 0\"", "xyz=\"${l1} 0 0\"", &["line 13", "no property \"l1\"", "xacro:property"]);
     let run = |name: &str, text: &str| load_files(name, text, WORLD, &Overrides::default());
-    assert!(run("arm.urdf.xacro", ARM).is_ok());
+    let arm = |name: &str, text: &str| run(name, text).unwrap().problem.scene().arm().clone();
+    let plain = arm("arm.urdf", ARM);
+    assert_eq!(arm("arm.urdf.xacro", ARM), plain);
     refused(run("arm.sdf", "<sdf version=\"1.6\"><model name=\"m\"/></sdf>"), &["line 1", "SDF", "URDF"]);
     refused(run("arm.urdf", WORLD), &["not well-formed XML"]);
     refused(run("arm.urdf", ""), &["arm.urdf", "not well-formed XML"]);
     refused(run("arm.urdf", "<html/>"), &["root element is <html>"]);
     // A namespace declaration alone does not make a file xacro.
     let declared = ARM.replace("<robot", "<robot xmlns:xacro=\"http://www.ros.org/wiki/xacro\"");
-    assert!(run("arm.urdf", &declared).is_ok());
+    assert_eq!(arm("arm.urdf", &declared), plain);
     let folder = tempfile::tempdir().unwrap();
     let (urdf, world) = (folder.path().join("arm.urdf"), folder.path().join("world.toml"));
     fs::write(&urdf, ARM).unwrap();
@@ -287,7 +289,8 @@ fn touching_counts_as_contact() {
         load_files("arm.urdf", ARM, &wall(2.0), &Overrides::default()),
         &["\"fore\" hits obstacle \"wall\", just touching"],
     );
-    assert!(load_files("arm.urdf", ARM, &wall(2.0 + 1e-9), &Overrides::default()).is_ok());
+    let problem = load_files("arm.urdf", ARM, &wall(2.0 + 1e-9), &Overrides::default()).unwrap().problem;
+    assert!((problem.scene().clearance(problem.start()) - 1e-9).abs() < 1e-12);
 }
 
 #[test]

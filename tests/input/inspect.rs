@@ -1,11 +1,11 @@
 //! The command `inspect`: its reports on broken robots, on every shipped one, and on published robots.
 
 use crate::common::reference::published;
-use assert_cmd::Command;
 use cplan::input::{Inspection, LimitSource, RateSource, Role, inspect, load_scene};
 use serde_json::Value;
 use std::fs;
 use std::path::Path;
+use std::process::Command;
 
 const ARM: &str = r#"<robot name="arm">
   <link name="base"><collision><geometry><box size="1 1 1"/></geometry></collision></link>
@@ -220,7 +220,7 @@ fn published_robots_are_diagnosed() {
 }
 
 fn command(args: &[&str]) -> (i32, String, String) {
-    let output = Command::cargo_bin("cplan").unwrap().arg("inspect").args(args).output().unwrap();
+    let output = Command::new(env!("CARGO_BIN_EXE_cplan")).arg("inspect").args(args).output().unwrap();
     let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
     (output.status.code().unwrap(), text(output.stdout), text(output.stderr))
 }

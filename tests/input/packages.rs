@@ -69,5 +69,6 @@ fn the_search_ends_at_the_repository() {
     let root = outer.path().join("mine");
     fs::create_dir_all(root.join(".git")).unwrap();
     write(&root.join("world.toml"), "");
-    assert!(load(&root, "package://arm_meshes/meshes/bar.obj").is_err());
+    let error = load(&root, "package://arm_meshes/meshes/bar.obj").unwrap_err().to_string();
+    assert!(error.contains("arm_meshes"), "{error}");
 }

@@ -57,6 +57,7 @@ fn planar_pairs_in_several_planes_or_on_branches_are_refused_with_what_to_write(
         assert!(error.contains("[robot] joints = [\"j1\", \"j2\"], or [robot] joints = "), "{error}");
         // The hint is sufficient.
         let world = Source::in_memory("world.toml", "[robot]\njoints = [\"j1\", \"j2\"]\n");
-        assert!(scene_from(Source::in_memory("chain.urdf", &*urdf), world).is_ok());
+        let chosen = scene_from(Source::in_memory("chain.urdf", &*urdf), world).unwrap().scene;
+        assert_eq!(chosen.arm().joints.each_ref().map(|joint| joint.name.as_str()), ["j1", "j2"]);
     }
 }

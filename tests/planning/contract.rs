@@ -18,82 +18,107 @@ use cplan::planner::{
 use cplan::space::{Configuration, JointRange, Metric, Path};
 use std::f64::consts::TAU;
 
-/// Plans in a scene, whatever representation that takes.
-type Plan = fn(&Scene, &Query) -> Run;
+/// Plans in a scene, in the representation that it takes.
+type Plan = fn(&Spaces, &Query) -> Run;
+
+/// The representations of a scene, which all planners share.
+struct Spaces {
+    /// Polygons grown by a margin far below the room in the scenes here.
+    polygons: Regions,
+    /// Cells whose slabs are narrower than the passages in the scenes here.
+    cells: Grid,
+    /// As many cells by collision checks at their centres, among obstacles that are grown by what the arm moves within a cell.
+    sampled: Grid,
+    /// The same cells with the scene's preferences.
+    zoned: ZonedGrid,
+}
+
+impl Spaces {
+    fn new(scene: &Scene, query: &Query) -> Self {
+        let cells = outer_grid(scene, [192, 192], 0.0);
+        let Proves::Outer { margin } = cells.proves else { unreachable!("an outer grid") };
+        Self {
+            polygons: regions(scene, 1e-3, query.start, 1),
+            sampled: sampled_grid(scene, [192, 192], margin),
+            zoned: ZonedGrid::new(cells.clone(), scene),
+            cells,
+        }
+    }
+}
 
 /// Every planner, with every setting that changes what its paths look like.
 const PLANNERS: [(&str, Plan); 26] = [
-    (Visibility::NAME, |scene, query| answered(&Visibility::default(), &polygons(scene, query), query)),
-    ("visibility, weighted", |scene, query| {
+    (Visibility::NAME, |spaces, query| answered(&Visibility::default(), &spaces.polygons, query)),
+    ("visibility, weighted", |spaces, query| {
         let metric = Metric::Weighted { weights: [1.0, 0.6] };
-        answered(&Visibility { metric, ..Visibility::default() }, &polygons(scene, query), query)
+        answered(&Visibility { metric, ..Visibility::default() }, &spaces.polygons, query)
     }),
-    ("visibility, travel time", |scene, query| {
+    ("visibility, travel time", |spaces, query| {
         let metric = Metric::Time { speeds: [1.0, 1.5] };
-        answered(&Visibility { metric, ..Visibility::default() }, &polygons(scene, query), query)
+        answered(&Visibility { metric, ..Visibility::default() }, &spaces.polygons, query)
     }),
-    ("visibility, Dijkstra backward", |scene, query| {
-        answered(&Visibility { search: BACKWARD, ..Visibility::default() }, &polygons(scene, query), query)
+    ("visibility, Dijkstra backward", |spaces, query| {
+        answered(&Visibility { search: BACKWARD, ..Visibility::default() }, &spaces.polygons, query)
     }),
-    ("trapezoid, taut", |scene, query| answered(&Trapezoid::default(), &polygons(scene, query), query)),
-    ("trapezoid, middles", |scene, query| {
-        answered(&Trapezoid { path: PathKind::Own, ..Trapezoid::default() }, &polygons(scene, query), query)
+    ("trapezoid, taut", |spaces, query| answered(&Trapezoid::default(), &spaces.polygons, query)),
+    ("trapezoid, middles", |spaces, query| {
+        answered(&Trapezoid { path: PathKind::Own, ..Trapezoid::default() }, &spaces.polygons, query)
     }),
-    ("trapezoid, Dijkstra backward", |scene, query| {
-        answered(&Trapezoid { search: BACKWARD, ..Trapezoid::default() }, &polygons(scene, query), query)
+    ("trapezoid, Dijkstra backward", |spaces, query| {
+        answered(&Trapezoid { search: BACKWARD, ..Trapezoid::default() }, &spaces.polygons, query)
     }),
-    ("triangles, taut", |scene, query| answered(&Triangles::default(), &polygons(scene, query), query)),
-    ("triangles, middles", |scene, query| {
-        answered(&Triangles { path: PathKind::Own, ..Triangles::default() }, &polygons(scene, query), query)
+    ("triangles, taut", |spaces, query| answered(&Triangles::default(), &spaces.polygons, query)),
+    ("triangles, middles", |spaces, query| {
+        answered(&Triangles { path: PathKind::Own, ..Triangles::default() }, &spaces.polygons, query)
     }),
-    (Voronoi::NAME, |scene, query| answered(&Voronoi::default(), &polygons(scene, query), query)),
-    ("voronoi, taut", |scene, query| {
-        answered(&Voronoi { path: PathKind::Taut, ..Voronoi::default() }, &polygons(scene, query), query)
+    (Voronoi::NAME, |spaces, query| answered(&Voronoi::default(), &spaces.polygons, query)),
+    ("voronoi, taut", |spaces, query| {
+        answered(&Voronoi { path: PathKind::Taut, ..Voronoi::default() }, &spaces.polygons, query)
     }),
-    ("voronoi, Dijkstra backward", |scene, query| {
-        answered(&Voronoi { search: BACKWARD, ..Voronoi::default() }, &polygons(scene, query), query)
+    ("voronoi, Dijkstra backward", |spaces, query| {
+        answered(&Voronoi { search: BACKWARD, ..Voronoi::default() }, &spaces.polygons, query)
     }),
-    (Prm::NAME, |scene, query| answered(&Prm::default(), &polygons(scene, query), query)),
-    ("prm, samples, Dijkstra backward", |scene, query| {
-        answered(&Prm { path: PathKind::Own, search: BACKWARD, ..Prm::default() }, &polygons(scene, query), query)
+    (Prm::NAME, |spaces, query| answered(&Prm::default(), &spaces.polygons, query)),
+    ("prm, samples, Dijkstra backward", |spaces, query| {
+        answered(&Prm { path: PathKind::Own, search: BACKWARD, ..Prm::default() }, &spaces.polygons, query)
     }),
-    ("wavefront, cells", |scene, query| {
-        answered(&Wavefront { path: PathKind::Own, ..Wavefront::default() }, &cells(scene), query)
+    ("wavefront, cells", |spaces, query| {
+        answered(&Wavefront { path: PathKind::Own, ..Wavefront::default() }, &spaces.cells, query)
     }),
-    ("wavefront, shortcut", |scene, query| answered(&Wavefront::default(), &cells(scene), query)),
-    ("wavefront, 8 neighbours", |scene, query| {
+    ("wavefront, shortcut", |spaces, query| answered(&Wavefront::default(), &spaces.cells, query)),
+    ("wavefront, 8 neighbours", |spaces, query| {
         let neighborhood = Neighborhood::Eight;
-        answered(&Wavefront { neighborhood, path: PathKind::Own, ..Wavefront::default() }, &cells(scene), query)
+        answered(&Wavefront { neighborhood, path: PathKind::Own, ..Wavefront::default() }, &spaces.cells, query)
     }),
-    ("wavefront, A*, 8 neighbours", |scene, query| {
+    ("wavefront, A*, 8 neighbours", |spaces, query| {
         let (search, neighborhood) = (GridSearch::AStar, Neighborhood::Eight);
         let planner = Wavefront { search, neighborhood, path: PathKind::Own, ..Wavefront::default() };
-        answered(&planner, &cells(scene), query)
+        answered(&planner, &spaces.cells, query)
     }),
-    ("wavefront, A* from the start", |scene, query| {
+    ("wavefront, A* from the start", |spaces, query| {
         let (search, ties) = (GridSearch::AStar, Ties::First);
         let planner = Wavefront { search, ties, forward: true, path: PathKind::Own, ..Wavefront::default() };
-        answered(&planner, &cells(scene), query)
+        answered(&planner, &spaces.cells, query)
     }),
-    ("wavefront, iterative deepening from the start", |scene, query| {
+    ("wavefront, iterative deepening from the start", |spaces, query| {
         let search = GridSearch::IterativeDeepening;
         let planner = Wavefront { search, forward: true, path: PathKind::Own, ..Wavefront::default() };
-        answered(&planner, &cells(scene), query)
+        answered(&planner, &spaces.cells, query)
     }),
-    ("wavefront, sampled", |scene, query| {
-        answered(&Wavefront { path: PathKind::Own, ..Wavefront::default() }, &sampled(scene), query)
+    ("wavefront, sampled", |spaces, query| {
+        answered(&Wavefront { path: PathKind::Own, ..Wavefront::default() }, &spaces.sampled, query)
     }),
-    ("harmonic, sampled", |scene, query| answered(&Harmonic { path: PathKind::Own }, &sampled(scene), query)),
-    ("harmonic, cells", |scene, query| answered(&Harmonic { path: PathKind::Own }, &cells(scene), query)),
-    ("harmonic, taut", |scene, query| answered(&Harmonic { path: PathKind::Taut }, &cells(scene), query)),
-    ("oriented, relaxed", |scene, query| {
+    ("harmonic, sampled", |spaces, query| answered(&Harmonic { path: PathKind::Own }, &spaces.sampled, query)),
+    ("harmonic, cells", |spaces, query| answered(&Harmonic { path: PathKind::Own }, &spaces.cells, query)),
+    ("harmonic, taut", |spaces, query| answered(&Harmonic { path: PathKind::Taut }, &spaces.cells, query)),
+    ("oriented, relaxed", |spaces, query| {
         let direction = Direction::of([1.0, 0.5]).expect("not zero");
         let equation = EquationChoice::Oriented { direction, epsilon: 0.1, difference: Difference::Upwind };
-        answered(&relaxed(equation), &ZonedGrid::new(cells(scene), scene), query)
+        answered(&relaxed(equation), &spaces.zoned, query)
     }),
-    ("altered preferences, relaxed", |scene, query| {
+    ("altered preferences, relaxed", |spaces, query| {
         let equation = EquationChoice::AlteredPreference { elsewhere: 0.05 };
-        answered(&relaxed(equation), &ZonedGrid::new(cells(scene), scene), query)
+        answered(&relaxed(equation), &spaces.zoned, query)
     }),
 ];
 
@@ -121,22 +146,6 @@ fn relaxed(equation: EquationChoice) -> FieldPlanner {
         stencil: Stencil::Square,
     };
     FieldPlanner { field, limits: Limits::High, escape: None, path: PathKind::Taut }
-}
-
-/// Polygons grown by a margin far below the room in the scenes here.
-fn polygons(scene: &Scene, query: &Query) -> Regions {
-    regions(scene, 1e-3, query.start, 1)
-}
-
-/// Cells whose slabs are narrower than the passages in the scenes here.
-fn cells(scene: &Scene) -> Grid {
-    outer_grid(scene, [192, 192], 0.0)
-}
-
-/// As many cells by collision checks at their centres, among obstacles that are grown by what the arm moves within a cell.
-fn sampled(scene: &Scene) -> Grid {
-    let Proves::Outer { margin } = cells(scene).proves else { unreachable!("an outer grid") };
-    sampled_grid(scene, [192, 192], margin)
 }
 
 /// The run, which must not depend on anything but the input.
@@ -208,8 +217,9 @@ fn paths_lead_from_the_start_to_a_goal_through_free_space() {
         ),
     ];
     for (scene, query) in &problems {
+        let spaces = Spaces::new(scene, query);
         for (name, plan) in PLANNERS {
-            let path = path(name, scene, query, &plan(scene, query));
+            let path = path(name, scene, query, &plan(&spaces, query));
             assert!(path.length() > 0.0, "{name}");
         }
     }
@@ -226,8 +236,9 @@ fn every_kind_of_arm_is_planned_for() {
             scene.clearance(query.start) > 0.05 && query.goals.points().all(|goal| scene.clearance(goal) > 0.05),
             "{kind}"
         );
+        let spaces = Spaces::new(&scene, &query);
         for (name, plan) in PLANNERS {
-            path(&format!("{name} ({kind})"), &scene, &query, &plan(&scene, &query));
+            path(&format!("{name} ({kind})"), &scene, &query, &plan(&spaces, &query));
         }
     }
 }
@@ -236,8 +247,9 @@ fn every_kind_of_arm_is_planned_for() {
 fn the_trace_and_size_are_those_of_the_representation() {
     let scene = gantry(vec![rectangle(-0.4, 0.4, -0.5, 0.6)]);
     let query = query(q(-0.8, 0.0), &[q(0.8, 0.1)]);
+    let spaces = Spaces::new(&scene, &query);
     for (name, plan) in PLANNERS {
-        let run = plan(&scene, &query);
+        let run = plan(&spaces, &query);
         let fits = match (&run.trace, run.size) {
             (Trace::Roadmap { edges: drawn, whole: false }, Size::Graph { edges, .. }) => drawn.len() == edges,
             (Trace::Roads { edges: drawn, expanded, .. }, Size::Graph { nodes, edges }) => {
@@ -282,8 +294,9 @@ fn a_start_at_the_goal_is_a_path_that_stays_there() {
     let scene = gantry(vec![rectangle(-0.4, 0.4, -0.5, 0.6)]);
     for at in [q(-0.8, 0.0), q(1.0, 1.0), q(-1.0, 0.3)] {
         let query = query(at, &[q(0.8, 0.8), at]);
+        let spaces = Spaces::new(&scene, &query);
         for (name, plan) in PLANNERS {
-            assert_eq!(path(name, &scene, &query, &plan(&scene, &query)).waypoints(), [at], "{name}");
+            assert_eq!(path(name, &scene, &query, &plan(&spaces, &query)).waypoints(), [at], "{name}");
         }
     }
 }
@@ -292,8 +305,9 @@ fn a_start_at_the_goal_is_a_path_that_stays_there() {
 fn a_wall_from_limit_to_limit_is_no_path() {
     let scene = gantry(vec![rectangle(-0.1, 0.1, -1.1, 1.1)]);
     let query = query(q(-0.8, 0.0), &[q(0.8, 0.1), q(0.7, -0.5)]);
+    let spaces = Spaces::new(&scene, &query);
     for (name, plan) in PLANNERS {
-        assert!(is_no_path(name, &plan(&scene, &query)), "{name}");
+        assert!(is_no_path(name, &plan(&spaces, &query)), "{name}");
     }
 }
 
@@ -303,8 +317,9 @@ fn goals_that_cannot_be_reached_are_passed_over_for_one_that_can() {
     let (beyond, inside, free) = (q(0.5, 0.1), q(-0.7, 0.6), q(-0.4, -0.8));
     for goals in [[beyond, inside, free], [free, beyond, inside], [inside, free, beyond]] {
         let query = query(q(-0.8, 0.0), &goals);
+        let spaces = Spaces::new(&scene, &query);
         for (name, plan) in PLANNERS {
-            assert_eq!(path(name, &scene, &query, &plan(&scene, &query)).goal(), free, "{name}");
+            assert_eq!(path(name, &scene, &query, &plan(&spaces, &query)).goal(), free, "{name}");
         }
     }
 }
@@ -314,8 +329,9 @@ fn the_nearer_of_two_goals_is_taken() {
     let scene = gantry(vec![]);
     let query = query(q(-0.8, 0.0), &[q(0.8, 0.0), q(-0.5, 0.2), q(0.3, -0.6)]);
     // All but one: along the Voronoi diagram the widest way comes before the shortest.
+    let spaces = Spaces::new(&scene, &query);
     for (name, plan) in PLANNERS.iter().filter(|(name, _)| !name.starts_with(Voronoi::NAME)) {
-        assert_eq!(path(name, &scene, &query, &plan(&scene, &query)).goal(), q(-0.5, 0.2), "{name}");
+        assert_eq!(path(name, &scene, &query, &plan(&spaces, &query)).goal(), q(-0.5, 0.2), "{name}");
     }
 }
 
@@ -332,8 +348,9 @@ fn queries_without_a_free_end_are_given_up_with_the_reason() {
         (query(free, &[]), "no goal"),
     ];
     for (query, word) in &hopeless {
+        let spaces = Spaces::new(&scene, query);
         for (name, plan) in PLANNERS {
-            let Proposal::GaveUp(reason) = plan(&scene, query).outcome else {
+            let Proposal::GaveUp(reason) = plan(&spaces, query).outcome else {
                 panic!("{name}: not given up: {query:?}")
             };
             assert!(reason.contains(word), "{name}: {reason}");
@@ -346,12 +363,12 @@ fn a_circle_is_gone_round_through_its_seam_and_an_interval_is_not() {
     // From one side of the wall at 0 to the other, past pi.
     let (start, goal) = (q(2.5, 1.0), q(-2.5, 0.8));
     let query = query(start, &[goal]);
+    // Limits at pi shut that way, the wall the other one.
+    let scenes = [polar(JointRange::Circle), polar(range(-3.1, 3.1))];
+    let [circle, interval] = scenes.each_ref().map(|scene| Spaces::new(scene, &query));
     for (name, plan) in PLANNERS {
-        let circle = polar(JointRange::Circle);
-        let end = path(name, &circle, &query, &plan(&circle, &query)).goal();
+        let end = path(name, &scenes[0], &query, &plan(&circle, &query)).goal();
         assert!((end - q(TAU - 2.5, 0.8)).norm() < 1e-12 && end[1] == 0.8, "{name} ends at {end}");
-        // Limits at pi shut that way, the wall the other one.
-        let interval = polar(range(-3.1, 3.1));
         assert!(is_no_path(name, &plan(&interval, &query)), "{name}");
     }
 }
@@ -361,8 +378,9 @@ fn on_an_interval_longer_than_a_turn_a_pose_a_turn_away_is_another_goal() {
     let mut long = polar(range(-1.0, 7.5));
     long = scene(long.into_parts().0, vec![]);
     let query = query(q(0.5, 1.0), &[q(0.5 + TAU, 1.0)]);
+    let spaces = Spaces::new(&long, &query);
     for (name, plan) in PLANNERS {
-        let path = path(name, &long, &query, &plan(&long, &query));
+        let path = path(name, &long, &query, &plan(&spaces, &query));
         assert_eq!(Some(path.goal()), query.goals.points().next(), "{name}");
         assert!(path.length() >= TAU - 1e-9, "{name}");
     }

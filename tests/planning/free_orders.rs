@@ -2,8 +2,8 @@
 
 use crate::common::dice::Dice;
 use crate::common::random::{seeds, usual};
+use crate::judged::{self, Question};
 use crate::random_tasks::replay;
-use assert_cmd::Command;
 use cplan::Options;
 use cplan::Outcome;
 use cplan::engine::Method;
@@ -79,20 +79,18 @@ fn tray(count: usize) -> Vec<[[f64; 2]; 2]> {
     picks.into_iter().zip(places).map(|(pick, place)| [spot(pick), mirrored(spot(place))]).collect()
 }
 
-/// What the program says of a world, and its exit code.
-fn asked(world: &str) -> (Value, i32) {
+/// The result of the main job in a world. A plan is judged free.
+fn asked(world: &str) -> Value {
     let folder = tempfile::tempdir().unwrap();
     let (file, result) = (folder.path().join("world.toml"), folder.path().join("result.json"));
     std::fs::write(&file, world).unwrap();
-    let mut command = Command::cargo_bin("cplan").unwrap();
-    let done = command.arg(robot()).arg(&file).args(["--json", "--output"]).arg(&result).output().unwrap();
-    let answer: Value = serde_json::from_slice(&done.stdout).unwrap();
-    let code = done.status.code().unwrap();
-    if code == 0 {
-        let mut judge = Command::cargo_bin("cplan").unwrap();
-        judge.arg("verify").arg(robot()).arg(&file).arg(&result).assert().code(0);
+    let answer = judged::planned(&robot(), &file, "");
+    if answer["status"] == "found" {
+        std::fs::write(&result, answer.to_string()).unwrap();
+        let found = judged::judged(&robot(), &file, &result, &Question::default()).unwrap();
+        assert_eq!(found["verdict"], "free", "{found:#}");
     }
-    (answer, code)
+    answer
 }
 
 fn number(answer: &Value, key: &str) -> f64 {
@@ -103,10 +101,13 @@ fn number(answer: &Value, key: &str) -> f64 {
 fn a_free_order_is_found_where_that_of_the_file_can_be_done() {
     for count in [14, 20] {
         let parts = tray(count);
-        let (fixed, code) = asked(&world("fixed", &parts));
-        assert_eq!(code, 0, "{count}: {}", fixed["reason"]);
-        let (free, code) = asked(&world("free", &parts));
-        assert_eq!(code, 0, "{count}: {}", free["reason"]);
+        let [fixed, free] = ["fixed", "free"].map(|order| asked(&world(order, &parts)));
+        assert_eq!(
+            (&fixed["status"], &free["status"]),
+            (&"found".into(), &"found".into()),
+            "{count}: {}",
+            free["reason"]
+        );
         assert_eq!((&free["certified"], &free["choice"]), (&Value::Bool(true), &"good".into()));
         assert!(number(&free, "duration") <= number(&fixed, "duration"), "{count}: the file's order is faster");
         assert!(number(&free, "lower_bound") < number(&free, "duration"), "{count}");
@@ -122,10 +123,13 @@ fn a_free_order_is_found_where_that_of_the_file_cannot_be_done() {
         for last in (1..parts.len()).rev() {
             parts.swap(last, dice.below(last + 1));
         }
-        let (fixed, code) = asked(&world("fixed", &parts));
-        assert_eq!(code, 3, "{seed}: {}", fixed["reason"]);
-        let (free, code) = asked(&world("free", &parts));
-        assert_eq!(code, 0, "{seed}: {}", free["reason"]);
+        let [fixed, free] = ["fixed", "free"].map(|order| asked(&world(order, &parts)));
+        assert_eq!(
+            (&fixed["status"], &free["status"]),
+            (&"infeasible".into(), &"found".into()),
+            "{seed}: {}",
+            free["reason"]
+        );
     }
 }
 
@@ -139,8 +143,8 @@ fn what_no_order_can_do_is_proven_of_large_groups_too() {
     let mut blocked = tray(14);
     blocked[3][1] = [1.55, 0.0];
     for (parts, named) in [(swapped, ["\"part 0\"", "\"part 4\""]), (blocked, ["\"part 3\"", ""])] {
-        let (answer, code) = asked(&world("free", &parts));
-        assert_eq!(code, 3, "{}", answer["reason"]);
+        let answer = asked(&world("free", &parts));
+        assert_eq!(answer["status"], "infeasible", "{}", answer["reason"]);
         let reasons = answer["failed"]["reasons"].to_string().replace('\\', "");
         assert!(reasons.contains("in any order") && named.iter().all(|name| reasons.contains(name)), "{reasons}");
     }

@@ -104,7 +104,7 @@ fn tried(problem: &MotionProblem) -> Vec<Configuration> {
 #[test]
 fn a_set_of_goals_is_reached_if_any_of_it_is() {
     let (mut worlds, mut infeasible, mut slid) = (0, 0, 0);
-    for seed in seeds(80) {
+    for seed in seeds(40) {
         let Some(problem) = world(seed) else { continue };
         worlds += 1;
         let (scene, start) = (problem.scene(), problem.start());
@@ -174,7 +174,7 @@ fn a_set_of_goals_is_reached_if_any_of_it_is() {
             Outcome::Unknown(reason) => assert!(connected.is_empty(), "seed {seed}: {reason}"),
         }
     }
-    assert!(!usual() || worlds >= 40 && slid > worlds / 4, "{worlds} worlds, {slid} with paths, {infeasible} proofs");
+    assert!(!usual() || worlds >= 20 && slid > worlds / 4, "{worlds} worlds, {slid} with paths, {infeasible} proofs");
 }
 
 /// The tip is to return to the base, an arm folded back: the first level's polygons leave no way to the left, where an obstacle is

@@ -131,7 +131,7 @@ const MAPS: [[[i32; 2]; 2]; 5] =
     [[[1, 0], [0, 1]], [[0, -1], [1, 0]], [[1, 1], [0, 1]], [[2, 1], [1, 1]], [[1, 0], [-1, 1]]];
 
 proptest! {
-    #![proptest_config(cplan_cases::cases(96))]
+    #![proptest_config(cplan_cases::cases(48))]
 
     #[test]
     fn shortest_among_convex_polygons_equals_brute_force(seed: u64, side in 1usize..4, corners in 3usize..7) {

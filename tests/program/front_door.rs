@@ -151,12 +151,15 @@ fn an_arm_and_a_world_in_code() {
     assert!(made.length().unwrap() > 1.6 + 1e-3);
     let blocked = Problem::new(arm(), world(), [0.0, 0.0], [-0.8, 0.0]).expect_err("in the wall");
     assert!(blocked.to_string().contains("wall"), "{blocked}");
-    assert!(Arm::rr([1.0, f64::NAN], 0.1).is_err() && Arm::rr([1.0, 1.0], -0.1).is_err());
-    assert!(Obstacle::polyline("none", []).is_err());
+    for (lengths, width) in [([1.0, f64::NAN], 0.1), ([1.0, 1.0], -0.1)] {
+        let error = Arm::rr(lengths, width).unwrap_err().to_string();
+        assert!(error.starts_with("its "), "{error}");
+    }
+    assert_eq!(Obstacle::polyline("none", []).unwrap_err().to_string(), "it has no corner");
     let point = Obstacle::polyline("pin", [[0.5, 0.0]]).unwrap();
     assert!(Problem::new(arm(), Workspace::new([point]), [0.0, 0.0], [1.0, 0.0]).is_err(), "a point is solid");
     let round = Configuration::new(0.0, 0.0);
-    assert!(Problem::new(arm(), Workspace::new([]), round, round).is_ok());
+    assert_eq!(Problem::new(arm(), Workspace::new([]), round, round).unwrap().motion().unwrap().start(), round);
 }
 
 /// Squares: whether they meet, how deep, and their difference, in closed form.

@@ -1,21 +1,25 @@
 //! Roadmaps on the command line: planners, searches, seeds; and grids of two numbers of cells.
 
-use assert_cmd::Command;
+use crate::verify::judged::planned;
 use serde_json::Value;
-use std::process::Output;
+use std::path::Path;
+use std::process::{Command, Output};
 
 const ROADMAPS: [&str; 5] = ["visibility", "trapezoid", "triangles", "voronoi", "prm"];
 
+const FILES: [&str; 2] = ["robots/planar_2r.urdf", "workspaces/shelf.toml"];
+
 fn cplan(options: &str) -> Output {
-    let files = ["robots/planar_2r.urdf", "workspaces/shelf.toml"];
-    let mut command = Command::cargo_bin("cplan").expect("the program is built");
-    command.args(files).args(options.split_whitespace()).output().expect("it runs")
+    let mut command = Command::new(env!("CARGO_BIN_EXE_cplan"));
+    command.args(FILES).args(options.split_whitespace()).output().expect("it runs")
 }
 
-fn json(options: &str) -> Value {
-    let output = cplan(&format!("{options} --json"));
-    assert_eq!(output.status.code(), Some(0), "{options}: {}", String::from_utf8_lossy(&output.stderr));
-    serde_json::from_slice(&output.stdout).expect("JSON")
+/// The result of planning with these options, by the library.
+pub fn json(options: &str) -> Value {
+    let [robot, world] = FILES.map(Path::new);
+    let result = planned(robot, world, options);
+    assert_eq!(result["status"], "found", "{options}");
+    result
 }
 
 fn length(result: &Value) -> f64 {
@@ -53,7 +57,7 @@ fn every_roadmap_is_searched_in_every_order_both_ways() {
 
 #[test]
 fn samples_follow_from_the_seed() {
-    let of = |options: &str| cplan(&format!("--planner prm --path own --json {options}")).stdout;
+    let of = |options: &str| json(&format!("--planner prm --path own {options}"));
     assert_eq!(of(""), of("--seed 1 --samples 500 --nearest 12"));
     assert_ne!(of(""), of("--seed 2"));
     // More samples among which the first are the same make no longer path, when each is joined to all.

@@ -1,11 +1,11 @@
 //! The searches of a grid on the command line.
 
-use assert_cmd::Command;
-use serde_json::Value;
+use crate::roadmaps::json;
+use std::process::Command;
 
 fn cplan(options: &[&str]) -> std::process::Output {
     let files = ["robots/planar_2r.urdf", "workspaces/shelf.toml"];
-    Command::cargo_bin("cplan").expect("the program is built").args(files).args(options).output().expect("it runs")
+    Command::new(env!("CARGO_BIN_EXE_cplan")).args(files).args(options).output().expect("it runs")
 }
 
 #[test]
@@ -13,11 +13,7 @@ fn every_search_with_four_and_eight_neighbours_is_certified_and_told() {
     let mut expanded = Vec::new();
     for search in ["wave", "bfs", "dfs", "dijkstra", "astar", "greedy"] {
         for neighbors in ["4", "8"] {
-            let options =
-                ["--planner", "wavefront", "--search", search, "--neighbors", neighbors, "--cells", "128", "--json"];
-            let output = cplan(&options);
-            assert_eq!(output.status.code(), Some(0), "{search} {neighbors}");
-            let json: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+            let json = json(&format!("--planner wavefront --search {search} --neighbors {neighbors} --cells 128"));
             assert_eq!(json["certified"], true);
             assert_eq!(json["search"]["search"], search);
             assert_eq!(json["search"]["neighbors"].to_string(), neighbors);
@@ -32,23 +28,16 @@ fn every_search_with_four_and_eight_neighbours_is_certified_and_told() {
 
 #[test]
 fn sampled_grids_are_told_and_their_paths_certified() {
-    for planner in [
-        &["wavefront"][..],
-        &["wavefront", "--search", "astar"],
-        &["harmonic"],
-        &["harmonic", "--field", "oriented", "--epsilon", "0.1", "--direction", "0,1"],
-    ] {
-        let of = |space: &[&str]| {
-            let output = cplan(&[&["--cells", "128", "--json", "--quiet", "--planner"], planner, space].concat());
-            assert_eq!(output.status.code(), Some(0), "{planner:?} {space:?}");
-            serde_json::from_slice::<Value>(&output.stdout).expect("JSON")
-        };
-        let sampled = of(&["--space", "sampled"]);
+    for planner in
+        ["wavefront", "wavefront --search astar", "harmonic", "harmonic --field oriented --epsilon 0.1 --direction 0,1"]
+    {
+        let of = |space: &str| json(&format!("--cells 128 --planner {planner} {space}"));
+        let sampled = of("--space sampled");
         assert_eq!((&sampled["space"], &sampled["certified"]), (&"sampled".into(), &true.into()));
         assert!(sampled["clearance"].as_f64() > Some(0.0));
-        let rows = of(&["--space", "rows"]);
+        let rows = of("--space rows");
         assert!(rows.get("space").is_none() && rows != sampled);
-        assert_eq!(rows, of(&[]));
+        assert_eq!(rows, of(""));
     }
 }
 

@@ -1,8 +1,14 @@
 //! Random cases for tests: how many, and which. They are the same in every run, unless the environment asks for others.
+//! Generators of numbers, mazes and texts with slips.
 //!
 //! - `CPLAN_TIMES=20`: twenty times as many (0.1: a tenth).
 //! - `CPLAN_SEED=7`: others, the seventh choice; 0 is the usual one. A failure comes again with the same two variables.
 
+pub mod dice;
+pub mod mazes;
+pub mod slips;
+
+use dice::Dice;
 use proptest::test_runner::{Config, RngSeed};
 use std::ops::Range;
 use std::str::FromStr;
@@ -37,6 +43,15 @@ pub fn cases(usual: u32) -> Config {
 pub fn seeds(usual: u64) -> Range<u64> {
     let first = seed().wrapping_mul(STRIDE);
     first..first + times(usual)
+}
+
+/// Returns the generator of this number; another one with another `CPLAN_SEED`.
+///
+/// # Panics
+/// As [`cases`].
+#[must_use]
+pub fn dice(stream: u64) -> Dice {
+    Dice::new(stream ^ seed().wrapping_mul(0xd134_2543_de82_ef95))
 }
 
 /// Returns the number of cases, given the usual number; at least one.

@@ -1,14 +1,12 @@
 //! Falsified certificates: each is refused, or what it says is still true, as an oracle in floating point has it that shares no code with
 //! the checker: samples of the boxes, and a flood fill of the cells between their ends.
 
-#[path = "../../../tests/common/dice.rs"]
-mod dice;
 use cplan_cases as random;
 #[path = "common/two_bars.rs"]
 mod two_bars;
 
+use cplan_cases::dice::Dice;
 use cplan_check_files::{CheckError, check};
-use dice::Dice;
 use two_bars::{LIMIT, TWO_BARS};
 
 /// Corners of both bars, as seen from their joints.

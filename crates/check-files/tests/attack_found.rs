@@ -1,14 +1,12 @@
 //! Falsified certificates of motions: each is refused, or the motion is still free, as an oracle in floating point has it that shares no
 //! code with the checker: samples of the motion, by power series of its own, and distances of sides and corners.
 
-#[path = "../../../tests/common/dice.rs"]
-mod dice;
 use cplan_cases as random;
 #[path = "common/two_bars.rs"]
 mod two_bars;
 
+use cplan_cases::dice::Dice;
 use cplan_check_files::{CheckError, check};
-use dice::Dice;
 use two_bars::{LIMIT, TWO_BARS};
 
 const START: [f64; 2] = [-1.0, 0.2];

@@ -2,14 +2,12 @@
 //! kinematics of its own, and dense samples of every motion and turn. What holds is right there, up to a hair; what is right there by
 //! more than a hair holds. Honest ones, falsified ones, and such as nobody looked at.
 
-#[path = "../../../tests/common/dice.rs"]
-mod dice;
 use cplan_cases as random;
 #[path = "common/two_bars.rs"]
 mod two_bars;
 
+use cplan_cases::dice::Dice;
 use cplan_check_files::{CheckError, check};
-use dice::Dice;
 use std::fmt::Write;
 use two_bars::{LIMIT, TWO_BARS};
 

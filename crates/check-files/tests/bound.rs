@@ -1,11 +1,9 @@
 //! Lower bounds written by hand, and falsified ones.
 
-#[path = "../../../tests/common/dice.rs"]
-mod dice;
 use cplan_cases as random;
 
+use cplan_cases::dice::Dice;
 use cplan_check_files::{CheckError, check};
-use dice::Dice;
 use std::fmt::Write as _;
 
 /// A square of 1 m that slides over 10 m by 10 m.

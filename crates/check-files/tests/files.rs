@@ -1,11 +1,9 @@
 //! Files that the URDF and the world name: pictures, line maps and meshes, held to the same in other words.
 
-#[path = "../../../tests/common/dice.rs"]
-mod dice;
 use cplan_cases as random;
 
+use cplan_cases::dice::Dice;
 use cplan_check_files::{CheckError, Input, check, check_files};
-use dice::Dice;
 use std::path::{Path, PathBuf};
 
 /// Two bars of 1 m and 0.8 m, given by what is in the places of `{upper}` and `{fore}`.

@@ -1,12 +1,10 @@
 //! Robots in space, held to kinematics in floating point that share nothing with the checker: planes along any directions, frames turned by
 //! angles and quaternions, joints that are held, and joints that mimic these.
 
-#[path = "../../../tests/common/dice.rs"]
-mod dice;
 use cplan_cases as random;
 
+use cplan_cases::dice::Dice;
 use cplan_check_files::{CheckError, check};
-use dice::Dice;
 
 type V = [f64; 3];
 type Turn = [V; 3];

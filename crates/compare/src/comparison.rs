@@ -283,15 +283,7 @@ mod tests {
 
     #[test]
     fn text_is_aligned() {
-        insta::assert_snapshot!(example().to_wide_text(), @r#"
-    planner     outcome  length [rad]  ratio  over optimum  clearance [mm]  motion [s]  size                    build [ms]  query [ms]  certify [ms]  total [ms]  memory [MiB]
-    ----------  -------  ------------  -----  ------------  --------------  ----------  ----------------------  ----------  ----------  ------------  ----------  ------------
-    visibility  found          4.0000  1.000        1.2500           1.100       3.250  512 nodes, 2300 edges        2.100       0.412         1.000       3.600          1.50
-    harmonic    found          5.0000  1.250        1.5625          12.500       4.000  65536 cells, 40 sweeps       0.000    1500.000             -           -             -
-    a, "b" | c  unknown             -      -             -               -           -  -                                -           -             -           -             -
-    harmonic: after 40 sweeps single precision goes no further, at a change of 2.5e-4
-    a, "b" | c: unknown: too coarse, or "so"
-    "#);
+        assert_eq!(example().to_wide_text(), include_str!("expected/table.txt"));
     }
 
     #[test]
@@ -303,23 +295,12 @@ mod tests {
 
     #[test]
     fn markdown_has_a_rule_with_alignment_and_escaped_bars() {
-        insta::assert_snapshot!(example().to_markdown(), @r#"
-    | planner     | outcome | length [rad] | ratio | over optimum | clearance [mm] | motion [s] | size                   | build [ms] | query [ms] | certify [ms] | total [ms] | memory [MiB] |
-    | ----------- | ------- | -----------: | ----: | -----------: | -------------: | ---------: | ---------------------- | ---------: | ---------: | -----------: | ---------: | -----------: |
-    | visibility  | found   |       4.0000 | 1.000 |       1.2500 |          1.100 |      3.250 | 512 nodes, 2300 edges  |      2.100 |      0.412 |        1.000 |      3.600 |         1.50 |
-    | harmonic    | found   |       5.0000 | 1.250 |       1.5625 |         12.500 |      4.000 | 65536 cells, 40 sweeps |      0.000 |   1500.000 |            - |          - |            - |
-    | a, "b" \| c | unknown |            - |     - |            - |              - |          - | -                      |          - |          - |            - |          - |            - |
-    "#);
+        assert_eq!(example().to_markdown(), include_str!("expected/table.md"));
     }
 
     #[test]
     fn csv_is_quoted_and_has_empty_fields() {
-        insta::assert_snapshot!(example().to_csv(), @r#"
-    planner,outcome,length,ratio,clearance_m,duration_s,nodes,edges,cells,sweeps,expanded,build_s,query_s,certify_s,note,lower_bound,over_optimum,prove_s,total_s,memory_bytes,reason
-    visibility,found,4,1,0.0011,3.25,512,2300,,,,0.0021,0.000412,0.001,,3.2,1.25,,0.0036,1572864,
-    harmonic,found,5,1.25,0.0125,4,,,65536,40,,0,1.5,,"after 40 sweeps single precision goes no further, at a change of 2.5e-4",3.2,1.5625,,,,
-    "a, ""b"" | c",unknown,,,,,,,,,,,,,,3.2,,0.25,,,"too coarse, or ""so"""
-    "#);
+        assert_eq!(example().to_csv(), include_str!("expected/table.csv"));
     }
 
     #[test]

@@ -1,8 +1,6 @@
 //! Benchmarks of the wave over a 1024 x 1024 lattice, and of harmonic fields of rooms, mazes and a spiral.
 
-#[path = "../../../tests/common/mazes.rs"]
-mod mazes;
-
+use cplan_cases::mazes;
 use cplan_harmonic::{Component, Lattice, harmonic};
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use std::hint::black_box;

@@ -1,9 +1,7 @@
 //! Tests of the harmonic field: exact values far below the least double, mazes and spirals, and the curve between the
 //! cells.
 
-#[path = "../../../tests/common/mazes.rs"]
-mod mazes;
-
+use cplan_cases::mazes;
 use cplan_harmonic::{Component, Field, Lattice, Place, Potential, Uphill, follow, harmonic, harmonic_way, residual};
 use num_rational::BigRational;
 use proptest::prelude::*;

@@ -20,6 +20,11 @@ fn healthy() -> String {
     format!("{CELL}{STEPS}")
 }
 
+/// The number of steps in a world that must be read.
+fn steps_of(world: &str, overrides: &Overrides) -> usize {
+    task_of(world, overrides).unwrap_or_else(|error| panic!("{error}")).task.steps().count()
+}
+
 pub fn refused(world: &str, overrides: &Overrides, parts: &[&str]) {
     let error = task_of(world, overrides).expect_err("should be refused").to_string();
     for part in parts {
@@ -196,7 +201,7 @@ fn sequences_that_cannot_be() {
     let inner = "[[step]]\nrepeat = 3\nsteps = [{ place = { at = [0.5, 1.5] } }, { pick = \"part\" }]\n";
     let carrying = format!("{CELL}{pick}{inner}");
     refused(&carrying, &Overrides::default(), &["line 27, column 10", "\"part\" is carried when it would be renewed"]);
-    assert!(task_of(&carrying.replace("renew = true\n", ""), &Overrides::default()).is_ok());
+    assert_eq!(steps_of(&carrying.replace("renew = true\n", ""), &Overrides::default()), 7);
 
     let (at, rigid) = ("place = { at = [0.5, 1.5] }", "place = { at = [0.5, 1.5], angle = 1.0 }");
     bad(at, rigid, &["line 27, column 36", "\"part\" is held rigidly", "cure: payload = \"level\""]);
@@ -212,10 +217,10 @@ fn an_orientation_is_that_of_the_last_place() {
     let again = "[[step]]\npick = \"cup\"\n[[step]]\nplace = { at = [0.6, 1.0], angle = 0.5 }\n";
     let once = "angle = 1.5 }\n";
     let world = healthy().replace(once, &format!("{once}{again}"));
-    assert!(task_of(&world, &Overrides::default()).is_ok());
-    // Without a wrist, the first turn would fail. Without that turn, the second place needs no turn.
+    assert_eq!(steps_of(&world, &Overrides::default()), 7);
+    // Without a wrist the first turn fails; were it not there, the second would be none.
     let still = world.replace("wrist = { velocity = 6.0, acceleration = 60.0 }", "").replace(", angle = 1.5", "");
-    assert!(task_of(&still, &Overrides::default()).is_ok());
+    assert_eq!(steps_of(&still, &Overrides::default()), 7);
 }
 
 #[test]
@@ -250,11 +255,11 @@ fn what_the_arm_cannot_do() {
     let far = healthy()
         .replace("at = [0.5, 1.5]", "at = [0.0, 1.81]")
         .replace("pick = \"part\"", "pick = \"part\"\ngrasp = [0.02, 0]");
-    assert!(task_of(&far, &Overrides::default()).is_ok());
-    // The clearance does not apply to supports.
+    assert_eq!(steps_of(&far, &Overrides::default()), 5);
+    // No clearance is kept from what it rests on.
     let clearance = Overrides { clearance: Some(0.02), ..Overrides::default() };
-    assert!(task_of(&healthy(), &clearance).is_ok());
-    // Each step is reported once, regardless of repetitions.
+    assert_eq!(steps_of(&healthy(), &clearance), 5);
+    // Each step is named once, whatever its repetitions.
     let many =
         healthy().replace("[[obstacle]]", "[task]\nrepeat = 50\n[[obstacle]]").replace("[0.1, 0.2]", "[0.1, 3.2]");
     let error = task_of(&many, &Overrides::default()).unwrap_err();

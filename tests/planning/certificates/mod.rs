@@ -17,12 +17,12 @@ mod tasks;
 
 use crate::common::dice::Dice;
 use crate::common::random::{seeds, times, usual};
-use crate::common::slips::slipped;
 use cplan::engine::Method;
 use cplan::input::{self, Overrides, Source};
 use cplan::model::Status;
 use cplan::space::Configuration;
 use cplan::{Options, Problem, plan};
+use cplan_cases::slips::slipped;
 use cplan_check_files::{CheckError, check};
 use drawn::{Drawn, Goal, Kind, Outline};
 use serde_json::{Value, json};
@@ -358,7 +358,7 @@ fn falsified_certificates_are_refused_or_true() {
         Err(true) => failed += 1,
         Err(false) => input += 1,
     };
-    for seed in seeds(400) {
+    for seed in seeds(160) {
         let mut dice = Dice::new(seed ^ 0xfa15e);
         let closed = &pool[dice.below(pool.len())];
         match dice.below(20) {
@@ -403,5 +403,5 @@ fn falsified_certificates_are_refused_or_true() {
         "{} certificates; falsified: {held} hold and are true, {failed} fail, {input} are bad input; {spelled} in other words hold",
         pool.len()
     );
-    assert!(!usual() || held > times(20) && failed > times(40) && input > times(20), "{held} {failed} {input}");
+    assert!(!usual() || held > times(8) && failed > times(16) && input > times(8), "{held} {failed} {input}");
 }

@@ -161,7 +161,7 @@ fn tasks(seed: u64, tally: &mut Tally) {
 #[test]
 fn certificates_of_random_tasks_hold() {
     let mut tally = Tally::default();
-    for seed in seeds(30) {
+    for seed in seeds(16) {
         tasks(seed, &mut tally);
     }
     println!("{tally:?}");

@@ -78,7 +78,7 @@ fn walls_that_part_and_meet_close_no_way() {
 }
 
 proptest! {
-    #![proptest_config(cplan_cases::cases(60))]
+    #![proptest_config(cplan_cases::cases(30))]
 
     #[test]
     fn no_motion_is_shorter_than_the_bound(

@@ -3,7 +3,7 @@
 use super::{Done, FREE, Place, shipped};
 use crate::common::dice;
 use crate::common::random::times;
-use crate::common::slips::slipped;
+use cplan_cases::slips::slipped;
 use serde_json::Value;
 
 /// What has no line because it is not there.

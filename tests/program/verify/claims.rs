@@ -1,27 +1,21 @@
 //! Results in which one thing is false: everything that is judged is found, whatever it is changed to.
 
+use super::judged::{Question, judged, planned};
 use crate::common::dice::Dice;
 use crate::common::random;
+use cplan::input::Overrides;
 use serde_json::{Value, json};
-use std::path::Path;
-use std::process::{Command, Output};
+use std::path::{Path, PathBuf};
 
-fn shipped(file: &str) -> String {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join(file).display().to_string()
+fn shipped(file: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join(file)
 }
 
 /// A robot, a world, and what the program found for them.
 struct Case {
-    robot: String,
-    world: String,
+    robot: PathBuf,
+    world: PathBuf,
     result: Value,
-}
-
-fn run(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
-    let run = Command::new(env!("CARGO_BIN_EXE_cplan")).current_dir(folder).args(arguments).output();
-    let Output { status, stdout, stderr } = run.unwrap();
-    let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
-    (status.code().expect("no signal"), text(stdout), text(stderr))
 }
 
 impl Case {
@@ -36,27 +30,31 @@ impl Case {
         Self::new(robot.trim(), "tasks/tower")
     }
 
-    fn of(robot: String, world: String) -> Self {
-        let (code, json, errors) = run(Path::new("."), &[&robot, &world, "--json", "--quiet"]);
-        assert_eq!(code, 0, "{errors}");
-        Self { robot, world, result: serde_json::from_str(&json).unwrap() }
+    fn of(robot: PathBuf, world: PathBuf) -> Self {
+        let result = planned(&robot, &world, "");
+        assert_eq!(result["status"], "found", "{}", world.display());
+        Self { robot, world, result }
     }
 
-    /// The exit code for a result, and what is found.
-    fn judged(&self, result: &Value, options: &[&str]) -> (i32, Value) {
+    /// What is found in a result, or the error.
+    fn judged(&self, result: &Value, question: &Question) -> Value {
         let folder = tempfile::tempdir().unwrap();
-        std::fs::write(folder.path().join("r.json"), result.to_string()).unwrap();
-        let files = ["verify", &self.robot, &self.world, "r.json", "--json"];
-        let (code, json, errors) = run(folder.path(), &[&files, options].concat());
-        (code, serde_json::from_str(&json).unwrap_or(Value::String(errors)))
+        let file = folder.path().join("r.json");
+        std::fs::write(&file, result.to_string()).unwrap();
+        judged(&self.robot, &self.world, &file, question).unwrap_or_else(|error| Value::String(error.to_string()))
+    }
+
+    /// What is found in a motion or task that is to be the one that the world asks for.
+    fn found(&self, result: &Value) -> Value {
+        self.judged(result, &Question::default())
     }
 
     #[track_caller]
     fn refused(&self, change: impl FnOnce(&mut Value), verdict: &str, part: &str) {
         let mut result = self.result.clone();
         change(&mut result);
-        let (code, found) = self.judged(&result, &[]);
-        assert_eq!((code, &found["verdict"]), (3, &json!(verdict)), "{found:#}");
+        let found = self.found(&result);
+        assert_eq!(found["verdict"], verdict, "{found:#}");
         assert!(found["faults"].to_string().contains(part), "{found:#}");
     }
 }
@@ -65,8 +63,8 @@ impl Case {
 fn results_as_they_are_have_no_false_claims() {
     for (robot, world) in [("planar_2r", "shelf"), ("planar_2r", "two_branches"), ("scara", "scara_cell")] {
         let case = Case::new(robot, world);
-        let (code, found) = case.judged(&case.result, &[]);
-        assert_eq!((code, &found["faults"]), (0, &Value::Null), "{world}: {found:#}");
+        let found = case.found(&case.result);
+        assert_eq!((&found["verdict"], &found["faults"]), (&json!("free"), &Value::Null), "{world}: {found:#}");
         let unjudged = found["not_judged"].to_string();
         assert!(unjudged.contains("planner") && unjudged.contains("optimum.lower_bound"), "{unjudged}");
     }
@@ -77,16 +75,18 @@ fn what_is_said_of_a_motion_that_is_not_there_is_named() {
     let case = Case::new("planar_2r", "shelf");
     let mut result = case.result.clone();
     result["trajectory"] = Value::Null;
-    let (code, found) = case.judged(&result, &[]);
-    assert_eq!((code, found["not_judged"].to_string().contains("\"duration\"")), (0, true), "{found:#}");
+    let found = case.found(&result);
+    assert_eq!(found["verdict"], "free", "{found:#}");
+    assert!(found["not_judged"].to_string().contains("\"duration\""), "{found:#}");
     let upright = Case::new("rrbot_vertical", "upright");
     let mut result = upright.result.clone();
     result["trajectory"]["torque"] = json!([[0, 0]]);
-    let (code, found) = upright.judged(&result, &[]);
-    assert_eq!((code, found["not_judged"].to_string().contains("trajectory.torque")), (0, true), "{found:#}");
+    let found = upright.found(&result);
+    assert_eq!(found["verdict"], "free", "{found:#}");
+    assert!(found["not_judged"].to_string().contains("trajectory.torque"), "{found:#}");
     result["units"] = json!(["rad"]);
-    let (code, said) = upright.judged(&result, &[]);
-    assert!(code == 1 && said.to_string().contains("2 joints are named"), "{said:#}");
+    let error = upright.found(&result);
+    assert!(error.as_str().is_some_and(|error| error.contains("2 joints are named")), "{error:#}");
 }
 
 #[test]
@@ -111,7 +111,7 @@ fn a_motion_that_does_not_lead_from_start_to_goal_is_found() {
     let folder = tempfile::tempdir().unwrap();
     let world = folder.path().join("free.toml");
     std::fs::write(&world, "[start]\njoints = [-0.9, 0.4]\n[goal]\njoints = [1.55, -0.35]\n").unwrap();
-    let case = Case::of(shipped("robots/planar_2r.urdf"), world.display().to_string());
+    let case = Case::of(shipped("robots/planar_2r.urdf"), world);
     let only = |samples: std::ops::Range<usize>| {
         let mut result = json!({"joints": case.result["joints"], "trajectory": {}});
         for key in ["time", "position"] {
@@ -121,22 +121,27 @@ fn a_motion_that_does_not_lead_from_start_to_goal_is_found() {
     };
     let count = case.result["trajectory"]["time"].as_array().unwrap().len();
     for (samples, part) in [(1..count, "begins at"), (0..count - 1, "ends at"), (3..4, "begins at")] {
-        let (code, found) = case.judged(&only(samples.clone()), &[]);
-        assert_eq!((code, &found["verdict"]), (3, &json!("ends")), "{found:#}");
+        let found = case.found(&only(samples.clone()));
+        assert_eq!(found["verdict"], "ends", "{found:#}");
         assert!(found["faults"].to_string().contains(part), "{found:#}");
-        assert_eq!(case.judged(&only(samples), &["--anywhere"]).0, 0);
+        assert_eq!(case.judged(&only(samples), &Question::anywhere())["verdict"], "free");
     }
-    assert_eq!(case.judged(&only(0..count), &[]).0, 0);
-    assert_eq!(case.judged(&only(0..count), &["--goal", "1.5,0"]).0, 3);
-    assert_eq!(case.judged(&only(0..count), &["--goal-tip", "0.5,0.5"]).0, 3);
-    assert_eq!(case.judged(&only(0..count), &["--start", "0,0"]).0, 3);
+    assert_eq!(case.found(&only(0..count))["verdict"], "free");
+    for overrides in [
+        Overrides { goal: Some("1.5,0".parse().unwrap()), ..Overrides::default() },
+        Overrides { goal_tip: Some("0.5,0.5".parse().unwrap()), ..Overrides::default() },
+        Overrides { start: Some("0,0".parse().unwrap()), ..Overrides::default() },
+    ] {
+        let found = case.judged(&only(0..count), &Question { overrides, ..Question::default() });
+        assert_eq!(found["verdict"], "ends", "{found:#}");
+    }
     // A goal of the tip is met in any IK solution.
     let case = Case::new("planar_2r", "two_branches");
     let count = case.result["trajectory"]["time"].as_array().unwrap().len();
     let (robot, world) = (case.robot.clone(), case.world.clone());
     let path = case.result["path"].as_array().unwrap();
     let other = Case { robot, world, result: json!({"joints": case.result["joints"], "path": [path[0], [0.0, 0.0]]}) };
-    assert!(count > 1 && other.judged(&other.result, &[]).1["faults"].to_string().contains("the tip"));
+    assert!(count > 1 && other.found(&other.result)["faults"].to_string().contains("the tip"));
 }
 
 #[test]
@@ -156,22 +161,17 @@ fn each_false_claim_of_a_motion_is_named() {
     case.refused(|r| r["optimum"]["lower_bound"] = json!(9.0), "claims", "optimum.lower_bound");
     case.refused(|r| r["optimum"]["gap"] = json!(0.25), "claims", "optimum.gap");
     case.refused(|r| r["optimum"]["metric"] = json!("weighted"), "claims", "optimum.metric");
-    let (code, found) = case.judged(
-        &{
-            let mut less = case.result.clone();
-            less["clearance"] = json!(0.5 * kept);
-            less
-        },
-        &[],
-    );
-    assert_eq!(code, 0, "a weaker claim is true: {found:#}");
+    let mut less = case.result.clone();
+    less["clearance"] = json!(0.5 * kept);
+    let found = case.found(&less);
+    assert_eq!(found["verdict"], "free", "a weaker claim is true: {found:#}");
 }
 
 #[test]
 fn each_false_claim_of_a_task_is_named() {
     let case = Case::tower();
-    let (code, found) = case.judged(&case.result, &[]);
-    assert_eq!((code, &found["faults"]), (0, &Value::Null), "{found:#}");
+    let found = case.found(&case.result);
+    assert_eq!((&found["verdict"], &found["faults"]), (&json!("free"), &Value::Null), "{found:#}");
     case.refused(|r| r["events"][0]["time"] = json!(0.01), "claims", "events[0].time");
     case.refused(|r| r["events"][0]["event"] = json!("release"), "claims", "events[0].event");
     case.refused(|r| r["events"][1]["object"] = json!("nothing"), "claims", "events[1].object");
@@ -256,7 +256,8 @@ fn any_judged_claim_that_is_changed_is_found() {
         let place = result.pointer_mut(pointer).unwrap();
         let other = changed(place, pointer, &mut dice);
         *place = other.clone();
-        let (code, found) = cases[k].judged(&result, &[]);
-        assert_eq!(code, 3, "seed {seed}: {pointer} as {other}: {found:#}");
+        let found = cases[k].found(&result);
+        let is_refuted = found["verdict"].as_str().is_some_and(|verdict| !["free", "undecided"].contains(&verdict));
+        assert!(is_refuted, "seed {seed}: {pointer} as {other}: {found:#}");
     }
 }

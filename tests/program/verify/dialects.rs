@@ -1,31 +1,28 @@
 //! Tables as spreadsheets and loggers write them: the same motion, whatever separates its values.
 
-use std::process::Command;
+use super::judged::{Question, judged};
+use cplan::input::InputError;
+use serde_json::Value;
+use std::path::Path;
 
 const PLAIN: &str = "time,shoulder,elbow\n0,-0.9,0.4\n1,-0.8,0.4\n2,-0.7,0.5\n";
 
-/// What `verify` makes of a table: exit code, and the JSON or the message.
-fn verify(table: &str) -> (i32, String) {
+/// What is found in a table.
+fn verify(table: &str) -> Result<Value, InputError> {
     let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("world.toml"), "[start]\njoints = [-0.9, 0.4]\n[goal]\njoints = [-0.7, 0.5]\n")
-        .unwrap();
-    std::fs::write(folder.path().join("m.csv"), table).unwrap();
-    let robot = concat!(env!("CARGO_MANIFEST_DIR"), "/robots/planar_2r.urdf");
-    let done = Command::new(env!("CARGO_BIN_EXE_cplan"))
-        .current_dir(folder.path())
-        .args(["verify", robot, "world.toml", "m.csv", "--json"])
-        .output()
-        .unwrap();
-    (done.status.code().unwrap(), String::from_utf8(done.stdout).unwrap())
+    let [world, recording] = ["world.toml", "m.csv"].map(|file| folder.path().join(file));
+    std::fs::write(&world, "[start]\njoints = [-0.9, 0.4]\n[goal]\njoints = [-0.7, 0.5]\n").unwrap();
+    std::fs::write(&recording, table).unwrap();
+    let robot = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/robots/planar_2r.urdf"));
+    judged(robot, &world, &recording, &Question::default())
 }
 
 /// The findings without the notes.
-fn findings(table: &str) -> serde_json::Value {
-    let (code, json) = verify(table);
-    assert_eq!(code, 0, "{table}: {json}");
-    let mut json: serde_json::Value = serde_json::from_str(&json).unwrap();
-    json.as_object_mut().unwrap().remove("notes");
-    json
+fn findings(table: &str) -> Value {
+    let mut found = verify(table).unwrap_or_else(|error| panic!("{table}: {error}"));
+    assert_eq!(found["verdict"], "free", "{table}: {found:#}");
+    found.as_object_mut().unwrap().remove("notes");
+    found
 }
 
 #[test]
@@ -48,9 +45,9 @@ fn separators_and_comments_make_no_difference() {
 
 #[test]
 fn what_is_taken_is_said_and_what_is_not_clear_is_refused() {
-    let (_, json) = verify(&PLAIN.replace("1,-0.8,0.4\n", "1,-0.8,0.4\n1,-0.8,0.4\n").replace(',', ";"));
+    let found = verify(&PLAIN.replace("1,-0.8,0.4\n", "1,-0.8,0.4\n1,-0.8,0.4\n").replace(',', ";")).unwrap();
     for part in ["1 sample repeats the one before it; taken once", "separated by semicolons"] {
-        assert!(json.contains(part), "no {part:?} in {json}");
+        assert!(found["notes"].to_string().contains(part), "no {part:?} in {found:#}");
     }
     // Two places at one time, commas for decimals, and two kinds of separators.
     for (table, part) in [
@@ -58,11 +55,9 @@ fn what_is_taken_is_said_and_what_is_not_clear_is_refused() {
         (PLAIN.replace(',', ";").replace('.', ","), "no number"),
         (PLAIN.replacen(',', ";", 1), "time;shoulder"),
     ] {
-        let (code, json) = verify(&table);
-        assert_eq!(code, 1, "{table}: {json}");
-        let error: serde_json::Value = serde_json::from_str(&json).unwrap();
-        let whole = format!("line {}: {} {}", error["line"], error["message"], error["cure"]);
-        assert!(whole.contains(part) && error["cure"].is_string(), "{part:?} is not in {whole}");
+        let error = verify(&table).unwrap_err();
+        let first = &error.diagnostics()[0];
+        assert!(error.to_string().contains(part) && first.help.is_some(), "{part:?} is not in {error}");
     }
 }
 
@@ -93,8 +88,9 @@ fn names_of_topics_and_units_make_no_difference() {
     late["nearest"]["time"] = plain["nearest"]["time"].clone();
     assert_eq!((&late["duration"], &late["samples"]), (&plain["duration"], &plain["samples"]), "{late:#}");
     let degrees = "time,shoulder [deg],elbow [deg]\n0,-51.56620156177409,22.918311805232928\n2,-40.1070456591576,28.64788975654116\n";
-    let (code, json) = verify(degrees);
-    assert!(code == 0 && json.contains("converted to radians, metres and seconds"), "{json}");
+    let found = verify(degrees).unwrap();
+    assert_eq!(found["verdict"], "free", "{found:#}");
+    assert!(found["notes"].to_string().contains("converted to radians, metres and seconds"), "{found:#}");
 }
 
 #[test]
@@ -108,9 +104,9 @@ fn units_and_columns_that_do_not_fit_are_named() {
             "its columns are \"__time\", \"/joint_states/position[0]\", \"/tool\"",
         ),
     ] {
-        let (code, json) = verify(&PLAIN.replacen("time,shoulder,elbow", header, 1));
-        let error: serde_json::Value = serde_json::from_str(&json).unwrap();
-        let message = error["message"].as_str().unwrap();
-        assert!(code == 1 && message.contains(part) && error["line"] == 1, "{part:?} is not in {error:#}");
+        let error = verify(&PLAIN.replacen("time,shoulder,elbow", header, 1)).unwrap_err();
+        let first = &error.diagnostics()[0];
+        assert!(first.message.contains(part), "{part:?} is not in {error}");
+        assert_eq!(first.position.map(|position| position.line), Some(1), "{error}");
     }
 }

@@ -1,11 +1,12 @@
 //! Motions of joints beside the arm's two: a quill that goes up and down, a wrist that turns.
 
+use super::judged::{Question, judged};
+use crate::cli::Place;
 use crate::common::random;
-use cplan::input::{Source, scene_from};
+use cplan::input::{InputError, Source, scene_from};
 use cplan::space::Configuration;
 use serde_json::Value;
 use std::fmt::Write;
-use std::process::Command;
 
 /// Two arms of a metre each at a height of 1 m, a quill of 0.6 m at their end, a finger of 0.2 m beside its axis.
 const ROBOT: &str = r#"<robot name="scara">
@@ -40,21 +41,22 @@ const FINGER: &str =
 const WORLD: &str = "[robot]\njoints = [\"j1\", \"j2\"]\n[[obstacle]]\nname = \"block\"\n\
                      polygon = [[1.5, 0.5], [1.9, 0.5], [1.9, 0.9], [1.5, 0.9]]\nheight = [0.0, 0.5]\n";
 
-/// What `verify` makes of a table: exit code, JSON.
-fn verify(finger: &str, world: &str, table: &str, options: &[&str]) -> (i32, Value) {
+/// What is found in a table.
+fn verify(finger: &str, table: &str) -> Result<Value, InputError> {
     let folder = tempfile::tempdir().unwrap();
-    let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();
-    write("arm.urdf", &ROBOT.replace("FINGER", finger));
-    write("world.toml", world);
-    write("m.csv", table);
-    let run = Command::new(env!("CARGO_BIN_EXE_cplan"))
-        .current_dir(folder.path())
-        .args(["verify", "arm.urdf", "world.toml", "m.csv", "--json", "--anywhere"])
-        .args(options)
-        .output()
-        .unwrap();
-    let json = serde_json::from_slice(&run.stdout).unwrap_or_else(|e| panic!("{e}: {run:?}"));
-    (run.status.code().unwrap(), json)
+    let write = |name: &str, text: &str| {
+        let file = folder.path().join(name);
+        std::fs::write(&file, text).unwrap();
+        file
+    };
+    let robot = write("arm.urdf", &ROBOT.replace("FINGER", finger));
+    judged(&robot, &write("world.toml", WORLD), &write("m.csv", table), &Question::anywhere())
+}
+
+/// What is found in a table that can be judged, and its verdict.
+fn found(finger: &str, table: &str) -> (String, Value) {
+    let found = verify(finger, table).unwrap_or_else(|error| panic!("{error}"));
+    (found["verdict"].as_str().expect("a word").to_owned(), found)
 }
 
 /// Over the block and back: the rod is above it while it is raised.
@@ -66,23 +68,23 @@ fn a_quill_is_judged_at_the_heights_that_it_has() {
         "time,j1,j2,quill\n".to_owned() + &(0..4).map(row).collect::<String>()
     };
     // The rod ends at 0.7 m less its depth.
-    for (depths, code) in [
-        ([0.0; 4], 0),
-        ([0.6, 0.0, 0.0, 0.6], 3),
-        ([0.19; 4], 0),
-        ([0.19, 0.19, 0.21, 0.0], 3),
-        ([0.6, 0.6, 0.6, 0.6], 3),
+    for (depths, verdict) in [
+        ([0.0; 4], "free"),
+        ([0.6, 0.0, 0.0, 0.6], "collision"),
+        ([0.19; 4], "free"),
+        ([0.19, 0.19, 0.21, 0.0], "collision"),
+        ([0.6, 0.6, 0.6, 0.6], "collision"),
     ] {
-        let (found, json) = verify("", WORLD, &table(depths), &[]);
-        assert_eq!(found, code, "{depths:?}: {json:#}");
-        if code == 3 {
+        let (found, json) = found("", &table(depths));
+        assert_eq!(found, verdict, "{depths:?}: {json:#}");
+        if verdict == "collision" {
             assert_eq!(json["first_contact"]["body"], "rod", "{json:#}");
         }
     }
-    let (code, json) = verify("", WORLD, &table([0.19, 0.19, 0.21, 0.0]), &[]);
+    let (verdict, json) = found("", &table([0.19, 0.19, 0.21, 0.0]));
     let time = json["first_contact"]["time"].as_f64().unwrap();
     // Halfway down over the block its heights are those of the block.
-    assert!(code == 3 && (1.5 - 1e-6..1.6).contains(&time), "{json:#}");
+    assert!(verdict == "collision" && (1.5 - 1e-6..1.6).contains(&time), "{json:#}");
     let notes = json["notes"].to_string();
     assert!(notes.contains("moves, from 0 to 0.21 m") && notes.contains("at the heights that it has"), "{notes}");
 }
@@ -95,25 +97,29 @@ fn between_samples_a_quill_goes_where_its_velocities_lead_it() {
             "time,j1,j2,quill,j1_velocity,j2_velocity,quill_velocity\n0,0.38,0,0.1,0,0,{speed}\n1,0.38,0,0.1,0,0,-{speed}\n"
         )
     };
-    assert_eq!(verify("", WORLD, &table(0.39), &[]).0, 0);
+    assert_eq!(found("", &table(0.39)).0, "free");
     // A quarter of the speed more, halfway.
-    let (code, json) = verify("", WORLD, &table(0.41), &[]);
-    assert_eq!((code, &json["first_contact"]["body"]), (3, &"rod".into()), "{json:#}");
+    let (verdict, json) = found("", &table(0.41));
+    assert_eq!((verdict.as_str(), &json["first_contact"]["body"]), ("collision", &"rod".into()), "{json:#}");
 }
 
 #[test]
 fn a_wrist_sweeps_a_disc() {
     let table = |turn: f64, j1: f64| format!("time,j1,j2,quill,wrist\n0,{j1},0,0.5,0\n1,{j1},0,0.5,{turn}\n");
     // The tip is 0.2 m and 0.05 m beside the block, the finger 0.2 m long.
-    for (finger, turn, j1, code) in
-        [(FINGER, 1.0, 0.0, 0), (FINGER, 1.0, 0.2, 4), (FINGER, 0.0, 0.2, 0), ("", 1.0, 0.2, 0), (FINGER, 1.0, 0.38, 3)]
-    {
-        let (found, json) = verify(finger, WORLD, &table(turn, j1), &[]);
-        assert_eq!(found, code, "{turn} {j1}: {json:#}");
+    for (finger, turn, j1, verdict) in [
+        (FINGER, 1.0, 0.0, "free"),
+        (FINGER, 1.0, 0.2, "undecided"),
+        (FINGER, 0.0, 0.2, "free"),
+        ("", 1.0, 0.2, "free"),
+        (FINGER, 1.0, 0.38, "collision"),
+    ] {
+        let (found, json) = found(finger, &table(turn, j1));
+        assert_eq!(found, verdict, "{turn} {j1}: {json:#}");
         assert!(turn == 0.0 || json["notes"].to_string().contains("the disc that it sweeps"), "{json:#}");
         // The rod is round, so that its contacts are certain; those of the disc are not.
         let certain = json["first_contact"]["body"].as_str();
-        assert_eq!(certain, (code == 3).then_some("rod"), "{json:#}");
+        assert_eq!(certain, (verdict == "collision").then_some("rod"), "{json:#}");
     }
 }
 
@@ -121,18 +127,22 @@ fn a_wrist_sweeps_a_disc() {
 #[test]
 fn motions_that_cannot_be_judged_say_why() {
     let table = "time,j1,j2,quill\n0,0,0,0\n1,0.1,0,0.1\n";
-    let (code, _) = verify("", WORLD, table, &["--certificate", "c.json"]);
-    assert_eq!(code, 0);
+    let place = Place::new();
+    let files = [("arm.urdf", ROBOT.replace("FINGER", "")), ("world.toml", WORLD.into()), ("m.csv", table.into())];
+    files.iter().for_each(|(name, text)| place.write(name, text));
+    let done = place.run(&["verify", "arm.urdf", "world.toml", "m.csv"], "--anywhere --certificate c.json");
+    assert!(done.code == 0 && done.stderr.contains("joint \"quill\" moves"), "{}", done.stderr);
+    assert!(!place.path("c.json").exists());
     let mimic = FINGER.to_owned()
         + "</link><joint name=\"twin\" type=\"prismatic\"><parent link=\"tool\"/><child link=\"pad\"/><axis xyz=\"0 0 1\"/>\
            <limit lower=\"0\" upper=\"1\" effort=\"1\" velocity=\"1\"/><mimic joint=\"quill\"/></joint><link name=\"pad\">";
-    let (code, error) = verify(&mimic, WORLD, table, &[]);
-    assert!(code == 1 && error["message"].as_str().unwrap().contains("moves joint \"twin\" with it"), "{error:#}");
+    let error = verify(&mimic, table).unwrap_err().to_string();
+    assert!(error.contains("moves joint \"twin\" with it"), "{error}");
     let slanted = FINGER.to_owned()
         + "</link><joint name=\"tilt\" type=\"revolute\"><parent link=\"tool\"/><child link=\"pad\"/><axis xyz=\"1 0 0\"/>\
            <limit lower=\"-1\" upper=\"1\" effort=\"1\" velocity=\"1\"/></joint><link name=\"pad\">";
-    let (code, error) = verify(&slanted, WORLD, &table.replace("quill", "tilt"), &[]);
-    assert!(code == 1 && error["message"].as_str().unwrap().contains("not along the normal"), "{error:#}");
+    let error = verify(&slanted, &table.replace("quill", "tilt")).unwrap_err().to_string();
+    assert!(error.contains("not along the normal"), "{error}");
 }
 
 /// Motions drawn at random, held to the scenes of their moments, in each of which the quill is held where it is then.
@@ -147,7 +157,7 @@ fn motions_of_a_quill_agree_with_the_scenes_of_their_moments() {
         for (k, [j1, j2, quill]) in samples.iter().enumerate() {
             writeln!(table, "{k},{j1},{j2},{quill}").unwrap();
         }
-        let (code, json) = verify(FINGER, WORLD, &table, &[]);
+        let (verdict, json) = found(FINGER, &table);
         let at = |time: f64| {
             let (k, share) = ((time.floor() as usize).min(3), time - time.floor().min(3.0));
             [0, 1, 2].map(|j| samples[k][j] + share * (samples[k + 1][j] - samples[k][j]))
@@ -160,18 +170,18 @@ fn motions_of_a_quill_agree_with_the_scenes_of_their_moments() {
                 scene_from(robot, Source::in_memory("world.toml", world)).unwrap_or_else(|e| panic!("{e}")).scene;
             scene.closest(Configuration::new(j1, j2)).map_or(f64::INFINITY, |contact| contact.separation.distance)
         };
-        match code {
-            0 => {
+        match verdict.as_str() {
+            "free" => {
                 let least = (0..=160).map(|k| distance(f64::from(k) / 40.0)).fold(f64::INFINITY, f64::min);
                 assert!(least > 0.0, "seed {seed}: {least} {json:#}");
             }
-            3 => {
+            "collision" => {
                 let time = json["first_contact"]["time"].as_f64().unwrap();
                 assert!(distance(time) <= 1e-9, "seed {seed}: {} {json:#}", distance(time));
             }
             other => panic!("seed {seed}: {other} {json:#}"),
         }
-        verdicts[usize::from(code == 3)] += 1;
+        verdicts[usize::from(verdict == "collision")] += 1;
     }
     assert!(verdicts.iter().all(|count| *count > 0), "{verdicts:?}");
 }

@@ -7,6 +7,7 @@ mod controller;
 mod dialects;
 mod files;
 mod held_joints;
+pub mod judged;
 mod limits;
 mod motion;
 mod recordings;

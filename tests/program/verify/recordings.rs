@@ -1,39 +1,33 @@
 //! Recordings of ROS 2 topics.
 #![cfg(feature = "mcap")]
 
+use super::judged::{self, Question};
+use crate::cli::Place;
+use cplan::input::InputError;
 use serde_json::{Value, json};
-use std::path::Path;
-use std::process::{Command, Output};
+use std::path::{Path, PathBuf};
 
-fn shipped(file: &str) -> String {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join(file).display().to_string()
-}
-
-fn run(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
-    let run = Command::new(env!("CARGO_BIN_EXE_cplan")).current_dir(folder).args(arguments).output();
-    let Output { status, stdout, stderr } = run.unwrap();
-    let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
-    (status.code().expect("no signal"), text(stdout), text(stderr))
+fn shipped(file: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join(file)
 }
 
 /// The same message in both formats is the same motion.
 #[test]
 fn a_recording_is_judged_as_the_message_in_it() {
-    let folder = tempfile::tempdir().unwrap();
     for (robot, world) in [("planar_2r", "shelf"), ("scara", "scara_cell")] {
+        let place = Place::new();
         let (robot, world) = (shipped(&format!("robots/{robot}.urdf")), shipped(&format!("workspaces/{world}.toml")));
-        let planned = run(folder.path(), &[&robot, &world, "--output", "m.yaml", "--output", "m.mcap", "--quiet"]);
-        assert_eq!(planned.0, 0, "{}", planned.2);
+        let planned =
+            place.run(&[robot.to_str().unwrap(), world.to_str().unwrap()], "--output m.yaml --output m.mcap --quiet");
+        assert_eq!(planned.code, 0, "{}", planned.stderr);
         let found = ["m.yaml", "m.mcap"].map(|file| {
-            let (code, json, errors) = run(folder.path(), &["verify", &robot, &world, file, "--json"]);
-            let mut found: Value = serde_json::from_str(&json).unwrap_or_else(|e| panic!("{e}: {errors}"));
+            let mut found = judged::judged(&robot, &world, &place.path(file), &Question::default()).unwrap();
             let notes = found.as_object_mut().unwrap().remove("notes").unwrap().to_string();
-            (code, found, notes)
+            (found, notes)
         });
-        assert_eq!((found[0].0, &found[0].1), (found[1].0, &found[1].1));
-        assert!(found[1].2.contains("/joint_states are not judged"), "{}", found[1].2);
-        std::fs::remove_file(folder.path().join("m.yaml")).unwrap();
-        std::fs::remove_file(folder.path().join("m.mcap")).unwrap();
+        assert_eq!(found[0].0, found[1].0);
+        assert_eq!(found[1].0["verdict"], "free", "{:#}", found[1].0);
+        assert!(found[1].1.contains("/joint_states are not judged"), "{}", found[1].1);
     }
 }
 
@@ -117,8 +111,6 @@ fn recording_of(messages: &[(&str, &str, u64, Vec<u8>)]) -> Vec<u8> {
 
 #[test]
 fn states_that_somebody_recorded() {
-    let folder = tempfile::tempdir().unwrap();
-    let (robot, world) = (shipped("robots/planar_2r.urdf"), shipped("workspaces/shelf.toml"));
     let states = |last: [f64; 2]| {
         [
             ("/joint_states", STATES, 7, state(10, [0.4, -0.9])),
@@ -126,17 +118,12 @@ fn states_that_somebody_recorded() {
             ("/joint_states", STATES, 9, state(12, last)),
         ]
     };
-    let judged = |bytes: &[u8]| {
-        std::fs::write(folder.path().join("m.mcap"), bytes).unwrap();
-        run(folder.path(), &["verify", &robot, &world, "m.mcap", "--json", "--anywhere"])
-    };
-    let (code, json, errors) = judged(&recording_of(&states([0.5, -0.8])));
-    assert_eq!(code, 0, "{errors}{json}");
-    let found: Value = serde_json::from_str(&json).unwrap();
+    let found = judged(&recording_of(&states([0.5, -0.8])), None).unwrap();
+    assert_eq!(found["verdict"], "free", "{found:#}");
     assert_eq!((&found["samples"], &found["duration"]), (&json!(2), &json!(2.0)));
     assert!(found["notes"].to_string().contains("topics that are not used: \\\"/rosout\\\""), "{found:#}");
     // Straight to the goal goes through the shelf, faster than the elbow can.
-    assert_eq!(judged(&recording_of(&states([-0.35, 1.55]))).0, 3);
+    assert_eq!(judged(&recording_of(&states([-0.35, 1.55])), None).unwrap()["verdict"], "collision");
 
     let whole = recording_of(&states([0.5, -0.8]));
     for (bytes, part) in [
@@ -151,24 +138,25 @@ fn states_that_somebody_recorded() {
             "holds no positions of \"shoulder\", \"elbow\"; it holds /camera (no type), /rosout (rcl_interfaces/msg/Log)",
         ),
     ] {
-        let (code, _, errors) = judged(&bytes);
-        assert_eq!(code, 1, "{errors}");
-        assert!(errors.contains(part) && errors.contains("cure:"), "{part}: {errors}");
+        let error = judged(&bytes, None).unwrap_err().to_string();
+        assert!(error.contains(part) && error.contains("cure:"), "{part}: {error}");
     }
 }
 
-/// Judges a recording of the planar arm, wherever it begins and ends: exit code, JSON and errors.
-fn judged(bytes: &[u8], options: &[&str]) -> (i32, Value, String) {
+/// Judges a recording of the planar arm, wherever it begins and ends.
+fn judged(bytes: &[u8], topic: Option<&str>) -> Result<Value, InputError> {
     let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("m.mcap");
+    std::fs::write(&file, bytes).unwrap();
     let (robot, world) = (shipped("robots/planar_2r.urdf"), shipped("workspaces/shelf.toml"));
-    std::fs::write(folder.path().join("m.mcap"), bytes).unwrap();
-    let arguments = ["verify", &robot, &world, "m.mcap", "--json", "--anywhere"];
-    let (code, json, errors) = run(folder.path(), &[&arguments, options].concat());
-    (code, serde_json::from_str(&json).unwrap(), errors)
+    judged::judged(&robot, &world, &file, &Question { topic, ..Question::anywhere() })
 }
 
-fn message_of(error: &Value) -> String {
-    format!("{}; {}", error["message"].as_str().unwrap(), error["cure"].as_str().unwrap())
+/// What is wrong with a recording, and the hint.
+fn message_of(bytes: &[u8], topic: Option<&str>) -> String {
+    let error = judged(bytes, topic).unwrap_err();
+    let first = &error.diagnostics()[0];
+    format!("{}; {}", first.message, first.help.as_ref().expect("a hint"))
 }
 
 /// `write.py` beside the files has written them with the format's Python package: the same motion as a table.
@@ -181,17 +169,17 @@ fn compressed_chunks_of_a_topic_in_a_namespace_out_of_order() {
         format!("{time},{shoulder},{elbow}\n")
     };
     let table = "time,shoulder,elbow\n".to_owned() + &(0..40).map(row).collect::<String>();
-    std::fs::write(folder.path().join("m.csv"), table).unwrap();
-    let judged = |file: &str| {
-        let (code, json, errors) = run(folder.path(), &["verify", &robot, &world, file, "--json", "--anywhere"]);
-        let found: Value = serde_json::from_str(&json).unwrap();
-        assert!(code == 0 && found["samples"] == json!(40), "{file}: {errors}{found:#}");
+    let csv = folder.path().join("m.csv");
+    std::fs::write(&csv, table).unwrap();
+    let judged = |file: &PathBuf| {
+        let found = judged::judged(&robot, &world, file, &Question::anywhere()).unwrap();
+        assert_eq!((&found["verdict"], &found["samples"]), (&json!("free"), &json!(40)), "{found:#}");
         ["clearance", "duration", "nearest"].map(|key| found[key].to_string())
     };
     for file in ["zstd", "lz4"] {
         let file = shipped(&format!("tests/program/verify/recorded/{file}.mcap"));
-        let [found, expected] = [&file, "m.csv"].map(judged);
-        assert_eq!((&found[1..], &found[0][..8]), (&expected[1..], &expected[0][..8]), "{file}");
+        let [found, expected] = [&file, &csv].map(judged);
+        assert_eq!((&found[1..], &found[0][..8]), (&expected[1..], &expected[0][..8]), "{}", file.display());
     }
 }
 
@@ -202,8 +190,9 @@ fn damaged_compressed_chunks_are_refused() {
         for at in (200..bytes.len() - 200).step_by(97) {
             bytes[at] ^= 0x55;
             // Whatever a changed byte does, it is never a crash.
-            let (code, found, _) = judged(&bytes, &[]);
-            assert!([0, 1, 3].contains(&code), "{file}, {at}: {found:#}");
+            if let Ok(found) = judged(&bytes, None) {
+                assert_ne!(found["verdict"], "undecided", "{file}, {at}: {found:#}");
+            }
             bytes[at] ^= 0x55;
         }
     }
@@ -219,24 +208,22 @@ fn several_topics_with_the_arms_joints() {
         ("/sim/joint_states", 10, state(12, [0.41, -0.8])),
         ("/gripper/joint_states", 10, state_of(12, &["finger"], &[0.1])),
     ]);
-    let (code, error, _) = judged(&bytes, &[]);
-    let message = message_of(&error);
-    assert_eq!(code, 1);
+    let message = message_of(&bytes, None);
     assert!(
         message.contains("/real/joint_states (sensor_msgs/msg/JointState, joints \"elbow\", \"shoulder\")"),
         "{message}"
     );
     assert!(message.ends_with("--topic /real/joint_states") && !message.contains("/gripper"), "{message}");
     for (topic, duration) in [("/real/joint_states", 1.0), ("/sim/joint_states", 2.0)] {
-        let (code, found, errors) = judged(&bytes, &["--topic", topic]);
-        assert_eq!((code, &found["duration"]), (0, &json!(duration)), "{errors}");
+        let found = judged(&bytes, Some(topic)).unwrap();
+        assert_eq!((&found["verdict"], &found["duration"]), (&json!("free"), &json!(duration)), "{found:#}");
         let other = if topic.starts_with("/real") { "/sim" } else { "/real" };
         assert!(found["notes"].to_string().contains(&format!("{other}/joint_states are not judged")), "{found:#}");
     }
     for (topic, part) in
         [("/joint_states", "has no topic /joint_states"), ("/gripper/joint_states", "has no positions of")]
     {
-        let message = message_of(&judged(&bytes, &["--topic", topic]).1);
+        let message = message_of(&bytes, Some(topic));
         assert!(
             message.contains(part)
                 && message.contains("/gripper/joint_states (sensor_msgs/msg/JointState, joints \"finger\")"),
@@ -255,8 +242,9 @@ fn several_publishers_on_one_topic() {
         ("/joint_states", 9, state_of(11, &["shoulder", "lid", "elbow"], &[-0.9, 0.0, 0.41])),
         ("/joint_states", 11, state_of(12, &["elbow"], &[1.0])),
     ]);
-    let (code, found, errors) = judged(&bytes, &[]);
-    assert_eq!((code, &found["samples"], &found["duration"]), (0, &json!(2), &json!(1.0)), "{errors}{found:#}");
+    let found = judged(&bytes, None).unwrap();
+    assert_eq!(found["verdict"], "free", "{found:#}");
+    assert_eq!((&found["samples"], &found["duration"]), (&json!(2), &json!(1.0)), "{found:#}");
     let notes = found["notes"].to_string();
     assert!(notes.contains("2 of 4 messages on /joint_states do not name both"), "{notes}");
     assert!(notes.contains("1 messages repeat") && notes.contains("joint \\\"lid\\\" is ignored"), "{notes}");
@@ -266,7 +254,7 @@ fn several_publishers_on_one_topic() {
         ("/joint_states", 7, state_of(10, &["elbow"], &[0.4])),
         ("/joint_states", 8, state_of(10, &["shoulder"], &[-0.9])),
     ]);
-    let message = message_of(&judged(&halves, &[]).1);
+    let message = message_of(&halves, None);
     assert!(message.contains("holds no positions of") && message.contains("both of the arm's joints"), "{message}");
 }
 
@@ -280,8 +268,8 @@ fn motions_of_a_controller_in_a_namespace() {
         (topic, MOTIONS, 1_000_000_000, motion(&["shoulder", "elbow"], &[(0, [-0.9, 0.4]), (2, [-0.9, 0.41])])),
         ("/joint_states", STATES, 9, state(10, [0.4, -0.9])),
     ]);
-    let (code, found, errors) = judged(&bytes, &[]);
-    assert_eq!(code, 0, "{errors}{found:#}");
+    let found = judged(&bytes, None).unwrap();
+    assert_eq!(found["verdict"], "free", "{found:#}");
     // Two points, where the arm waits, where it starts again, two points.
     assert_eq!((&found["samples"], &found["duration"]), (&json!(5), &json!(9.0)), "{found:#}");
     assert!(found["notes"].to_string().contains("2 motions, one after the other"), "{found:#}");
@@ -292,16 +280,18 @@ fn motions_of_a_controller_in_a_namespace() {
         ("/joint_states", STATES, 9, state(10, [0.4, -0.9])),
         ("/joint_states", STATES, 10, state(11, [0.43, -0.9])),
     ]);
-    let message = message_of(&judged(&jumps, &[]).1);
+    let message = message_of(&jumps, None);
     assert!(message.contains("stands elsewhere when a motion begins") && message.contains("--topic"), "{message}");
-    assert_eq!(judged(&jumps, &["--topic", "/joint_states"]).0, 0);
+    assert_eq!(judged(&jumps, Some("/joint_states")).unwrap()["verdict"], "free");
 }
 
 #[test]
 fn topics_are_those_of_recordings() {
     let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("m.csv"), "time,shoulder,elbow\n0,-0.9,0.4\n").unwrap();
+    let file = folder.path().join("m.csv");
+    std::fs::write(&file, "time,shoulder,elbow\n0,-0.9,0.4\n").unwrap();
     let (robot, world) = (shipped("robots/planar_2r.urdf"), shipped("workspaces/shelf.toml"));
-    let (code, _, errors) = run(folder.path(), &["verify", &robot, &world, "m.csv", "--topic", "/joint_states"]);
-    assert!(code == 1 && errors.contains("has no topics") && errors.contains("leave --topic out"), "{errors}");
+    let question = Question { topic: Some("/joint_states"), ..Question::default() };
+    let error = judged::judged(&robot, &world, &file, &question).unwrap_err().to_string();
+    assert!(error.contains("has no topics") && error.contains("leave --topic out"), "{error}");
 }

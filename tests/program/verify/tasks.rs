@@ -1,5 +1,6 @@
 //! Results of tasks: our own ones as they are, tampered with, and in worlds that are not theirs.
 
+use super::judged::{Question, judged, planned};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -30,25 +31,33 @@ fn shipped(name: &str) -> Shipped {
     let world = std::fs::read_to_string(&file).unwrap();
     let robot = world.lines().find_map(|line| line.strip_prefix("# robot: ")).unwrap();
     let robot = root(&format!("robots/{}.urdf", robot.trim()));
-    let (code, json, errors) =
-        run(Path::new("."), &[robot.to_str().unwrap(), file.to_str().unwrap(), "--json", "--quiet"]);
-    assert_eq!(code, 0, "{name}: {errors}");
-    Shipped { robot, world, result: serde_json::from_str(&json).unwrap() }
+    let result = planned(&robot, &file, "");
+    assert_eq!(result["status"], "found", "{name}");
+    Shipped { robot, world, result }
 }
 
 impl Shipped {
+    /// Writes the world and the result into a folder.
+    fn written(&self, folder: &Path) -> [PathBuf; 2] {
+        let files = ["world.toml", "task.json"].map(|file| folder.join(file));
+        std::fs::write(&files[0], &self.world).unwrap();
+        std::fs::write(&files[1], self.result.to_string()).unwrap();
+        files
+    }
+
     /// What `verify` says of the result.
     fn said(&self, options: &[&str]) -> Said {
         let folder = tempfile::tempdir().unwrap();
-        std::fs::write(folder.path().join("world.toml"), &self.world).unwrap();
-        std::fs::write(folder.path().join("task.json"), self.result.to_string()).unwrap();
+        self.written(folder.path());
         let files = ["verify", self.robot.to_str().unwrap(), "world.toml", "task.json"];
         run(folder.path(), &[&files, options].concat())
     }
 
-    fn found(&self) -> (i32, Value) {
-        let (code, json, errors) = self.said(&["--json"]);
-        (code, serde_json::from_str(&json).unwrap_or_else(|error| panic!("{error}: {errors}{json}")))
+    /// What is found in the result.
+    fn found(&self) -> Value {
+        let folder = tempfile::tempdir().unwrap();
+        let [world, task] = self.written(folder.path());
+        judged(&self.robot, &world, &task, &Question::default()).unwrap_or_else(|error| panic!("{error}"))
     }
 
     /// The same in a world in which one thing is another.
@@ -82,8 +91,8 @@ impl Shipped {
     /// Refuted with this verdict: of the whole, and of these steps alone, counted from 0.
     #[track_caller]
     fn refuted(&self, verdict: &str, steps: &[usize]) -> Value {
-        let (code, found) = self.found();
-        assert_eq!((code, &found["verdict"]), (3, &json!(verdict)), "{found:#}");
+        let found = self.found();
+        assert_eq!(found["verdict"], verdict, "{found:#}");
         let of_steps = found["steps"].as_array().unwrap();
         let wrong: Vec<usize> = (0..of_steps.len()).filter(|&k| of_steps[k]["verdict"] != "free").collect();
         assert_eq!(wrong, steps, "{found:#}");
@@ -100,8 +109,8 @@ fn number(value: &Value) -> Option<f64> {
 fn our_own_tasks_are_free_and_their_clearances_agree() {
     for (name, count) in [("kitting_cell", 24), ("tower", 5), ("board_turned", 3), ("feeder", 300), ("sorting", 8)] {
         let task = shipped(name);
-        let (code, found) = task.found();
-        assert_eq!((code, &found["verdict"], &found["faults"]), (0, &json!("free"), &Value::Null), "{name}: {found:#}");
+        let found = task.found();
+        assert_eq!((&found["verdict"], &found["faults"]), (&json!("free"), &Value::Null), "{name}: {found:#}");
         assert_eq!(found["limits_broken"], json!([]), "{name}");
         let (ours, theirs) = (found["steps"].as_array().unwrap(), task.result["steps"].as_array().unwrap());
         assert_eq!((ours.len(), theirs.len()), (count, count), "{name}");
@@ -160,8 +169,8 @@ fn an_object_elsewhere() {
     let task = shipped("sorting").in_world("at = [0.25, 0.45]", "at = [0.25, 0.40]");
     let steps = task.result["steps"].as_array().unwrap();
     let picked = steps.iter().position(|step| step["action"] == "pick" && step["object"] == "red").unwrap();
-    let (code, found) = task.found();
-    assert_eq!((code, &found["verdict"]), (3, &json!("task")), "{found:#}");
+    let found = task.found();
+    assert_eq!(found["verdict"], "task", "{found:#}");
     for (at, what) in [(picked, "the tip ends 0.05"), (picked + 1, "the object's origin ends 0.05")] {
         let step = &found["steps"][at];
         assert_eq!(step["verdict"], "task");
@@ -178,7 +187,7 @@ fn steps_in_another_order() {
         steps.iter().map(|step| step["step"].as_u64().unwrap()).collect::<Vec<_>>()
     };
     assert!(!numbers(&sorting).is_sorted());
-    assert_eq!(sorting.found().0, 0);
+    assert_eq!(sorting.found()["verdict"], "free");
 
     let mut tower = shipped("tower");
     tower.result["steps"][0]["step"] = json!(3);
@@ -275,7 +284,7 @@ fn a_turn_that_is_another() {
     task.refuted("collision", &[2]);
     // With a post in the way of the turn alone.
     let post = "[[obstacle]]\nname = \"post\"\ncircle = { center = [0.52, 1.1], radius = 0.01 }\nheight = [0.0, 0.04]\n\n[[object]]";
-    let found = shipped("board_turned").in_world("[[object]]", post).found().1;
+    let found = shipped("board_turned").in_world("[[object]]", post).found();
     let turn = &found["steps"][1]["turn"];
     assert_eq!((&found["steps"][1]["verdict"], &turn["contact"]["obstacle"]), (&json!("collision"), &json!("post")));
     // The post's centre is 0.12 beside the tip, the board's long side 0.06: they touch when the one is 0.07 from the other's
@@ -283,7 +292,7 @@ fn a_turn_that_is_another() {
     let expected = (0.07_f64 / 0.12).acos();
     let angle = |turn: &Value| number(&turn["contact"]["angle"]).unwrap();
     assert!((angle(turn) - expected).abs() < 1e-6, "{turn:#}");
-    let back = reversed(0.0, to - std::f64::consts::TAU).in_world("[[object]]", post).found().1;
+    let back = reversed(0.0, to - std::f64::consts::TAU).in_world("[[object]]", post).found();
     assert!((angle(&back["steps"][1]["turn"]) + expected).abs() < 1e-6, "{back:#}");
 }
 
@@ -323,7 +332,7 @@ fn another_start() {
 fn a_file_without_steps_is_one_motion() {
     let mut tower = shipped("tower");
     tower.result.as_object_mut().unwrap().remove("steps");
-    let (_, found) = tower.found();
+    let found = tower.found();
     assert!(found["steps"].is_null());
     assert!(found["notes"].to_string().contains("the world has steps, the file none"), "{found:#}");
     let (code, text, error) = tower.said(&["--start", "0,0"]);

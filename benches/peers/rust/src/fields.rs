@@ -1,7 +1,7 @@
 //! Distances and harmonic fields on a grid: cplan's solvers; the cells and the results go into files, for peers in other
 //! languages and for the comparison with them.
 
-#[path = "../../../../tests/common/mazes.rs"]
+#[path = "../../../../crates/cases/src/mazes.rs"]
 #[allow(dead_code, reason = "only the maze is needed here")]
 mod mazes;
 

@@ -1,7 +1,7 @@
 //! Shortest paths among random disjoint polygons: cplan's triangulation and visibility graph beside polyanya's mesh. The
 //! polygons and queries are written to a file, for peers in other languages.
 
-#[path = "../../../../tests/common/dice.rs"]
+#[path = "../../../../crates/cases/src/dice.rs"]
 mod dice;
 #[path = "../../../../tests/common/roadmap.rs"]
 #[allow(dead_code, reason = "only the random polygons are needed here")]

@@ -1,8 +1,8 @@
 //! Distance and penetration depth: two methods of the library against each other, against their definition, and against
 //! parry2d.
 
-use crate::common::{convex, disc, wall};
-use cplan::geometry::{Convex, Point, Separation, Vector, hull, penetration_depth, separation, shapes_meet};
+use crate::shapes::{convex, disc, wall};
+use cplan_geometry::{Convex, Point, Separation, Vector, hull, penetration_depth, separation, shapes_meet};
 use proptest::prelude::*;
 
 use crate::lattice::{core, points};

@@ -2,8 +2,8 @@
 
 use super::exact::{self, Pair};
 use super::lattice::{PLACES, point};
-use crate::common::dice;
-use cplan::geometry::{Point, SimplePolygon};
+use cplan_cases::dice;
+use cplan_geometry::{Point, SimplePolygon};
 use std::cmp::Ordering;
 
 type Corner = Pair<i128>;

@@ -1,10 +1,10 @@
 //! Polygons with holes and touching corners: their covered area, against counting cells and casting rays in integers.
 
-use crate::common::dice;
-use crate::common::dice::Dice;
-use crate::common::random::{times, usual};
 use crate::lattice::{Corner, point};
-use cplan::geometry::{Convex, Orientation, Point, Polygon, RingError, orientation};
+use cplan_cases::dice;
+use cplan_cases::dice::Dice;
+use cplan_cases::{times, usual};
+use cplan_geometry::{Convex, Orientation, Point, Polygon, RingError, orientation};
 use std::collections::{BTreeMap, BTreeSet};
 
 fn points(ring: &[Corner]) -> Vec<Point> {

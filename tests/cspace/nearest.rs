@@ -120,7 +120,7 @@ fn an_arm_that_is_buried_has_no_way_out() {
 #[test]
 fn the_command_names_it_for_configurations_that_are_not_free() {
     let check = |at: &str| {
-        let mut command = assert_cmd::Command::cargo_bin("cplan").unwrap();
+        let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_cplan"));
         let output = command.args(["check", "robots/planar_2r.urdf", "workspaces/shelf.toml", "--json", "--at", at]);
         let output = output.output().unwrap();
         assert!(output.status.success());

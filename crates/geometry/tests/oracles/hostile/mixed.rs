@@ -2,9 +2,9 @@
 
 use super::exact::{self, Pair};
 use super::shapes::Shape;
-use crate::common::dice;
-use crate::common::dice::Dice;
-use cplan::geometry::{Orientation, Point, orientation, point_on_segment, segments_cross, segments_meet};
+use cplan_cases::dice;
+use cplan_cases::dice::Dice;
+use cplan_geometry::{Orientation, Point, orientation, point_on_segment, segments_cross, segments_meet};
 use num_rational::BigRational;
 use std::cmp::Ordering;
 

@@ -1,7 +1,7 @@
 //! Geometry in exact numbers by other methods than the library's: Cramer's rule, separating axes, gift wrapping. It is
 //! generic, so that the same oracle runs in 128-bit integers, if they suffice, and in rational numbers.
 
-use cplan::geometry::Location;
+use cplan_geometry::Location;
 use std::cmp::Ordering;
 use std::ops::{Add, Mul, Sub};
 

@@ -2,9 +2,9 @@
 //! place of the coordinates, or far above it.
 
 use super::exact::{self, Pair};
-use crate::common::dice;
-use crate::common::dice::Dice;
-use cplan::geometry::{Orientation, Point, orientation, point_on_segment, segments_cross, segments_meet};
+use cplan_cases::dice;
+use cplan_cases::dice::Dice;
+use cplan_geometry::{Orientation, Point, orientation, point_on_segment, segments_cross, segments_meet};
 use std::cmp::Ordering;
 
 /// Corner of the lattice in units, and the unit: a power of two, so that every point is stored exactly. The first three

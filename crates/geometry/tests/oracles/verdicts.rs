@@ -1,7 +1,7 @@
 //! Exact verdicts: whether shapes meet, and the location of points.
 
-use crate::common::{convex, disc, wall};
-use cplan::geometry::{Location, Point, hull, point_penetration, polygon_test, shapes_meet};
+use crate::shapes::{convex, disc, wall};
+use cplan_geometry::{Location, Point, hull, point_penetration, polygon_test, shapes_meet};
 use proptest::prelude::*;
 
 use crate::lattice::{core, cross, meet, point, points};

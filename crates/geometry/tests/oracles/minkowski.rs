@@ -1,7 +1,7 @@
 //! Minkowski differences against brute force and against identities of convex geometry.
 
-use crate::common::{convex, disc, wall};
-use cplan::geometry::{Location, Point, Vector, hull, point_penetration};
+use crate::shapes::{convex, disc, wall};
+use cplan_geometry::{Location, Point, Vector, hull, point_penetration};
 use proptest::prelude::*;
 
 use crate::lattice::{Corner, core, meet, points};

@@ -1,6 +1,6 @@
 //! Validation and convex decomposition of polygons against integer arithmetic.
 
-use cplan::geometry::{Point, PolygonError, SimplePolygon, decompose};
+use cplan_geometry::{Point, PolygonError, SimplePolygon, decompose};
 use proptest::prelude::*;
 
 use crate::lattice::{Corner, cross, meet, point, points};

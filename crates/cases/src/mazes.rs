@@ -9,8 +9,9 @@ fn random(state: &mut u64) -> u64 {
     *state
 }
 
-/// Returns a maze without loops, by depth-first search over the cells with even coordinates. Then, out of every
-/// thousand walls between two corridors, it opens `openings`.
+/// Returns a maze without loops, by depth-first search over the cells with even coordinates; then of every thousand walls between
+/// two corridors `openings` are opened.
+#[must_use]
 pub fn maze(n: usize, openings: u64) -> Vec<bool> {
     let rooms = n.div_ceil(2);
     let mut state = 88_172_645_463_325_252;
@@ -38,7 +39,8 @@ pub fn maze(n: usize, openings: u64) -> Vec<bool> {
     blocked
 }
 
-/// Returns a corridor that winds inwards, and its inner end; the outer end is cell 0.
+/// Returns a corridor that winds inwards, and its inner end; the outer one is cell 0.
+#[must_use]
 pub fn spiral(n: usize) -> (Vec<bool>, usize) {
     let n = n as i64;
     let mut blocked = vec![true; (n * n) as usize];

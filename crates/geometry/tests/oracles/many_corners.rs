@@ -2,7 +2,7 @@
 //! reported sides of an invalid polygon are compared with a test of all pairs.
 
 use crate::lattice::{Corner, cross, meet, points};
-use cplan::geometry::{Convex, MOST_CORNERS, Point, PolygonError, SimplePolygon, decompose};
+use cplan_geometry::{Convex, MOST_CORNERS, Point, PolygonError, SimplePolygon, decompose};
 use proptest::prelude::*;
 
 /// Returns a ring around the origin on the lattice, with one corner in each of `count` directions; `radius` of each.

@@ -1,5 +1,4 @@
-//! Random numbers, the same in every run.
-#![allow(dead_code, reason = "every test and benchmark uses some of it")]
+//! Random numbers for generators written by hand, the same in every run.
 
 use std::fmt::Debug;
 
@@ -7,10 +6,13 @@ use std::fmt::Debug;
 pub struct Dice(u64);
 
 impl Dice {
+    /// Returns the generator with this seed.
+    #[must_use]
     pub fn new(seed: u64) -> Self {
         Self(seed)
     }
 
+    /// Draws 64 bits.
     pub fn bits(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -18,12 +20,15 @@ impl Dice {
         z ^ (z >> 31)
     }
 
-    /// Returns a number uniform in `[from, to)`.
+    /// Draws a number that is uniform in `[from, to)`.
     pub fn within(&mut self, from: f64, to: f64) -> f64 {
         from + (to - from) * ((self.bits() >> 11) as f64 / (1_u64 << 53) as f64)
     }
 
-    /// Returns a whole number, at least 0 and below `n`.
+    /// Draws a whole number, at least 0 and below `n`.
+    ///
+    /// # Panics
+    /// If `n` is not positive.
     pub fn below<N>(&mut self, n: N) -> N
     where
         N: TryInto<u64, Error: Debug> + TryFrom<u64, Error: Debug>,
@@ -32,12 +37,12 @@ impl Dice {
         N::try_from(self.bits() % n).expect("less than another")
     }
 
-    /// Returns a whole number from `-n` to `n`.
+    /// Draws a whole number from `-n` to `n`.
     pub fn about_zero(&mut self, n: i64) -> i64 {
         self.below(2 * n + 1) - n
     }
 
-    /// Returns true in this fraction of the cases.
+    /// Draws a truth value that is true in this share of the cases.
     pub fn chance(&mut self, share: f64) -> bool {
         self.within(0.0, 1.0) < share
     }

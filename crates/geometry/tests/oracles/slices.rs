@@ -1,7 +1,7 @@
 //! Arcs, stretches, slices and grids against distances of sampled configurations.
 
-use crate::common::convex;
-use cplan::geometry::{
+use crate::shapes::convex;
+use cplan_geometry::{
     Convex, Features, Hits, Point, Pose, ROUNDING, Vector, separation, sliding, turning, turning_from,
 };
 use proptest::prelude::*;

@@ -1,6 +1,6 @@
 //! Shapes with small integer corners, on which plain integer arithmetic is exact, and an oracle that uses it.
 
-use cplan::geometry::{Point, hull};
+use cplan_geometry::{Point, hull};
 use proptest::prelude::*;
 
 /// A corner on the lattice.

@@ -1,6 +1,6 @@
 //! parry2d as an oracle, and the conversions to its types.
 
-use cplan::geometry::{Convex, Point};
+use cplan_geometry::{Convex, Point};
 use parry2d_f64::math::{Pose, Vector};
 use parry2d_f64::query;
 use parry2d_f64::shape::SharedShape;

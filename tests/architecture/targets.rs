@@ -1,0 +1,45 @@
+//! Holds that nothing is left out of the tests: a library without test targets has neither tests nor examples in its documentation.
+
+use crate::rust_files;
+use std::path::Path;
+
+/// The documentation on a line, if it is a comment of documentation.
+fn documentation(line: &str) -> Option<&str> {
+    let line = line.trim_start();
+    line.strip_prefix("///").or(line.strip_prefix("//!")).map(str::trim_start)
+}
+
+/// Whether a text has an example in its documentation that rustdoc would run: a fence opens without a language, or with Rust. One that
+/// closes has no language, either, so that there is one for each that opens with another.
+fn has_example(text: &str) -> bool {
+    let fences = text.lines().filter_map(|line| documentation(line)?.strip_prefix("```"));
+    let (plain, of_rust): (Vec<&str>, Vec<&str>) =
+        fences.partition(|language| !language.is_empty() && !language.starts_with("rust"));
+    of_rust.len() > plain.len()
+}
+
+#[test]
+fn libraries_without_test_targets_have_no_tests() {
+    let crates = Path::new(env!("CARGO_MANIFEST_DIR")).join("crates");
+    let (mut wrong, mut left_out) = (Vec::new(), 0);
+    for entry in std::fs::read_dir(crates).unwrap() {
+        let folder = entry.unwrap().path();
+        let manifest: toml::Table = std::fs::read_to_string(folder.join("Cargo.toml")).unwrap().parse().unwrap();
+        let is_off = |key: &str| manifest.get("lib").and_then(|lib| lib.get(key)?.as_bool()) == Some(false);
+        left_out += usize::from(is_off("test")) + usize::from(is_off("doctest"));
+        for file in rust_files(&folder.join("src")) {
+            let text = std::fs::read_to_string(&file).unwrap();
+            if is_off("test") && text.contains("#[test]") || is_off("doctest") && has_example(&text) {
+                wrong.push(file);
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "remove `test = false` or `doctest = false` from the manifests of {wrong:?}");
+    assert!(left_out > 5, "the test reads the wrong manifests");
+}
+
+#[test]
+fn examples_are_told_from_plain_text() {
+    assert!(has_example("/// ```\n/// f();\n/// ```\n") && has_example("//! ```rust\n//! ```\n"));
+    assert!(!has_example("//! ```text\n//! a -> b\n//! ```\n") && !has_example("fn f() {}\n"));
+}

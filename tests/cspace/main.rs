@@ -1,0 +1,11 @@
+//! Configuration-space obstacles as grids and regions, against clearances and distances of sampled configurations.
+
+#[path = "../common/mod.rs"]
+mod common;
+mod crowded;
+mod data;
+mod grids;
+mod nearest;
+#[path = "../../crates/geometry/tests/oracles/parry.rs"]
+mod parry;
+mod regions;

@@ -1,0 +1,46 @@
+//! The library's results and findings, as the program prints them in JSON.
+
+use cplan::cli::read_words;
+use cplan::engine::findings::verify;
+use cplan::input::{InputError, Overrides, load_recording, load_scene, load_topic};
+use cplan::{Problem, plan};
+use serde_json::Value;
+use std::path::Path;
+
+/// What is asked besides the files.
+#[derive(Default)]
+pub struct Question<'a> {
+    pub overrides: Overrides,
+    pub anywhere: bool,
+    pub topic: Option<&'a str>,
+}
+
+impl Question<'_> {
+    /// A motion may begin and end anywhere.
+    pub fn anywhere() -> Self {
+        Self { anywhere: true, ..Self::default() }
+    }
+}
+
+/// The findings about a recording. Their `verdict` decides the program's exit code.
+pub fn judged(robot: &Path, world: &Path, recording: &Path, question: &Question) -> Result<Value, InputError> {
+    let Question { overrides, anywhere, topic } = question;
+    let mut loaded = load_scene(robot, world)?.keeping(overrides.clearance)?;
+    let recorded = match topic {
+        None => load_recording(recording, &loaded)?,
+        Some(topic) => load_topic(recording, topic, &loaded)?,
+    };
+    if recorded.has_torques {
+        loaded = loaded.keeping_efforts()?;
+    }
+    let findings = verify(&loaded, &recorded, overrides, *anywhere)?;
+    Ok(serde_json::to_value(&findings).unwrap())
+}
+
+/// The result of the main job with these words of its command line.
+pub fn planned(robot: &Path, world: &Path, words: &str) -> Value {
+    let words: Vec<String> = words.split_whitespace().map(str::to_owned).collect();
+    let (options, overrides) = read_words(&words).unwrap_or_else(|error| panic!("{words:?}: {error}"));
+    let problem = Problem::load_with(robot, world, &overrides).unwrap_or_else(|error| panic!("{error}"));
+    serde_json::from_str(&plan(&problem, &options).unwrap().to_json()).unwrap()
+}
