@@ -1,6 +1,6 @@
 //! Planning in a world that is only seen bit by bit.
 //!
-//! The world that is given is what is really there. The explorer knows of it what its [`Sensor`](cplan_core::model::Sensor) has
+//! The world that is given is what is really there. The explorer knows of it what its [`Sensor`](cplan_world::Sensor) has
 //! seen, as a map of cells; what it has not seen is solid. Every motion is certified within what is known to be free before it is
 //! begun, so the arm stops before it enters what it has not seen; and it is certified once more against the world itself by who
 //! plays it.

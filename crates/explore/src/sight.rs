@@ -62,9 +62,10 @@ impl Edges {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use cplan_core::model::{Arm, Scene, Sensor, Workspace};
+    use cplan_core::model::{Arm, Scene, Workspace};
     use cplan_core::space::Draws;
     use cplan_geometry::Point;
+    use cplan_world::Sensor;
     use proptest::prelude::*;
 
     /// A map about an arm, of cells as they are told by their column and row.

@@ -92,7 +92,7 @@ mod tests;
 pub use self::mcap::{Body, Solid, Stage, mcap};
 pub use clock::whole_nanoseconds;
 pub use clock::{nanoseconds, nearest_within, not_after, not_before, seconds};
-pub use cplan_core::space::{INTERPOLATION, SMOOTH_INTERPOLATION};
+pub use cplan_handling::{INTERPOLATION, SMOOTH_INTERPOLATION};
 pub use csv::csv;
 pub use drive::{Drive, Objective};
 pub use field::FieldReport;

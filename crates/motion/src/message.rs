@@ -1,7 +1,7 @@
 //! What a ROS 2 message says of a motion.
 
 use super::Trajectory;
-use cplan_core::model::{Drives, RobotJoints};
+use cplan_handling::{Drives, RobotJoints};
 use thiserror::Error;
 
 /// A motion of all joints that a message names.

@@ -2,7 +2,7 @@
 
 use cplan_core::check::CertifiedCurve;
 use cplan_core::model::Joint;
-use cplan_core::space::{INTERPOLATION, SMOOTH_INTERPOLATION};
+use cplan_handling::{INTERPOLATION, SMOOTH_INTERPOLATION};
 use serde::Serialize;
 
 /// How to read trajectories of these joints.

@@ -1,6 +1,8 @@
 //! How a robot was read, for the user.
 
-use cplan_core::model::{Arm, AssumedLimits, HeldJoint, RobotJoints};
+use crate::AssumedLimits;
+use cplan_core::model::Arm;
+use cplan_handling::{HeldJoint, RobotJoints};
 use serde::{Deserialize, Serialize};
 
 /// What the user should know of how the robot was read.

@@ -1,7 +1,8 @@
 //! What an exploration is of: the start, and a goal if there is one.
 
 use super::{LoadedScene, Overrides};
-use cplan_core::model::{Scene, Sensor};
+use crate::Sensor;
+use cplan_core::model::Scene;
 use cplan_core::space::{Configuration, GoalSet};
 use cplan_robot::{DiagnosticKind, InputError, RobotReport};
 

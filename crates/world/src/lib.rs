@@ -39,6 +39,7 @@ mod preference;
 mod preference_map;
 mod problem;
 mod query;
+mod range_sensor;
 mod requirement;
 mod schema;
 mod sensor;
@@ -59,6 +60,7 @@ pub use line_map::{Chain, LineMap};
 pub use occupancy::{MOST_CELLS, Occupancy, OccupancyMap, PixelRectangle, rectangles};
 pub use preference_map::{PreferenceMap, PreferenceRectangle};
 pub use query::Query;
+pub use range_sensor::{Mount, Sensor};
 pub use schema::{toml_schema, world_schema};
 pub use suite::{Asked, LeftOut, MANIFEST, Member, Refused, Suite, load_folder, load_suite};
 pub use task::LoadedTask;
@@ -66,7 +68,8 @@ pub use trajectory::{LoadedRecording, load_recording, load_topic, read_recording
 pub use values::{JointValues, Overrides, TipPoint};
 pub use world::{World, in_toml_words};
 
-use cplan_core::model::{Arm, Goal, MotionProblem, RobotJoints, Scene};
+use cplan_core::model::{Arm, Goal, MotionProblem, Scene};
+use cplan_handling::RobotJoints;
 use cplan_robot::{Diagnostic, InputError, Inspection, RobotFile, RobotReport, RobotTable, Source};
 use std::path::Path;
 

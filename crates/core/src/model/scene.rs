@@ -3,8 +3,7 @@
 use super::scene_error::{check, check_clearance};
 use super::scene_record::SceneRecord;
 use super::{
-    Arm, Carrier, Dynamics, Grip, Heights, Joint, Link, Mover, Obstacle, Part, Payload, SceneError, SelfObstacle,
-    Workspace,
+    Arm, Carrier, Grip, Heights, Joint, Link, Mover, Obstacle, Part, Payload, SceneError, SelfObstacle, Workspace,
 };
 use crate::space::{Configuration, JointRange};
 use cplan_geometry::{Convex, Separation, separation};
@@ -379,13 +378,6 @@ impl Scene {
     /// The arm, to give its joints other limits on speed, acceleration, jerk and effort: the pairs do not depend on them.
     pub fn arm_mut(&mut self) -> &mut Arm {
         &mut self.arm
-    }
-
-    /// Masses and efforts with what is carried, if motions have to keep within the efforts.
-    #[must_use]
-    pub fn limiting_dynamics(&self) -> Option<Dynamics> {
-        let own = self.arm.dynamics.filter(|dynamics| dynamics.limits)?;
-        Some(self.payload.as_ref().map_or(own, |payload| own.carrying(&self.arm, payload)))
     }
 
     /// What the arm carries, if anything.

@@ -21,11 +21,9 @@ mod curve;
 mod draws;
 pub mod funnel;
 mod goal_set;
-mod interpolation;
 mod measure;
 mod metric;
 mod path;
-mod recording;
 mod segment;
 mod topology;
 
@@ -34,11 +32,9 @@ pub use curve::{Derivative, Piece, State};
 pub use draws::Draws;
 pub use funnel::{Portal, funnel_path, nearest_end};
 pub use goal_set::GoalSet;
-pub use interpolation::{INTERPOLATION, Interpolation, SMOOTH_INTERPOLATION};
 pub use measure::Measure;
 pub use metric::Metric;
 pub use path::Path;
-pub use recording::{Recording, RecordingError};
 pub use segment::Segment;
 pub use topology::{JointRange, Topology};
 

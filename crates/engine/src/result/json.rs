@@ -1,8 +1,8 @@
 //! The result as JSON: which fields, in which order.
 
 use super::Report;
-use cplan_core::model::AssumedLimits;
 use cplan_motion::{Trajectory, as_map, line_a_field};
+use cplan_robot::AssumedLimits;
 use serde::Serialize;
 use serde::ser::{SerializeMap, Serializer};
 

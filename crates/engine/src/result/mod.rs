@@ -11,10 +11,12 @@ use super::Planner;
 use super::moving::Timing;
 use super::task::MessageError;
 use cplan_core::check::{CertifiedCurve, CheckedProof};
-use cplan_core::model::{AssumedLimits, Joint, RobotJoints, Status};
+use cplan_core::model::{Joint, Status};
 use cplan_core::planner::VisibilityGraph;
 use cplan_core::space::Metric;
+use cplan_handling::RobotJoints;
 use cplan_motion::{Blends, Fastest, FieldReport, Optimum, SearchUsed, Trajectory, interpolation};
+use cplan_robot::AssumedLimits;
 use std::collections::BTreeMap;
 
 /// The result of a run. What of it a script relies on is always in its JSON, `path`, `length`, `clearance` and `trajectory` as null if

@@ -2,7 +2,8 @@
 
 use super::{Report, finite};
 use crate::task::{EventReport, FailedStep, Impossible, MessageError, Messages, Sequence, StepReport, TaskAnswer};
-use cplan_core::model::{RobotJoints, Status, Task};
+use cplan_core::model::Status;
+use cplan_handling::{RobotJoints, Task};
 use cplan_motion::Timed;
 use serde::Serialize;
 use std::sync::Arc;

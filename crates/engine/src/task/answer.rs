@@ -3,8 +3,9 @@
 use super::impossible::Impossible;
 use super::stroke::ToolStroke;
 use crate::Timing;
-use cplan_core::model::{Outcome, Scene, Step};
+use cplan_core::model::{Outcome, Scene};
 use cplan_geometry::Pose;
+use cplan_handling::Step;
 use cplan_motion::Timed;
 use cplan_motion::recorded::WristTurn;
 use std::sync::Arc;

@@ -3,7 +3,7 @@
 use super::impossible::{Impossible, Unreached};
 use super::step_report::ActionName;
 use cplan_core::check::CheckedProof;
-use cplan_core::model::Task;
+use cplan_handling::Task;
 use serde::Serialize;
 
 /// An IK solution at a step's target that the arm cannot take, or is not known to.

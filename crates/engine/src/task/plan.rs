@@ -9,7 +9,7 @@ use super::part;
 use super::search::{Ending, Limits, Search};
 use super::state::State;
 use crate::Options;
-use cplan_core::model::{Item, Task};
+use cplan_handling::{Item, Task};
 use std::collections::BTreeSet;
 
 /// Motions that are planned, and nodes that are expanded, while a search insists on the fastest choice where the order is

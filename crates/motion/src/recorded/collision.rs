@@ -2,9 +2,10 @@
 
 use super::tool::ToolMotion;
 use cplan_core::check::{Bounded, Deviation, Place, Posture, Span};
-use cplan_core::model::{Contact, Drift, HeldMotion, Pair, Scene};
-use cplan_core::space::{Configuration, Piece, Recording};
+use cplan_core::model::{Contact, Drift, Pair, Scene};
+use cplan_core::space::{Configuration, Piece};
 use cplan_geometry::Separation;
+use cplan_handling::{HeldMotion, Recording};
 use cplan_interrupt::checkpoint;
 use std::borrow::Cow;
 

@@ -1,7 +1,8 @@
 //! Whether a motion leads from where it should begin to where it should end.
 
 use cplan_core::model::{Arm, Goal};
-use cplan_core::space::{Configuration, Recording};
+use cplan_core::space::Configuration;
+use cplan_handling::Recording;
 use thiserror::Error;
 
 /// By how much a motion may miss its start or goal, radians or metres: what six printed decimals make of a tip some metres

@@ -5,9 +5,10 @@
 //! such a disc is claimed, unless the part is that disc itself.
 
 use cplan_core::check::{Deviation, Place, Span};
-use cplan_core::model::{Heights, HeldEffect, HeldMotion, Pair, Part, Scene};
+use cplan_core::model::{Heights, Pair, Part, Scene};
 use cplan_core::space::Piece;
 use cplan_geometry::{Convex, Point};
+use cplan_handling::{HeldEffect, HeldMotion};
 
 /// How far a round part may be off the axis that it turns about, metres: rounding, as of heights.
 const ON_AXIS: f64 = 1e-9;

@@ -7,8 +7,8 @@ use super::tree;
 use crate::error::Diagnostic;
 use crate::quantity::Number;
 use crate::stroke::StrokeTable;
-use cplan_core::model::assumed_acceleration;
-use cplan_core::model::{Driver, Plane, RobotJoint, RobotJoints, Stroke, ToolJoint};
+use cplan_core::model::{Plane, assumed_acceleration};
+use cplan_handling::{Driver, RobotJoint, RobotJoints, Stroke, ToolJoint};
 use toml::Spanned;
 use urdf_rs::JointType;
 

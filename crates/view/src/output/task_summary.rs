@@ -3,9 +3,10 @@
 use super::motion_summary::among_movers;
 use super::step_lines::{StepLine, step_lines};
 use super::summary::{Line, Told, configuration, field, non_empty, torque};
-use cplan_core::model::{Arm, Task};
+use cplan_core::model::Arm;
 use cplan_engine::task::{Leg, TaskAnswer};
 use cplan_engine::{Plan, Report, TaskPlan};
+use cplan_handling::Task;
 use cplan_text::{at_least, counted, nonzero, percent};
 
 /// What came of the steps; start and steps.

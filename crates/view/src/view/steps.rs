@@ -3,8 +3,8 @@
 use super::TaskPicture;
 use super::states::rounds;
 use crate::color::{BARRED, GREY, INK, Rgb};
-use cplan_core::model::{Object, Step};
 use cplan_engine::task::{TaskAnswer, TaskVerdict};
+use cplan_handling::{Object, Step};
 
 /// More rows than this are not shown.
 const MOST: usize = 26;

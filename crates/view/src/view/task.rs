@@ -9,9 +9,10 @@ use super::world::{ContourView, ObstacleView, WorldView, contours};
 use super::{PanelView, Still, View, extent};
 use crate::{FieldLines, color};
 use cplan_core::cspace::CObstacle;
-use cplan_core::model::{Object, Obstacle, Scene, Status, Task};
+use cplan_core::model::{Obstacle, Scene, Status};
 use cplan_engine::task::{Event, Impossible, Leg, Sequence, TaskAnswer};
 use cplan_geometry::Pose;
+use cplan_handling::{Object, Task};
 use std::sync::Arc;
 
 /// Poses nearer than this, metres and radians, look the same; rounding of those that are.

@@ -1,8 +1,8 @@
 //! What a result of cplan's says besides its samples.
 
 use crate::parsers::json_diagnostic;
-use cplan_core::model::{BlendsClaim, Claims, EventClaim, OptimumClaim, StepClaims, TaskClaims};
 use cplan_core::space::Configuration;
+use cplan_handling::{BlendsClaim, Claims, EventClaim, OptimumClaim, StepClaims, TaskClaims};
 use cplan_robot::{Diagnostic, InputError, Source};
 use serde::{Deserialize, Deserializer};
 

@@ -15,8 +15,9 @@ mod steps;
 mod units;
 
 use super::LoadedScene;
-use cplan_core::model::{Claims, HeldJoint, HeldMotion, JointType, RecordedStep};
-use cplan_core::space::{Configuration, Interpolation, Recording, RecordingError};
+use cplan_core::model::JointType;
+use cplan_core::space::Configuration;
+use cplan_handling::{Claims, HeldJoint, HeldMotion, Interpolation, RecordedStep, Recording, RecordingError};
 use cplan_robot::{Diagnostic, InputError, Source, quoted};
 use std::borrow::Cow;
 use std::ops::Range;

@@ -1,8 +1,9 @@
 //! What a recording says of joints beside the arm's two.
 
 use super::{Names, Samples, Series, misplaced};
-use cplan_core::model::{HeldEffect, HeldJoint, HeldMotion, OutlineSource, Scene};
-use cplan_core::space::{Configuration, Interpolation, Recording, RecordingError};
+use cplan_core::model::{OutlineSource, Scene};
+use cplan_core::space::Configuration;
+use cplan_handling::{HeldEffect, HeldJoint, HeldMotion, Interpolation, Recording, RecordingError};
 use cplan_robot::{Diagnostic, Source};
 
 /// By how much a held joint's recorded value may differ from the value that it is held at, radians or metres: more than

@@ -1,6 +1,7 @@
 //! Whether a motion follows a path.
 
-use cplan_core::space::{Configuration, Path, Recording};
+use cplan_core::space::{Configuration, Path};
+use cplan_handling::Recording;
 
 /// How far a motion may be off what it follows, in each joint, radians or metres: a thousand times what rounding makes of
 /// either, and the hair by which blends may be missed.

@@ -4,9 +4,9 @@ use super::{FalseClaim, Ledger, TIME};
 use crate::recorded::replay::{AT, angle_between};
 use crate::recorded::wrist::turn_resolution;
 use crate::recorded::{Happening, ReplayedStep};
-use cplan_core::model::{Action, Claims, EventClaim, RecordedStep, Task};
-use cplan_core::space::{Configuration, Recording};
+use cplan_core::space::Configuration;
 use cplan_geometry::Point;
+use cplan_handling::{Action, Claims, EventClaim, RecordedStep, Recording, Task};
 
 /// Which claims of a result are false that are about one of its steps, the one of this `index`, beside what became of it.
 #[must_use]

@@ -1,8 +1,8 @@
 //! Whether recorded steps are the task's, one after the other.
 
 use super::Departure;
-use cplan_core::model::{Item, RecordedStep, Step, Task};
-use cplan_core::space::{Configuration, Recording};
+use cplan_core::space::Configuration;
+use cplan_handling::{Item, RecordedStep, Recording, Step, Task};
 
 /// A step of the task at its place in the record.
 #[derive(Debug, Clone)]
