@@ -24,6 +24,7 @@ mod masses;
 mod mover;
 mod obstruction;
 mod outcome;
+mod pairing;
 mod payload;
 mod payload_parts;
 mod preference;
