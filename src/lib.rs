@@ -88,13 +88,17 @@ pub mod model {
 /// Configurations, motions, and the topology of the space they live in.
 pub mod space {
     pub use cplan_core::space::*;
-    pub use cplan_handling::{INTERPOLATION, Interpolation, Recording, RecordingError, SMOOTH_INTERPOLATION};
+    pub use cplan_handling::{
+        Derivative, INTERPOLATION, Interpolation, Piece, Recording, RecordingError, SMOOTH_INTERPOLATION, State,
+    };
+    pub use cplan_motion::{Blend, BlendedPath, HAIR, Stretch};
 }
 
 /// The judge of paths, proofs, bounds and recorded motions.
 pub mod check {
     pub use cplan_core::check::*;
     pub use cplan_motion::recorded::*;
+    pub use cplan_motion::{CertifiedCurve, Place, Rounding, Span, blend};
     pub use cplan_proofs::bound::*;
 }
 

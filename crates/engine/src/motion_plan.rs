@@ -5,8 +5,8 @@ use super::field_report::field_report;
 use super::moving::{Demand, InTime, Timing, in_time};
 use super::options::Options;
 use super::{Answer, Bound, Report, Verdict};
-use cplan_core::check::CertifiedCurve;
 use cplan_core::model::MotionProblem;
+use cplan_motion::CertifiedCurve;
 use cplan_motion::{Fastest, Objective, Optimum, Timed, TimingError};
 
 /// A verdict, and the motion that follows from it.
@@ -46,7 +46,7 @@ impl MotionPlan {
             && let Some((timed, fastest)) = driven.take()
         {
             // The fastest motion may take another path than the shortest, to another goal.
-            let path = timed.curve.straight();
+            let path = timed.curve.straight().clone();
             match in_time(&problem, &path, timed, options, &Demand::ALONE)? {
                 Ok(InTime { timed, figures }) => {
                     // The bound stays; the duration has its waits now.
@@ -64,7 +64,7 @@ impl MotionPlan {
                 if curve.curve().path() != certified.path() {
                     let upper = |bound: Bound| bound.metric.length(curve.curve().path());
                     answer.bound = answer.bound.map(|bound| Bound { upper: upper(bound), ..bound });
-                    answer.verdict = Verdict::Found(curve.straight());
+                    answer.verdict = Verdict::Found(curve.straight().clone());
                 }
                 report.optimum = answer.bound.map(Optimum::from);
                 report.fastest = fastest;

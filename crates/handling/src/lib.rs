@@ -3,13 +3,15 @@
 //! - [`Task`]: objects, and the steps in which an arm picks, carries and places them.
 //! - The tool: a [`Stroke`] that lowers it, a [`Wrist`] that turns it, and the robot's joints beside the two of the arm ([`RobotJoints`],
 //!   [`HeldJoint`]).
-//! - Records of motions: [`Recording`] has samples and what happens between them, [`Claims`] what a file says besides.
+//! - Records of motions: [`Recording`] has samples, which [`Piece`]s of polynomials join, [`Claims`] what a file says besides.
 //!
 //! A task builds scenes for the core; planning, timing and judging are for the crates above.
 
+mod bernstein;
 mod claims;
 mod held;
 mod interpolation;
+mod piece;
 mod recording;
 mod robot_joints;
 mod stroke;
@@ -19,6 +21,7 @@ mod task_error;
 pub use claims::{BlendsClaim, Claims, EventClaim, OptimumClaim, RecordedStep, RecordedTurn, StepClaims, TaskClaims};
 pub use held::{HeldEffect, HeldJoint, HeldMotion};
 pub use interpolation::{INTERPOLATION, Interpolation, SMOOTH_INTERPOLATION};
+pub use piece::{Derivative, Piece, State};
 pub use recording::{Recording, RecordingError};
 pub use robot_joints::{Driver, Drives, RobotJoint, RobotJoints};
 pub use stroke::{Stroke, ToolJoint};

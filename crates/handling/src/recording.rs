@@ -1,7 +1,7 @@
 //! Motions as samples.
 
-use super::Interpolation;
-use cplan_core::space::{Configuration, Path, Piece, Topology};
+use super::{Interpolation, Piece};
+use cplan_core::space::{Configuration, Path, Topology};
 use std::ops::RangeInclusive;
 use thiserror::Error;
 

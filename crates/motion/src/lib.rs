@@ -14,7 +14,7 @@
 //! | MCAP `/tf`, `/scene`, `/outlines` | RViz, Foxglove, Rerun | nothing: a frame stays where it is until it moves |
 //! | MCAP `/joint_states` | `robot_state_publisher`, Foxglove | each state for itself; displays hold it or draw lines to the next |
 //!
-//! The cubics are the certified motion: on straight pieces exactly, on blends within [`cplan_core::space::HAIR`], which the
+//! The cubics are the certified motion: on straight pieces exactly, on blends within [`HAIR`], which the
 //! certificate covers, and they keep the limits; while the arm stands the samples are equal and at rest. Quintics are that
 //! motion only where the acceleration does not jump, so accelerations are left out unless they are asked for, and refused
 //! where they do. States lie on the motion; lines between them leave it by no more than `a h^2 / 8` for accelerations up to
@@ -57,6 +57,8 @@
 //! recording (`mcap`, a feature) is a list of motions, each with the time at which it begins: a CDR writer of our own
 //! (`mcap/cdr`), the two messages with their definitions (`mcap/messages`), and the crate `mcap` for the container.
 
+mod blend;
+mod certified;
 mod clock;
 mod corner;
 mod csv;
@@ -80,6 +82,7 @@ mod schedule;
 mod shape;
 mod single;
 mod smooth;
+mod span;
 mod spline;
 mod tip;
 mod torque;
@@ -90,6 +93,8 @@ mod tests;
 
 #[cfg(feature = "mcap")]
 pub use self::mcap::{Body, Solid, Stage, mcap};
+pub use blend::{Blend, BlendedPath, HAIR, Stretch};
+pub use certified::{CertifiedCurve, Rounding, blend};
 pub use clock::whole_nanoseconds;
 pub use clock::{nanoseconds, nearest_within, not_after, not_before, seconds};
 pub use cplan_handling::{INTERPOLATION, SMOOTH_INTERPOLATION};
@@ -107,6 +112,7 @@ pub use ros::ros_yaml;
 pub use sample::after_pause;
 pub use sample::{LONGEST_MOTION, MOST_SAMPLES, SHORTEST_INTERVAL, Timed, TimingError, Trajectory, time};
 pub use single::single;
+pub use span::{Place, Span};
 pub use tip::TipSpeed;
 pub use torque::TorqueLimit;
 pub use whole_file::{WriteError, check_writable, write_whole, write_whole_set};

@@ -1,6 +1,6 @@
 //! What results say of paths and searches.
 
-use cplan_core::check::CertifiedCurve;
+use crate::CertifiedCurve;
 use cplan_core::model::Joint;
 use cplan_handling::{INTERPOLATION, SMOOTH_INTERPOLATION};
 use serde::Serialize;

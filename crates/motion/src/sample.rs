@@ -4,8 +4,10 @@ use super::clock::{self, PER_SECOND, nanoseconds, not_before, whole_nanoseconds}
 use super::limits::Limits;
 use super::profile::Phase;
 use super::schedule::{TimedTrack, Track, schedule};
-use cplan_core::check::CertifiedCurve;
-use cplan_core::space::{BlendedPath, Configuration, Piece};
+use crate::BlendedPath;
+use crate::CertifiedCurve;
+use cplan_core::space::Configuration;
+use cplan_handling::Piece;
 use serde::Serialize;
 use thiserror::Error;
 
@@ -202,7 +204,7 @@ pub struct Timed {
 ///
 /// Samples lie at the multiples of `period`, wherever that second derivative changes, and on blends as densely as it
 /// takes for the cubic through positions and velocities to keep the limits, too, and to stay within
-/// [`cplan_core::space::HAIR`] of the blend; all of them at whole nanoseconds. Multiples of the period closer than a tenth of a
+/// [`crate::HAIR`] of the blend; all of them at whole nanoseconds. Multiples of the period closer than a tenth of a
 /// millisecond (or half the period) to another sample are left out. A path that stays where it is gives one sample.
 ///
 /// A straight piece of length `L` from rest to rest, with speed and acceleration limits `v` and `a` along it, takes

@@ -263,7 +263,8 @@ mod tests {
     use super::super::profile::rest_to_rest;
     use super::super::schedule::schedule;
     use super::*;
-    use cplan_core::space::{BlendedPath, Path};
+    use crate::BlendedPath;
+    use cplan_core::space::Path;
     use proptest::prelude::*;
 
     fn limits(velocity: f64, acceleration: f64, jerk: [Option<f64>; 2]) -> Limits<'static> {

@@ -4,8 +4,9 @@ use super::sample::{TimingError, Trajectory};
 use super::tip::Part;
 use crate::recorded::torque_looks;
 use cplan_core::model::Scene;
-use cplan_core::space::{Configuration, Path, Piece};
+use cplan_core::space::{Configuration, Path};
 use cplan_dynamics::{Curvature, Rates, Torques};
+use cplan_handling::Piece;
 
 /// Share of an effort by which the torque may be overestimated on a part of a curve: curves are cut so finely.
 const STEP: f64 = 0.01;

@@ -3,7 +3,6 @@
 use super::payload_parts::Meetable;
 use super::{Arm, Carrier, Heights, Mover, Obstacle, Pair, Part, SelfObstacle, Workspace};
 use cplan_geometry::{Convex, separation};
-use std::ops::Range;
 
 /// Whether heights meet, where rounding leaves it open.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,4 +1,4 @@
-//! Configurations, motions, and the topology of the space they live in.
+//! Configurations, paths, and the topology of the space they live in.
 //!
 //! Goals are a set ([`GoalSet`]): configurations, and segments where a tip goal leaves a joint free. Roadmaps end where
 //! their last leg meets a segment at right angles or at an end of what is free of it, fields begin in all its free cells,
@@ -14,10 +14,7 @@
 //! assert!(topology.lift(to, from)[0] > 3.0);
 //! ```
 
-mod bernstein;
-mod blend;
 mod copies;
-mod curve;
 mod draws;
 pub mod funnel;
 mod goal_set;
@@ -27,8 +24,6 @@ mod path;
 mod segment;
 mod topology;
 
-pub use blend::{Blend, BlendedPath, HAIR, Stretch};
-pub use curve::{Derivative, Piece, State};
 pub use draws::Draws;
 pub use funnel::{Portal, funnel_path, nearest_end};
 pub use goal_set::GoalSet;

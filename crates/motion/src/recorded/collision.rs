@@ -1,11 +1,12 @@
 //! Continuous collision check of a recorded motion: is it free, and if not, where does it hit first?
 
 use super::tool::ToolMotion;
-use cplan_core::check::{Bounded, Deviation, Place, Posture, Span};
+use crate::{Place, Span};
+use cplan_core::check::{Bounded, Deviation, Posture};
 use cplan_core::model::{Contact, Drift, Pair, Scene};
-use cplan_core::space::{Configuration, Piece};
+use cplan_core::space::Configuration;
 use cplan_geometry::Separation;
-use cplan_handling::{HeldMotion, Recording};
+use cplan_handling::{HeldMotion, Piece, Recording};
 use cplan_interrupt::checkpoint;
 use std::borrow::Cow;
 
@@ -124,7 +125,7 @@ fn all_pairs<'a>(scene: &'a Scene, recording: &Recording) -> Cow<'a, [Pair]> {
 }
 
 /// The same of what moves alone, on the recording's clock from its first sample on: the arm's motion in time is certified if it is known to be
-/// free of what stands, as the motion along a [`cplan_core::check::CertifiedCurve`] is.
+/// free of what stands, as the motion along a [`crate::CertifiedCurve`] is.
 #[must_use]
 pub fn certify_in_time(scene: &Scene, recording: &Recording, clearance: f64) -> CollisionCheck {
     check_pairs(scene, scene.moving_pairs().into(), recording, clearance)

@@ -3,9 +3,9 @@
 use super::collision::Moment;
 use super::torque::torque_looks;
 use cplan_core::model::{Joint, Scene};
-use cplan_core::space::{Configuration, Derivative, JointRange, Piece};
+use cplan_core::space::{Configuration, JointRange};
 use cplan_dynamics::Torques;
-use cplan_handling::Recording;
+use cplan_handling::{Derivative, Piece, Recording};
 
 /// Share of a limit by which it may be exceeded: programs that plan up to a limit exceed it by what their arithmetic
 /// and six printed digits make of it, and no drive tells the two apart.

@@ -4,11 +4,11 @@
 //! of the heights at one moment only. A part that turns about a wrist counts as the disc about the axis that it sweeps, and no contact of
 //! such a disc is claimed, unless the part is that disc itself.
 
-use cplan_core::check::{Deviation, Place, Span};
+use crate::{Place, Span};
+use cplan_core::check::Deviation;
 use cplan_core::model::{Heights, Pair, Part, Scene};
-use cplan_core::space::Piece;
 use cplan_geometry::{Convex, Point};
-use cplan_handling::{HeldEffect, HeldMotion};
+use cplan_handling::{HeldEffect, HeldMotion, Piece};
 
 /// How far a round part may be off the axis that it turns about, metres: rounding, as of heights.
 const ON_AXIS: f64 = 1e-9;

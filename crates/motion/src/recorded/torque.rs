@@ -1,7 +1,8 @@
 //! Torques along a motion.
 
-use cplan_core::space::{Configuration, Derivative, Piece};
+use cplan_core::space::Configuration;
 use cplan_dynamics::{Rates, Torques};
+use cplan_handling::{Derivative, Piece};
 
 /// Looks at a piece at the most.
 const MOST_LOOKS: f64 = 4096.0;

@@ -390,7 +390,7 @@ impl<'a> Search<'a> {
             until: way.moment.map(|moment| since(moment.time)),
         };
         let path = motion.timed.curve.straight();
-        let planned = in_time(&problem, &path, (*motion.timed).clone(), options, &demand);
+        let planned = in_time(&problem, path, (*motion.timed).clone(), options, &demand);
         let planned = planned.map_err(|error| Refusal::new(error.to_string(), false))?;
         let InTime { timed: Timed { curve, trajectory }, figures } =
             planned.map_err(|reason| Refusal::new(reason, false))?;

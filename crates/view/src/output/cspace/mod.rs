@@ -9,13 +9,14 @@ pub use format::CSpaceFormat;
 pub use seen::{Boxes, Cells, FieldGrid, Roadmap};
 
 use super::picture::{PICTURE_TOLERANCE, contours};
-use cplan_core::check::{CertifiedCurve, CheckedProof};
+use cplan_core::check::CheckedProof;
 use cplan_core::cspace::{self, Polygon, Proves};
 use cplan_core::model::{Joint, Scene, Status};
 use cplan_core::planner::{GraphKind, Trace, VisibilityGraph};
 use cplan_core::space::{Configuration, Path};
 use cplan_engine::{Kind, MotionPlan, Plan, Space, TaskPlan};
 use cplan_geometry::Point;
+use cplan_motion::CertifiedCurve;
 use cplan_motion::line_a_field;
 use schemars::JsonSchema;
 use schemars::generate::SchemaSettings;
