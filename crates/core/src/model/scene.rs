@@ -173,12 +173,11 @@ impl Scene {
     /// The same scene with other heights for the arm's self obstacles, given the URDF link's name and those that it has.
     #[must_use]
     pub fn with_self_heights(&self, heights: impl Fn(&str, Heights) -> Heights) -> Self {
-        let (payload, allowed_contacts) = (self.payload.clone(), self.allowed_contacts.clone());
-        let (mut arm, workspace) = self.clone().into_parts();
-        for SelfObstacle { obstacle, .. } in &mut arm.self_obstacles {
-            obstacle.heights = heights(&obstacle.name, obstacle.heights);
-        }
-        Self::assembled(arm, workspace, payload, &allowed_contacts, self.reading)
+        self.changed(|arm, _| {
+            for SelfObstacle { obstacle, .. } in &mut arm.self_obstacles {
+                obstacle.heights = heights(&obstacle.name, obstacle.heights);
+            }
+        })
     }
 
     /// The same scene without the pairs with what stands farther from joint 1 than anything of the arm gets, clearance included; none where these are
@@ -205,13 +204,27 @@ impl Scene {
         pieces: impl FnMut(&Obstacle) -> Vec<Convex>,
         reading: Reading,
     ) -> Self {
+        let pieces: Vec<Vec<Convex>> = self.workspace.obstacles.iter().map(pieces).collect();
+        self.read_anew(reading, |arm, workspace| {
+            arm.links.iter_mut().flat_map(|link| &mut link.parts).for_each(reshape);
+            for (obstacle, pieces) in workspace.obstacles.iter_mut().zip(pieces) {
+                obstacle.pieces = pieces;
+            }
+        })
+    }
+
+    /// The same scene with a change of the arm (without what it carries) or the workspace, which nobody checks. What moves keeps its
+    /// number, and so does what is carried.
+    #[must_use]
+    #[doc(hidden)]
+    pub fn changed(&self, change: impl FnOnce(&mut Arm, &mut Workspace)) -> Self {
+        self.read_anew(self.reading, change)
+    }
+
+    fn read_anew(&self, reading: Reading, change: impl FnOnce(&mut Arm, &mut Workspace)) -> Self {
         let (mut arm, mut workspace) = (self.arm.clone(), self.workspace.clone());
         arm.links[1].parts.truncate(self.own_parts);
-        arm.links.iter_mut().flat_map(|link| &mut link.parts).for_each(reshape);
-        let pieces: Vec<Vec<Convex>> = workspace.obstacles.iter().map(pieces).collect();
-        for (obstacle, pieces) in workspace.obstacles.iter_mut().zip(pieces) {
-            obstacle.pieces = pieces;
-        }
+        change(&mut arm, &mut workspace);
         Self::assembled(arm, workspace, self.payload.clone(), &self.allowed_contacts, reading)
     }
 
@@ -219,12 +232,9 @@ impl Scene {
     ///
     /// # Errors
     /// When it is negative or not finite.
-    pub fn with_clearance(mut self, clearance: f64) -> Result<Self, SceneError> {
+    pub fn with_clearance(self, clearance: f64) -> Result<Self, SceneError> {
         check_clearance(clearance)?;
-        let (payload, allowed_contacts) = (self.payload.take(), std::mem::take(&mut self.allowed_contacts));
-        let reading = self.reading;
-        let (arm, workspace) = self.into_parts();
-        Ok(Self::assembled(arm, Workspace { clearance, ..workspace }, payload, &allowed_contacts, reading))
+        Ok(self.changed(|_, workspace| workspace.clearance = clearance))
     }
 
     /// The same scene at a time: what moves stands where it is then, after all that stands.
@@ -233,11 +243,7 @@ impl Scene {
         if self.workspace.movers.is_empty() {
             return self.clone();
         }
-        let mut scene = self.clone();
-        let (payload, allowed_contacts) = (scene.payload.take(), std::mem::take(&mut scene.allowed_contacts));
-        let (arm, mut workspace) = scene.into_parts();
-        workspace.obstacles.extend(std::mem::take(&mut workspace.movers).iter().map(|mover| mover.at(time)));
-        Self::assembled(arm, workspace, payload, &allowed_contacts, self.reading)
+        self.changed(|_, Workspace { obstacles, movers, .. }| obstacles.extend(movers.drain(..).map(|m| m.at(time))))
     }
 
     /// The same scene on a clock that begins at this time.
@@ -250,14 +256,10 @@ impl Scene {
     /// The same scene with one obstacle more, which stands.
     #[must_use]
     pub fn with_standing(&self, obstacle: Obstacle) -> Self {
-        let standing = self.workspace.obstacles.len();
+        let (mut scene, standing) = (self.clone(), self.workspace.obstacles.len());
         // What moves has the numbers after those of what stands.
-        let contacts: Vec<usize> =
-            self.allowed_contacts.iter().map(|&number| number + usize::from(number >= standing)).collect();
-        let payload = self.payload.clone();
-        let (arm, mut workspace) = self.clone().into_parts();
-        workspace.obstacles.push(obstacle);
-        Self::assembled(arm, workspace, payload, &contacts, self.reading)
+        scene.allowed_contacts.iter_mut().filter(|number| **number >= standing).for_each(|number| *number += 1);
+        scene.changed(|_, workspace| workspace.obstacles.push(obstacle))
     }
 
     /// What it was made of: the arm without what it carries, and the workspace, to make another scene of them.
