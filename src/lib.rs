@@ -45,7 +45,7 @@
 #[cfg(feature = "program")]
 pub mod cli;
 pub use cplan_compare as report;
-pub use cplan_core::{cspace, model, space};
+pub use cplan_core::cspace;
 pub use cplan_engine as engine;
 pub use cplan_explore as explore;
 pub use cplan_geometry as geometry;
@@ -72,10 +72,33 @@ pub use nalgebra;
 pub use output::PlanOutput;
 pub use space::Configuration;
 
-/// The judge of paths, proofs and recorded motions.
+/// The arm, its workspace and the two together; tasks and the robot's other joints; masses and torques; a sensor.
+pub mod model {
+    pub use cplan_core::model::*;
+    pub use cplan_dynamics::{Torques, TorquesAt, keep_efforts};
+    pub use cplan_handling::{
+        Action, BlendsClaim, Claims, Driver, Drives, EventClaim, HeldEffect, HeldJoint, HeldMotion, Holding, Item,
+        Object, OptimumClaim, RecordedStep, RecordedTurn, RobotJoint, RobotJoints, Step, StepClaims, Stroke, Task,
+        TaskClaims, TaskError, ToolJoint, Wrist,
+    };
+    pub use cplan_robot::AssumedLimits;
+    pub use cplan_world::{Mount, Sensor};
+}
+
+/// Configurations, motions, and the topology of the space they live in.
+pub mod space {
+    pub use cplan_core::space::*;
+    pub use cplan_handling::{
+        Derivative, INTERPOLATION, Interpolation, Piece, Recording, RecordingError, SMOOTH_INTERPOLATION, State,
+    };
+    pub use cplan_motion::{Blend, BlendedPath, HAIR, Stretch};
+}
+
+/// The judge of paths, proofs, bounds and recorded motions.
 pub mod check {
     pub use cplan_core::check::*;
     pub use cplan_motion::recorded::*;
+    pub use cplan_motion::{CertifiedCurve, Place, Rounding, Span, blend};
 }
 
 /// Files to problems: robots, worlds, maps and recordings, and errors with file, line and help.

@@ -141,7 +141,7 @@ impl ConvergeArgs {
         let stopping = Stopping { measure: self.measure, below: self.tolerance, max_sweeps: self.max_sweeps as usize };
         Ok(Setup {
             title,
-            domain: domain,
+            domain,
             equations,
             direction: in_cells.unwrap_or(self.direction),
             order: self.order.into(),

@@ -7,7 +7,7 @@ use super::common::random::times;
 use super::common::{all_kinds, arm, dice, joint, link, rectangle, scene};
 use cplan::check::certify;
 use cplan::geometry::{Point, Vector};
-use cplan::model::{Arm, Body, Dynamics, Grip, Heights, JointType, Payload, Scene};
+use cplan::model::{Arm, Body, Dynamics, Grip, Heights, JointType, Payload, Scene, Torques};
 use cplan::motion::{Drive, Objective, TimingError, Trajectory};
 use cplan::space::{Configuration, JointRange, Path};
 
@@ -97,7 +97,7 @@ fn torques_move_the_bodies() {
         let dynamics = arm.dynamics.expect("drawn");
         let q = anywhere(&mut dice, &arm);
         let [v, a] = [2.0, 5.0].map(|most| [0, 1].map(|_| dice.within(-most, most)));
-        let torque = dynamics.torque(&arm, q.into(), v.into(), a.into());
+        let torque = Torques { arm: &arm, dynamics }.torque(q.into(), v.into(), a.into());
         let expected = by_steps(&arm, &dynamics, q, v, a);
         for k in 0..2 {
             assert!(
@@ -290,16 +290,18 @@ fn what_is_carried_counts() {
     };
     let bare = gantry([24.0, 30.0], [4.0, 2.0], Vector::zeros());
     let rigid = Grip::Rigid(nalgebra::Isometry2::translation(0.5, 0.0));
-    let carrying =
-        Scene::handling(bare.clone(), scene(bare.clone(), vec![]).workspace().clone(), Some(payload(rigid, 6.0)), &[]);
-    let time = driven(&carrying.expect("a scene"), &[[0.0, 0.0], [4.0, 0.0]]).expect("a motion");
+    let carrying = |arm: &Arm, grip| {
+        let workspace = scene(arm.clone(), vec![]).workspace().clone();
+        Scene::handling(arm.clone(), workspace, Some(payload(grip, 6.0)), &[]).expect("a scene")
+    };
+    let time = driven(&carrying(&bare, rigid), &[[0.0, 0.0], [4.0, 0.0]]).expect("a motion");
     // 12 kg instead of 6.
     assert!((time / (2.0 * 2f64.sqrt()) - 1.0).abs() < 5e-3, "{time}");
     // A block about its centre: m (a2 + b2) / 12; held off the joint, by Steiner's theorem.
     let mut turning = all_kinds().swap_remove(0);
     turning.dynamics = Some(Dynamics { bodies: [Body { mass: 1.0, ..Body::NONE }; 2], ..bare.dynamics.expect("its") });
-    let own = turning.dynamics.expect("its");
-    let held = own.carrying(&turning, &payload(rigid, 6.0)).bodies[1];
+    let body = |grip| Torques::limited(&carrying(&turning, grip)).expect("limits").dynamics.bodies[1];
+    let held = body(rigid);
     let about_joint = held.inertia + held.mass * held.center.coords.norm_squared();
     assert!(
         (held.mass - 7.0).abs() < 1e-12 && (about_joint - (6.0 * 5.0 / 12.0 + 6.0 * 0.25)).abs() < 1e-9,
@@ -307,7 +309,7 @@ fn what_is_carried_counts() {
     );
     // A level payload does not turn: its whole mass counts at the tip.
     let level = Grip::Level { angle: 0.3, point: Point::new(0.2, 0.1) };
-    let held = own.carrying(&turning, &payload(level, 6.0)).bodies[1];
+    let held = body(level);
     let about_joint = held.inertia + held.mass * held.center.coords.norm_squared();
     assert!((about_joint - 6.0 * turning.tip.coords.norm_squared()).abs() < 1e-9, "{held:?}");
 }

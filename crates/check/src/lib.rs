@@ -1,6 +1,6 @@
 //! The judge of certificates about one motion of an arm, in exact arithmetic.
 //!
-//! [`judge`] gets an [`Arm`](arm::Arm), a [`World`](world::World) and a [`Certificate`](certificate::Certificate), and says whether the
+//! [`judge`] gets an [`Arm`], a [`World`] and a [`Certificate`], and says whether the
 //! certificate proves its answer: a motion is free, there is none, or none is shorter. Decimals are taken as they are written, roots,
 //! sines and cosines are enclosed by numbers below and above. It shares no code with the planner and reads no files: `cplan-check-files`
 //! reads robots, worlds and maps, and judges tasks on top of it. In cplan's repository, `docs/certificate_checks.md` has

@@ -40,7 +40,7 @@ impl Motion {
         let mut timing = None;
         if !problem.scene().workspace().movers.is_empty() {
             // The fastest motion may take another path than the shortest, to another goal.
-            let taken = timed.curve.straight();
+            let taken = timed.curve.straight().clone();
             match in_time(problem, &taken, timed, options, &Demand::ALONE)? {
                 Ok(found) => {
                     let InTime { timed: waiting, figures } = found;
@@ -53,7 +53,7 @@ impl Motion {
             }
         }
         let is_same = timed.curve.curve().path() == path.path();
-        let path = if is_same { path } else { path.replaced_by(timed.curve.straight()) };
+        let path = if is_same { path } else { path.replaced_by(timed.curve.straight().clone()) };
         Ok(Ok(Self { path, timed, fastest, timing }))
     }
 }

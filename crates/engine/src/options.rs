@@ -3,6 +3,7 @@
 use super::{Method, Planner, Problem};
 use cplan_core::cspace::has_exact_polygons;
 use cplan_core::model::{Arm, Joint};
+use cplan_dynamics::keep_efforts;
 use cplan_motion::{Drive, SHORTEST_INTERVAL};
 use serde::{Deserialize, Serialize};
 use std::ops::RangeInclusive;
@@ -88,7 +89,7 @@ impl Options {
     pub fn override_limits(&self, arm: &mut Arm) {
         Joint::override_jerks(&mut arm.joints, self.jerk);
         if self.drive.torque || arm.dynamics.is_some_and(|dynamics| dynamics.limits) {
-            arm.keep_efforts();
+            keep_efforts(arm);
         }
     }
 

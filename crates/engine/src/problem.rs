@@ -1,7 +1,8 @@
 //! What is asked: a motion, or a sequence of steps, of a robot in a world.
 
-use cplan_core::model::{Arm, MotionProblem, MotionProblemError, RobotJoints, Scene, SceneError, Task, Workspace};
+use cplan_core::model::{Arm, MotionProblem, MotionProblemError, Scene, SceneError, Workspace};
 use cplan_core::space::{Configuration, GoalSet};
+use cplan_handling::{RobotJoints, Task};
 use cplan_interrupt::Instant;
 use cplan_robot::{InputError, RobotFile, RobotReport};
 use cplan_world::{self, Loaded, LoadedScene, LoadedTask, Overrides};

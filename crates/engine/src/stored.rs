@@ -9,7 +9,8 @@
 use super::options::Options;
 use super::plan::{Plan, plan};
 use super::problem::{MotionOrTask, Problem};
-use cplan_core::model::{Driver, MotionProblem, RobotJoints, Scene, Task, TaskError, ToolJoint};
+use cplan_core::model::{MotionProblem, Scene};
+use cplan_handling::{Driver, RobotJoints, Task, TaskError, ToolJoint};
 use cplan_robot::RobotReport;
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};

@@ -8,13 +8,14 @@ use super::result::{Ending, Exploration, Leg, Reading};
 use super::settings::{ExploreError, Settings, Strategy};
 use super::survey::Survey;
 use cplan_core::check::{CertifiedPath, certify};
-use cplan_core::model::{MotionProblem, Scene, Sensor};
+use cplan_core::model::{MotionProblem, Scene};
 use cplan_core::space::{Configuration, Draws, GoalSet, Path};
 use cplan_engine::{Options, solve};
 use cplan_interrupt::Instant;
 use cplan_interrupt::checkpoint;
 use cplan_motion::Trajectory;
 use cplan_text::counted;
+use cplan_world::Sensor;
 
 /// The arm is at a goal if it is no farther from it than this: whole turns may have been added to it, and rounded.
 const AT_GOAL: f64 = 1e-9;

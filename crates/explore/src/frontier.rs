@@ -4,7 +4,8 @@ use super::sight::Edges;
 use super::survey::Survey;
 use super::views::Stand;
 use cplan_core::cspace::Grid;
-use cplan_core::model::{Arm, Sensor};
+use cplan_core::model::Arm;
+use cplan_world::Sensor;
 
 /// The frontier configurations of a grid: those at whose centres a reading would show something new.
 ///

@@ -1,7 +1,7 @@
 //! An exploration as JSON.
 
 use super::result::{Ending, Exploration};
-use cplan_core::model::Sensor;
+use cplan_world::Sensor;
 use serde_json::{Value, json};
 
 impl Exploration {

@@ -1,8 +1,9 @@
 //! Planning in a world that a sensor reveals step by step.
 //!
-//! The given world is the true one. The explorer knows only what its [`Sensor`](cplan_core::model::Sensor) has seen, as
-//! a map of cells; unseen cells are solid. Every motion is certified within the known free space before it starts, so
-//! the arm stops before unseen space. The player certifies it again against the true world.
+//! The world that is given is what is really there. The explorer knows of it what its [`Sensor`](cplan_world::Sensor) has
+//! seen, as a map of cells; what it has not seen is solid. Every motion is certified within what is known to be free before it is
+//! begun, so the arm stops before it enters what it has not seen; and it is certified once more against the world itself by who
+//! plays it.
 //!
 //! ```text
 //! look -> map -> known free configurations, frontier among them -> decision -> certified leg -> on the way: look ...

@@ -2,8 +2,8 @@
 
 use super::settings::Strategy;
 use super::survey::Survey;
-use cplan_core::check::CertifiedCurve;
 use cplan_core::space::Configuration;
+use cplan_motion::CertifiedCurve;
 use cplan_motion::Trajectory;
 use std::time::Duration;
 

@@ -62,9 +62,10 @@ impl Edges {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use cplan_core::model::{Arm, Scene, Sensor, Workspace};
+    use cplan_core::model::{Arm, Scene, Workspace};
     use cplan_core::space::Draws;
     use cplan_geometry::Point;
+    use cplan_world::Sensor;
     use proptest::prelude::*;
 
     /// Returns a map around an arm, with cells labelled by column and row.

@@ -1,10 +1,10 @@
 //! The known part of a world, cell by cell, and the true contents.
 
 use super::views::{AROUND_CELL, Crossing};
-use cplan_core::model::{Arm, Heights, JointType, Obstacle, Scene, Sensor, Shape, Workspace};
+use cplan_core::model::{Arm, Heights, JointType, Obstacle, Scene, Shape, Workspace};
 use cplan_core::space::{Configuration, Draws};
 use cplan_geometry::{Convex, Point, Vector, shapes_meet};
-use cplan_world::{Occupancy, OccupancyMap};
+use cplan_world::{Occupancy, OccupancyMap, Sensor};
 use nalgebra::{Isometry2, Vector2};
 
 /// Cells of the largest map.

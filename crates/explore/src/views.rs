@@ -2,9 +2,8 @@
 
 use super::sight::Edges;
 use super::survey::Survey;
-use cplan_core::model::Sensor;
 use cplan_geometry::{Point, Vector};
-use cplan_world::Occupancy;
+use cplan_world::{Occupancy, Sensor};
 use std::collections::BTreeSet;
 use std::f64::consts::PI;
 

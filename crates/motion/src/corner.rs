@@ -17,7 +17,8 @@ use super::limits::Limits;
 use super::profile::{Phase, State};
 use super::sample::{SHORTEST_INTERVAL, USUAL_INTERVAL};
 use super::tip::{Part, TIP_STEP};
-use cplan_core::space::{Blend, Configuration, HAIR};
+use crate::{Blend, HAIR};
+use cplan_core::space::Configuration;
 
 /// Spans of a blend to begin with.
 const SPANS: usize = 8;

@@ -4,7 +4,8 @@ use super::schedule::rough_duration;
 use super::shape::Shaping;
 use super::smooth::smoothed;
 use super::{Limits, Timed, TimingError, TipSpeed, TorqueLimit, time};
-use cplan_core::check::{CertifiedCurve, CertifiedPath, blend};
+use crate::{CertifiedCurve, blend};
+use cplan_core::check::CertifiedPath;
 use cplan_core::model::Scene;
 use serde::{Deserialize, Serialize};
 use std::cell::Cell;
@@ -110,7 +111,7 @@ impl Drive {
                 // An initially slower path may become faster once it is driven along its own curve in the least time.
                 let retimed = |timed: &Timed| {
                     let path = timed.curve.straight();
-                    smoothed(scene, &path, self.blend, limits, self.period, f64::INFINITY, true)
+                    smoothed(scene, path, self.blend, limits, self.period, f64::INFINITY, true)
                 };
                 let retimed: Vec<Timed> = found.iter().filter_map(retimed).collect();
                 found.extend(retimed);

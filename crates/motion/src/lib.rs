@@ -14,12 +14,11 @@
 //! | MCAP `/tf`, `/scene`, `/outlines` | RViz, Foxglove, Rerun | nothing: a frame stays where it is until it moves |
 //! | MCAP `/joint_states` | `robot_state_publisher`, Foxglove | each state for itself; displays hold it or draw lines to the next |
 //!
-//! The cubics are the certified motion: exactly on straight pieces, and within [`cplan_core::space::HAIR`] on blends,
-//! which the certificate covers. They keep the limits. While the arm stands still, samples are equal and at rest.
-//!
-//! Quintics equal that motion only if the acceleration does not jump. So accelerations are written only on request, and
-//! refused if they jump. States lie on the motion; lines between them deviate by at most `a h^2 / 8` for accelerations
-//! up to `a` and states `h` seconds apart.
+//! The cubics are the certified motion: on straight pieces exactly, on blends within [`HAIR`], which the
+//! certificate covers, and they keep the limits; while the arm stands the samples are equal and at rest. Quintics are that
+//! motion only where the acceleration does not jump, so accelerations are left out unless they are asked for, and refused
+//! where they do. States lie on the motion; lines between them leave it by no more than `a h^2 / 8` for accelerations up to
+//! `a` and states `h` seconds apart.
 //!
 //! ```
 //! use cplan_core::check::certify;
@@ -63,6 +62,8 @@
 //! A recording (`mcap`, a feature) is a list of motions, each with its start time: a CDR writer (`mcap/cdr`), the two
 //! messages with their definitions (`mcap/messages`), and the crate `mcap` for the container.
 
+mod blend;
+mod certified;
 mod clock;
 mod corner;
 mod csv;
@@ -86,6 +87,7 @@ mod schedule;
 mod shape;
 mod single;
 mod smooth;
+mod span;
 mod spline;
 mod tip;
 mod torque;
@@ -96,9 +98,11 @@ mod tests;
 
 #[cfg(feature = "mcap")]
 pub use self::mcap::{Body, Solid, Stage, mcap};
+pub use blend::{Blend, BlendedPath, HAIR, Stretch};
+pub use certified::{CertifiedCurve, Rounding, blend};
 pub use clock::whole_nanoseconds;
 pub use clock::{nanoseconds, nearest_within, not_after, not_before, seconds};
-pub use cplan_core::space::{INTERPOLATION, SMOOTH_INTERPOLATION};
+pub use cplan_handling::{INTERPOLATION, SMOOTH_INTERPOLATION};
 pub use csv::csv;
 pub use drive::{Drive, Objective};
 pub use field::FieldReport;
@@ -113,6 +117,7 @@ pub use ros::ros_yaml;
 pub use sample::after_pause;
 pub use sample::{LONGEST_MOTION, MOST_SAMPLES, SHORTEST_INTERVAL, Timed, TimingError, Trajectory, time};
 pub use single::single;
+pub use span::{Place, Span};
 pub use tip::TipSpeed;
 pub use torque::TorqueLimit;
 pub use whole_file::{WriteError, check_writable, write_whole, write_whole_set};

@@ -1,7 +1,7 @@
 //! The contents of a ROS 2 message about a motion.
 
 use super::Trajectory;
-use cplan_core::model::{Drives, RobotJoints};
+use cplan_handling::{Drives, RobotJoints};
 use thiserror::Error;
 
 /// A motion of all joints that a message names.

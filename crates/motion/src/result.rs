@@ -1,8 +1,8 @@
 //! Records in results about paths and searches.
 
-use cplan_core::check::CertifiedCurve;
+use crate::CertifiedCurve;
 use cplan_core::model::Joint;
-use cplan_core::space::{INTERPOLATION, SMOOTH_INTERPOLATION};
+use cplan_handling::{INTERPOLATION, SMOOTH_INTERPOLATION};
 use serde::Serialize;
 
 /// Describes how to interpolate trajectories of these joints.

@@ -4,8 +4,10 @@ use super::clock::{self, PER_SECOND, nanoseconds, not_before, whole_nanoseconds}
 use super::limits::Limits;
 use super::profile::Phase;
 use super::schedule::{TimedTrack, Track, schedule};
-use cplan_core::check::CertifiedCurve;
-use cplan_core::space::{BlendedPath, Configuration, Piece};
+use crate::BlendedPath;
+use crate::CertifiedCurve;
+use cplan_core::space::Configuration;
+use cplan_handling::Piece;
 use serde::Serialize;
 use thiserror::Error;
 
@@ -201,10 +203,10 @@ pub struct Timed {
 /// limits (a thousandth of these stays unused there). The motion is never slower than one that stops at every corner:
 /// where that one is faster between two stops, it is used.
 ///
-/// Samples lie at the multiples of `period`, where that second derivative changes, and on blends as densely as needed
-/// for the cubic through positions and velocities to keep the limits and to stay within [`cplan_core::space::HAIR`] of
-/// the blend. All of them are at whole nanoseconds. Multiples of the period closer than a tenth of a millisecond (or
-/// half the period) to another sample are omitted. A path without motion gives one sample.
+/// Samples lie at the multiples of `period`, wherever that second derivative changes, and on blends as densely as it
+/// takes for the cubic through positions and velocities to keep the limits, too, and to stay within
+/// [`crate::HAIR`] of the blend; all of them at whole nanoseconds. Multiples of the period closer than a tenth of a
+/// millisecond (or half the period) to another sample are left out. A path that stays where it is gives one sample.
 ///
 /// A straight piece of length `L` from rest to rest, with speed and acceleration limits `v` and `a` along it, takes `2
 /// sqrt(L / a)` if `L a <= v^2`, else `L / v + v / a`. It takes up to `4` [`SHORTEST_INTERVAL`] longer if a phase would

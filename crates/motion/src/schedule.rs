@@ -7,7 +7,8 @@ use super::limits::Limits;
 use super::profile::{Phase, State, passing, rest_to_rest};
 use super::sample::{SHORTEST_INTERVAL, Trajectory, USUAL_INTERVAL, sample};
 use super::tip::{Part, TIP_STEP};
-use cplan_core::space::{Blend, BlendedPath, Configuration};
+use crate::{Blend, BlendedPath};
+use cplan_core::space::Configuration;
 use std::ops::Range;
 
 /// Parts of a straight stretch at the most.

@@ -10,9 +10,12 @@ use super::limits::Limits;
 use super::sample::{Timed, Trajectory};
 use super::schedule::{TimedTrack, schedule, stopping_at};
 use super::spline::Spline;
-use cplan_core::check::{CertifiedPath, Rounding, blend};
+use crate::BlendedPath;
+use crate::{Rounding, blend};
+use cplan_core::check::CertifiedPath;
 use cplan_core::model::Scene;
-use cplan_core::space::{BlendedPath, Configuration, Piece};
+use cplan_core::space::Configuration;
+use cplan_handling::Piece;
 use std::collections::BTreeSet;
 
 /// A corner near which the motion is not shown to be free is passed at this share of its speed before.

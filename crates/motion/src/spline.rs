@@ -235,12 +235,12 @@ fn asked([position, velocity, acceleration, jerk]: [Configuration; 4], limits: &
         let speed = (first * velocity[0] + second * velocity[1]).norm();
         ask([(speed / (USED * tip.speed)).powi(2), 0.0, 0.0], false);
     }
-    if let Some(TorqueLimit { arm, dynamics, share }) = limits.torque {
-        let here = dynamics.at(arm, position);
+    if let Some(TorqueLimit { torques, share }) = limits.torque {
+        let here = torques.at(position);
         let (inertial, bent) = (here.inertial(velocity), here.inertial(acceleration) + here.centrifugal(velocity));
         let holding = here.holding();
         for (k, sign) in [(0, 1.0), (0, -1.0), (1, 1.0), (1, -1.0)] {
-            let room = share * (USED * dynamics.effort[k] - sign * holding[k]);
+            let room = share * (USED * torques.dynamics.effort[k] - sign * holding[k]);
             ask([bent[k], inertial[k] / 2.0, 0.0].map(|factor| sign * factor / room), false);
         }
     }
@@ -270,7 +270,8 @@ mod tests {
     use super::super::profile::rest_to_rest;
     use super::super::schedule::schedule;
     use super::*;
-    use cplan_core::space::{BlendedPath, Path};
+    use crate::BlendedPath;
+    use cplan_core::space::Path;
     use proptest::prelude::*;
 
     fn limits(velocity: f64, acceleration: f64, jerk: [Option<f64>; 2]) -> Limits<'static> {

@@ -1,7 +1,8 @@
 //! A top speed of the tip.
 
 use cplan_core::model::{Arm, JointType};
-use cplan_core::space::{Configuration, Derivative, Piece};
+use cplan_core::space::Configuration;
+use cplan_handling::{Derivative, Piece};
 
 /// Share of its limit that the tip's speed may lose, because it is bounded part by part: curves are cut so finely.
 pub(super) const TIP_STEP: f64 = 0.01;

@@ -3,8 +3,10 @@
 use super::sample::{TimingError, Trajectory};
 use super::tip::Part;
 use crate::recorded::torque_looks;
-use cplan_core::model::{Arm, Curvature, Dynamics, Rates, Scene};
-use cplan_core::space::{Configuration, Path, Piece};
+use cplan_core::model::Scene;
+use cplan_core::space::{Configuration, Path};
+use cplan_dynamics::{Curvature, Rates, Torques};
+use cplan_handling::Piece;
 
 /// Share of an effort by which the torque may be overestimated on a part of a curve: curves are cut so finely.
 const STEP: f64 = 0.01;
@@ -34,10 +36,8 @@ const MOST_PARTS: f64 = 1e5;
 /// The joints of an arm may not bring more than their efforts.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TorqueLimit<'a> {
-    /// The arm whose joints they are.
-    pub arm: &'a Arm,
-    /// Masses of the arm with its load, and the efforts.
-    pub dynamics: Dynamics,
+    /// Torques of the arm with what it carries, and its efforts.
+    pub torques: Torques<'a>,
     /// Share of what gravity leaves of the efforts that is used.
     pub share: f64,
 }
@@ -60,23 +60,22 @@ impl<'a> TorqueLimit<'a> {
     /// Returns the torques of an arm with its load, if motions must keep within its efforts.
     #[must_use]
     pub fn of(scene: &'a Scene) -> Option<Self> {
-        Some(Self { arm: scene.arm(), dynamics: scene.limiting_dynamics()?, share: 1.0 })
+        Some(Self { torques: Torques::limited(scene)?, share: 1.0 })
     }
 
     fn on(&self, part: &Part) -> OnPart {
-        let (arm, dynamics) = (self.arm, &self.dynamics);
         let rates = Rates {
             first: [0, 1].map(|k| part.slope[k].abs() + part.bend[k].abs() * part.half),
             second: [0, 1].map(|k| part.bend[k].abs()),
             third: [0.0; 2],
         };
-        let curvature = dynamics.curvature(arm, part.middle, part.half, &rates);
+        let curvature = self.torques.curvature(part.middle, part.half, &rates);
         // From a chord over its length of twice the half.
         let off = |curvature: [f64; 2], share: f64| curvature.map(|c| c * part.half * part.half / (2.0 * share));
         let at = |by: f64| {
             let q = part.middle + part.slope * by + part.bend * (by * by / 2.0);
             let slope = part.slope + part.bend * by;
-            let here = dynamics.at(arm, q);
+            let here = self.torques.at(q);
             let bent = here.inertial(part.bend) + here.centrifugal(slope);
             Factors { inertial: here.inertial(slope) / self.share, bent: bent / self.share, holding: here.holding() }
         };
@@ -99,7 +98,7 @@ impl<'a> TorqueLimit<'a> {
         let OnPart { ends: [first, last], off } = self.on(part);
         let mut rows = Vec::with_capacity(ROWS);
         for k in 0..2 {
-            let effort = self.dynamics.effort[k];
+            let effort = self.torques.dynamics.effort[k];
             for sign in [1.0, -1.0] {
                 let [i0, b0, h0] = [first.inertial[k], first.bent[k], first.holding[k]].map(|x| sign * x);
                 let [i1, b1, h1] = [last.inertial[k], last.bent[k], last.holding[k]].map(|x| sign * x);
@@ -128,7 +127,7 @@ impl<'a> TorqueLimit<'a> {
         let off = self.on(part).off;
         let rising = (z1 - z0).abs() / (4.0 * part.half);
         let unknown = |k: usize| off.inertial[k] * rising + off.bent[k] * z0.max(z1) + off.holding[k];
-        (0..2).any(|k| unknown(k) > STEP * self.dynamics.effort[k])
+        (0..2).any(|k| unknown(k) > STEP * self.torques.dynamics.effort[k])
     }
 
     /// Returns a speed and an acceleration along a straight stretch that are safe together everywhere on it.
@@ -144,7 +143,7 @@ impl<'a> TorqueLimit<'a> {
                 half: length / (2.0 * count),
             });
             for (k, end) in (0..2).flat_map(|k| ends.iter().map(move |end| (k, end))) {
-                let effort = self.dynamics.effort[k];
+                let effort = self.torques.dynamics.effort[k];
                 let room = (effort - end.holding[k].abs() - off.holding[k]).max(NOTHING_LEFT * effort);
                 let squared = (1.0 - FOR_ACCELERATION) * room / (end.bent[k].abs() + off.bent[k]);
                 let pull = FOR_ACCELERATION * room / (end.inertial[k].abs() + off.inertial[k]);
@@ -156,17 +155,17 @@ impl<'a> TorqueLimit<'a> {
 
     /// Changes of the joints' accelerations that together change no torque by more than its effort.
     pub(super) fn accelerations(&self) -> [f64; 2] {
-        let inertia = self.dynamics.greatest_inertia(self.arm);
-        let share = |k: usize, l: usize| self.dynamics.effort[l] / (2.0 * inertia[l][k]);
+        let inertia = self.torques.greatest_inertia();
+        let share = |k: usize, l: usize| self.torques.dynamics.effort[l] / (2.0 * inertia[l][k]);
         [0, 1].map(|k| share(k, 0).min(share(k, 1)))
     }
 
     /// Returns the factor by which accelerating torques on pieces of a motion may exceed the efforts left by gravity,
     /// if they may at all.
     pub(super) fn excess(&self, pieces: &[Piece]) -> Option<f64> {
-        let effort = self.dynamics.effort;
+        let effort = self.torques.dynamics.effort;
         let mut excess = 1.0_f64;
-        for look in pieces.iter().flat_map(|piece| torque_looks(&self.dynamics, self.arm, piece, ROUGH)) {
+        for look in pieces.iter().flat_map(|piece| torque_looks(&self.torques, piece, ROUGH)) {
             for (k, effort) in effort.into_iter().enumerate() {
                 let greatest = look.torque[k].abs() + look.off[k];
                 if greatest > effort {
@@ -180,8 +179,8 @@ impl<'a> TorqueLimit<'a> {
     }
 
     fn too_heavy(&self, k: usize, at: Configuration, torque: f64) -> TimingError {
-        let joint = &self.arm.joints[k];
-        let (effort, unit) = (self.dynamics.effort[k], joint.effort_unit());
+        let joint = &self.torques.arm.joints[k];
+        let (effort, unit) = (self.torques.dynamics.effort[k], joint.effort_unit());
         TimingError::TooHeavy { joint: joint.name.clone(), at: at.into(), torque: torque.abs(), effort, unit }
     }
 
@@ -191,8 +190,9 @@ impl<'a> TorqueLimit<'a> {
     /// The first place where it may not.
     pub(super) fn kept(&self, pieces: &[Piece]) -> Result<(), TimingError> {
         for piece in pieces {
-            for look in torque_looks(&self.dynamics, self.arm, piece, FINE) {
-                if let Some(k) = (0..2).find(|&k| look.torque[k].abs() + look.off[k] > self.dynamics.effort[k]) {
+            for look in torque_looks(&self.torques, piece, FINE) {
+                if let Some(k) = (0..2).find(|&k| look.torque[k].abs() + look.off[k] > self.torques.dynamics.effort[k])
+                {
                     return Err(self.too_heavy(k, piece.at(look.u), look.torque[k]));
                 }
             }
@@ -206,7 +206,7 @@ impl<'a> TorqueLimit<'a> {
             let [q, v, a] =
                 [&trajectory.position, &trajectory.velocity, &trajectory.acceleration].map(|row| row[i].into());
             // Adding 0 turns minus zeros into zeros.
-            <[f64; 2]>::from(self.dynamics.torque(self.arm, q, v, a)).map(|torque| torque + 0.0)
+            <[f64; 2]>::from(self.torques.torque(q, v, a)).map(|torque| torque + 0.0)
         };
         (0..trajectory.time.len()).map(at).collect()
     }
@@ -221,8 +221,8 @@ impl<'a> TorqueLimit<'a> {
     }
 
     fn holds(&self, at: Configuration) -> Result<(), TimingError> {
-        let holding = self.dynamics.at(self.arm, at).holding();
-        match (0..2).find(|&k| holding[k].abs() >= self.dynamics.effort[k]) {
+        let holding = self.torques.at(at).holding();
+        match (0..2).find(|&k| holding[k].abs() >= self.torques.dynamics.effort[k]) {
             Some(k) => Err(self.too_heavy(k, at, holding[k])),
             None => Ok(()),
         }
@@ -233,7 +233,7 @@ impl<'a> TorqueLimit<'a> {
     /// # Errors
     /// The place where it needs more than a joint's effort.
     pub(super) fn held_along(&self, path: &Path) -> Result<(), TimingError> {
-        let effort = self.dynamics.effort;
+        let effort = self.torques.dynamics.effort;
         for (from, to) in path.segments() {
             let (offset, half) = ((to - from) / 2.0, 1.0);
             let whole = Part { middle: from + offset, slope: offset, bend: Configuration::zeros(), half };

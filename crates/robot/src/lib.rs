@@ -11,6 +11,7 @@
 //!
 //! To read the code: `error` and `source`, then `robot_table` and `quantity`, then `urdf`, whose first page lists the stages.
 
+mod assumed;
 mod error;
 mod identity;
 mod inspection;
@@ -25,6 +26,7 @@ mod stroke;
 mod urdf;
 mod wrist;
 
+pub use assumed::AssumedLimits;
 pub use error::{Diagnostic, DiagnosticKind, InputError, quoted};
 pub use identity::{FileIdentity, files_read, read_from};
 pub use inspection::{

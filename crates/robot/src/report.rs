@@ -1,6 +1,8 @@
 //! Report to the user on how the robot was read.
 
-use cplan_core::model::{Arm, AssumedLimits, HeldJoint, RobotJoints};
+use crate::AssumedLimits;
+use cplan_core::model::Arm;
+use cplan_handling::{HeldJoint, RobotJoints};
 use serde::{Deserialize, Serialize};
 
 /// The report on how the robot was read.

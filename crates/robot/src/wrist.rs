@@ -1,10 +1,12 @@
 //! The wrist in the world file's `[robot]`.
 
+use super::assumed::assumed_acceleration_note;
 use super::error::Diagnostic;
 use super::quantity::Number;
 use super::schema::Positive;
 use super::source::Source;
-use cplan_core::model::{Wrist, assumed_acceleration, assumed_acceleration_note};
+use cplan_core::model::assumed_acceleration;
+use cplan_handling::Wrist;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use toml::Spanned;

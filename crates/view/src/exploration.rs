@@ -1,11 +1,11 @@
 //! The page that plays an exploration: the known and seen parts of the workspace, and the growing configuration space.
 
 use super::view::sealed;
-use cplan_core::model::{Scene, Sensor};
+use cplan_core::model::Scene;
 use cplan_core::space::Configuration;
 use cplan_explore::{Ending, Exploration};
 use cplan_geometry::Convex;
-use cplan_world::Occupancy;
+use cplan_world::{Occupancy, Sensor};
 use serde_json::{Value, json};
 
 const STYLE: &str = include_str!("assets/exploration.css");

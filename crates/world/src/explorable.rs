@@ -1,7 +1,8 @@
 //! The input of an exploration: the start, and possibly a goal.
 
 use super::{LoadedScene, Overrides};
-use cplan_core::model::{Scene, Sensor};
+use crate::Sensor;
+use cplan_core::model::Scene;
 use cplan_core::space::{Configuration, GoalSet};
 use cplan_robot::{DiagnosticKind, InputError, RobotReport};
 

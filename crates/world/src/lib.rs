@@ -40,6 +40,7 @@ mod preference;
 mod preference_map;
 mod problem;
 mod query;
+mod range_sensor;
 mod requirement;
 mod schema;
 mod sensor;
@@ -60,6 +61,7 @@ pub use line_map::{Chain, LineMap};
 pub use occupancy::{MOST_CELLS, Occupancy, OccupancyMap, PixelRectangle, rectangles};
 pub use preference_map::{PreferenceMap, PreferenceRectangle};
 pub use query::LoadedEnds;
+pub use range_sensor::{Mount, Sensor};
 pub use schema::toml_schema;
 pub use suite::{Asked, LeftOut, MANIFEST, Member, Refused, Suite, load_folder, load_suite};
 pub use task::LoadedTask;
@@ -67,7 +69,8 @@ pub use trajectory::{LoadedRecording, load_recording, load_topic, read_recording
 pub use values::{JointValues, Overrides, TipPoint};
 pub use world::{World, in_toml_words, world_schema};
 
-use cplan_core::model::{Arm, Goal, MotionProblem, RobotJoints, Scene};
+use cplan_core::model::{Arm, Goal, MotionProblem, Scene};
+use cplan_handling::RobotJoints;
 use cplan_robot::{Diagnostic, InputError, Inspection, RobotFile, RobotReport, RobotTable, Source};
 use std::path::Path;
 

@@ -112,13 +112,12 @@ pub(super) fn help_for_ik_solutions(scene: &Scene, outside: bool, blocked: bool)
 pub(super) fn out_of_reach(scene: &Scene, what: &str, point: Point) -> String {
     let arm = scene.arm();
     let from_joint = (point - arm.base).norm();
-    let [distance, reach] = match arm.kind() {
-        "RR" => {
-            let (upper, lower) = (arm.offset.norm(), arm.tip.coords.norm());
-            let [distance, least, most] = told_apart([from_joint, (upper - lower).abs(), upper + lower], 4);
-            [distance, format!(", the tip reaches from {least} to {most} m")]
-        }
-        _ => [fixed(from_joint, 4), String::new()],
+    let [distance, reach] = if arm.only_turns() {
+        let (upper, lower) = (arm.offset.norm(), arm.tip.coords.norm());
+        let [distance, least, most] = told_apart([from_joint, (upper - lower).abs(), upper + lower], 4);
+        [distance, format!(", the tip reaches from {least} to {most} m")]
+    } else {
+        [fixed(from_joint, 4), String::new()]
     };
     format!(
         "{what} ({}, {}) m is out of reach of the tip \"{}\", whatever the joint limits: it is {distance} m from joint \"{}\"{reach}",
@@ -130,7 +129,7 @@ pub(super) fn out_of_reach(scene: &Scene, what: &str, point: Point) -> String {
 pub(super) fn help_for_reach(scene: &Scene, point: Point) -> String {
     let arm = scene.arm();
     let (upper, lower) = (arm.offset.norm(), arm.tip.coords.norm());
-    let is_inside = arm.kind() == "RR" && (point - arm.base).norm() < (upper - lower).abs();
+    let is_inside = arm.only_turns() && (point - arm.base).norm() < (upper - lower).abs();
     let place = if is_inside { "farther from joint 1" } else { "nearer by" };
     format!("choose a point {place}; coordinates are metres in the arm's plane")
 }

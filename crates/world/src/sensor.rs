@@ -2,7 +2,7 @@
 
 use super::reader::Reader;
 use super::schema::{NotNegative, SensorOn};
-use cplan_core::model::{Mount, Sensor};
+use crate::{Mount, Sensor};
 use cplan_robot::{AngleOrLength, Diagnostic, Number, Positive, Written};
 use schemars::JsonSchema;
 use serde::Deserialize;

@@ -5,8 +5,9 @@ use super::object::{Movable, Names, Supports, rests_on_itself};
 
 use super::reader::Reader;
 use super::requirement::{Required, Requirement, Requirements};
-use cplan_core::model::{Action, Goal, Holding, Item, Step};
+use cplan_core::model::Goal;
 use cplan_geometry::Point;
+use cplan_handling::{Action, Holding, Item, Step};
 use cplan_robot::Diagnostic;
 use nalgebra::Rotation2;
 use std::f64::consts::TAU;

@@ -3,6 +3,7 @@
 use super::LoadedScene;
 use cplan_core::model::{Joint, SceneError};
 use cplan_core::space::Configuration;
+use cplan_dynamics::keep_efforts;
 use cplan_geometry::Point;
 use cplan_robot::{Diagnostic, InputError, LARGEST};
 use std::str::FromStr;
@@ -46,7 +47,7 @@ impl LoadedScene {
                 .help("`cplan inspect` tells what the robot's file has")
                 .into());
         }
-        self.scene.arm_mut().keep_efforts();
+        keep_efforts(self.scene.arm_mut());
         // Efforts take the place of accelerations that nobody gives.
         self.robot.assumed.acceleration.clear();
         Ok(self)

@@ -14,8 +14,9 @@ use super::sequence::{Sequence, write_out};
 use super::step::{StepReader, StepTable, TaskTable};
 use super::table::Table;
 use super::world_map::{self, MapTable};
-use cplan_core::model::{Goal, Holding, Object, Workspace, Wrist};
+use cplan_core::model::{Goal, Workspace};
 use cplan_geometry::Pose;
+use cplan_handling::{Holding, Object, Wrist};
 use cplan_robot::{
     AngleOrLength, Diagnostic, InputError, Number, Numbers, RobotSettings, RobotTable, Source, Two, Written,
 };

@@ -58,7 +58,7 @@ fn every_shipped_result_verifies_alike_in_all_formats() {
         let name = file.file_stem().unwrap().to_str().unwrap();
         let Some((scene, plan)) = planned(robot.trim(), name) else { continue };
         for &(format, file) in FORMATS {
-            let recording = read(&scene, file, &plan.encoded(format).unwrap());
+            let recording = read(&scene, file, plan.encoded(format).unwrap());
             let (verdict, broken) = judge(&scene, &recording);
             let CollisionCheck::Free { clearance, .. } = verdict else { panic!("{name}, {file}: {verdict:?}") };
             assert_eq!(broken, [], "{name}, {file}");

@@ -5,8 +5,7 @@
 //!
 //! - [`certify`] judges a path by bisection: [`Deviation`] bounds how much closer two shapes can come along a segment. Only `certify`
 //!   makes a [`CertifiedPath`].
-//! - [`blend`] cuts the corners of a certified path by parabolas, each as large as is certified within the clearance. A
-//!   [`CertifiedCurve`] is the straight path, its blends, and the least distance along all of both.
+//! - [`CurveSearch`] does the same for any curve whose parts somebody bounds: the crate `motion` judges rounded corners with it.
 //! - [`Disconnection::checked`] judges a proof that there is no path. It joins what the collision boxes leave by petgraph's
 //!   union-find.
 //!
@@ -24,18 +23,14 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-mod blends;
 mod cell;
 mod deviation;
 mod motion;
 mod proof;
-mod span;
 mod vicinity;
 
-pub use blends::{CertifiedCurve, Rounding, blend};
 pub use cell::Cell;
 pub use deviation::{Bounded, Deviation, Posture, STUCK_ROUNDING};
-pub use motion::{CertifiedPath, Nearest, Rejection, StraightMotions, certify};
+pub use motion::{CertifiedPath, CurveSearch, Nearest, Rejection, StraightMotions, certify};
 pub use proof::{CheckedProof, Disconnection, ProofBox, ProofError, ProofFormatError, StuckBox, read_proof};
-pub use span::{Place, Span};
 pub use vicinity::Vicinity;

@@ -1,11 +1,9 @@
 //! Continuous collision check of a path.
 
-use super::blends::CertifiedCurve;
 use super::deviation::{Deviation, Posture};
-use super::span::along;
 use super::vicinity::Vicinity;
 use crate::model::{Contact, Pair, Scene};
-use crate::space::{Blend, Configuration, HAIR, Path, Piece};
+use crate::space::{Configuration, Path};
 use cplan_interrupt::checkpoint;
 
 /// The proven clearance is at least this share of the true one: below it, pieces of the path are looked at again in
@@ -23,6 +21,9 @@ const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 /// Parts of a curve whose postures all pairs share: its halves' halves' halves, and the three before.
 const SHARED: usize = 16;
+
+/// Rounding of a place where two paths join, relative to its size.
+const JOINED: f64 = 1e-9;
 
 /// A pair that keeps more than so many times the least distance seen is not looked at: the clearance proven is that of a
 /// nearer one. Above the inverse of [`TIGHTNESS`], with room for rounding.
@@ -53,9 +54,25 @@ impl CertifiedPath {
         &self.path
     }
 
-    /// The straight path of a curve, whose clearance is that of the legs up to their corners, too.
-    pub(super) fn part_of(curve: &CertifiedCurve) -> Self {
-        Self { path: curve.curve().path().clone(), clearance: curve.clearance(), nearest: curve.nearest() }
+    /// The same with a lower clearance, if this is lower, and with another place as the nearest: of a motion that leaves the path.
+    #[must_use]
+    pub fn within(self, clearance: f64, nearest: Option<Nearest>) -> Self {
+        Self { clearance: self.clearance.min(clearance), nearest, ..self }
+    }
+
+    /// Followed by another path that begins where this ends. The clearance is the lower one of both.
+    ///
+    /// # Panics
+    /// If the other path begins elsewhere, by more than rounding.
+    #[must_use]
+    pub fn then(self, next: &Self) -> Self {
+        let (goal, start) = (self.path.goal(), next.path.start());
+        assert!((goal - start).amax() <= JOINED * (1.0 + goal.amax()), "the path goes on at {start}, not at {goal}");
+        let distance = |nearest: &Nearest| nearest.contact.separation.distance;
+        let both = self.nearest.into_iter().chain(next.nearest);
+        let nearest = both.min_by(|a, b| distance(a).total_cmp(&distance(b)));
+        let waypoints = self.path.waypoints().iter().chain(next.path.waypoints()).copied().collect();
+        Self { path: Path::new(waypoints), clearance: self.clearance.min(next.clearance), nearest }
     }
 
     /// The part between two distances along it, backwards if the first is the greater: part of what is certified is, and a way back as well as the
@@ -63,10 +80,6 @@ impl CertifiedPath {
     #[must_use]
     pub fn part(&self, from: f64, to: f64) -> Self {
         Self { path: self.path.part(from, to), ..self.clone() }
-    }
-
-    pub(super) fn into_path(self) -> Path {
-        self.path
     }
 
     /// Proven lower bound on the distance between arm and obstacles along the whole motion, metres; infinite if
@@ -118,7 +131,7 @@ pub fn certify(scene: &Scene, path: Path, clearance: f64) -> Result<CertifiedPat
     }
     let vicinity = Vicinity::new(scene);
     let budget = MAX_EVALUATIONS + EVALUATIONS_PER_PIECE * path.waypoints().len();
-    let mut search = Search::new(scene, clearance, budget);
+    let mut search = CurveSearch::new(scene, clearance, budget);
     for &q in path.waypoints() {
         let posture = Posture::new(scene, q);
         let here = Deviation::Box([0.0, 0.0]);
@@ -159,7 +172,9 @@ impl<'a> StraightMotions<'a> {
         let topology = self.scene.arm().topology();
         let within = [from, to].iter().all(|q| (0..2).all(|k| topology.ranges[k].contains(q[k])));
         within
-            && Search::deciding(self.scene, self.clearance, MAX_EVALUATIONS).segment(&self.vicinity, from, to).is_ok()
+            && CurveSearch::deciding(self.scene, self.clearance, MAX_EVALUATIONS)
+                .segment(&self.vicinity, from, to)
+                .is_ok()
     }
 }
 
@@ -169,17 +184,17 @@ fn part_of(from: Configuration, to: Configuration, half: f64) -> Deviation {
     Deviation::Tube((to - from) * half, rounded)
 }
 
-/// What is known while pieces of a motion are looked at.
+/// Judges the pieces of a motion one after the other, along whatever curves.
 #[derive(Debug, Clone)]
-pub(super) struct Search<'a> {
+pub struct CurveSearch<'a> {
     scene: &'a Scene,
     required: f64,
     /// A bound is accepted if it is at least this share of the least distance seen.
     tightness: f64,
     /// Least of the bounds that were accepted.
-    pub(super) proven: f64,
+    proven: f64,
     /// Least distance seen.
-    pub(super) nearest: Option<Nearest>,
+    nearest: Option<Nearest>,
     /// Looks that are left.
     budget: usize,
     /// Parts of a curve as (number, middle, half width) of the parameter, the first one on top. The whole has number 1, the halves of `n` have
@@ -187,20 +202,27 @@ pub(super) struct Search<'a> {
     open: Vec<(usize, f64, f64)>,
 }
 
-impl<'a> Search<'a> {
-    pub(super) fn new(scene: &'a Scene, required: f64, budget: usize) -> Self {
+impl<'a> CurveSearch<'a> {
+    fn new(scene: &'a Scene, required: f64, budget: usize) -> Self {
         Self { scene, required, tightness: TIGHTNESS, proven: f64::INFINITY, nearest: None, budget, open: Vec::new() }
     }
 
-    /// A search that asks only whether the distance required is kept, not how much more.
-    pub(super) fn deciding(scene: &'a Scene, required: f64, budget: usize) -> Self {
+    /// A search that asks only whether the distance `required` is kept, not how much more, within `budget` looks at pairs.
+    #[must_use]
+    pub fn deciding(scene: &'a Scene, required: f64, budget: usize) -> Self {
         Self { tightness: 0.0, ..Self::new(scene, required, budget) }
     }
 
-    /// A search that goes on from what is known of a motion.
-    pub(super) fn beside(known: &CertifiedCurve, scene: &'a Scene, required: f64, budget: usize) -> Self {
-        let (proven, nearest) = (known.clearance(), known.nearest());
-        Self { scene, required, tightness: TIGHTNESS, proven, nearest, budget, open: Vec::new() }
+    /// A search that goes on from what is known of a path, and finds the clearance of both.
+    #[must_use]
+    pub fn beside(known: &CertifiedPath, scene: &'a Scene, required: f64, budget: usize) -> Self {
+        Self { proven: known.clearance, nearest: known.nearest, ..Self::new(scene, required, budget) }
+    }
+
+    /// Returns the clearance that is proven for all pieces so far, and where they come nearest.
+    #[must_use]
+    pub fn found(&self) -> (f64, Option<Nearest>) {
+        (self.proven, self.nearest)
     }
 
     /// Takes note of a distance on the path.
@@ -238,19 +260,12 @@ impl<'a> Search<'a> {
         self.curve(vicinity, |middle, half| (from + (to - from) * middle, part_of(from, to, half)))
     }
 
-    /// A blend and all that is no farther off it than a hair.
-    pub(super) fn blend(&mut self, vicinity: &Vicinity, blend: &Blend) -> Result<(), Rejection> {
-        self.piece(vicinity, &blend.piece(), HAIR * blend.radius())
-    }
-
-    /// A piece of a motion and all that is in each joint no more than `beside` off it.
-    pub(super) fn piece(&mut self, vicinity: &Vicinity, piece: &Piece, beside: f64) -> Result<(), Rejection> {
-        self.curve(vicinity, |middle: f64, half: f64| along(piece, middle - half, middle + half, beside))
-    }
-
-    /// A curve given by what its part about a middle, so and so much to either side, is: a configuration, and the
-    /// deviations from it. The parameter goes from 0 to 1.
-    fn curve(
+    /// Judges a curve. Its parameter goes from 0 to 1; `part` takes a middle and a half width of the parameter, and returns the configuration
+    /// there and the deviations from it that hold all of that part.
+    ///
+    /// # Errors
+    /// [`Rejection`]: where the curve does not keep the distance required, or is not shown to.
+    pub fn curve(
         &mut self,
         vicinity: &Vicinity,
         part: impl Fn(f64, f64) -> (Configuration, Deviation),

@@ -124,6 +124,12 @@ impl Arm {
         Topology { ranges: [self.joints[0].range, self.joints[1].range] }
     }
 
+    /// Returns whether both joints turn.
+    #[must_use]
+    pub fn only_turns(&self) -> bool {
+        self.joints.iter().all(|joint| joint.joint_type.is_revolute())
+    }
+
     /// `RR`, `RP`, `PR` or `PP`.
     #[must_use]
     pub fn kind(&self) -> &'static str {

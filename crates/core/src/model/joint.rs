@@ -1,10 +1,24 @@
 //! One joint of the planar arm.
 
-use super::{SLIDING_SPEED, TURNING_SPEED, assumed_acceleration};
 use crate::space::JointRange;
 use cplan_geometry::Vector;
 use cplan_text::told_apart;
 use serde::{Deserialize, Serialize};
+
+/// Top speed of a joint that turns, without one of its own; rad/s.
+pub const TURNING_SPEED: f64 = 1.0;
+
+/// The same of one that slides; m/s.
+pub const SLIDING_SPEED: f64 = 0.25;
+
+/// Seconds to top speed, without a limit on the acceleration.
+pub const TIME_TO_TOP_SPEED: f64 = 0.25;
+
+/// Greatest acceleration of a joint that has none, by its top speed.
+#[must_use]
+pub fn assumed_acceleration(velocity: f64) -> f64 {
+    (velocity / TIME_TO_TOP_SPEED).min(f64::MAX)
+}
 
 /// How a joint moves its link in the plane.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]

@@ -1,6 +1,6 @@
 //! What is carried, as parts of link 2: whole, and for its supports smaller by what it may press into them.
 
-use super::scene::{Reading, obstacles};
+use super::pairing::{Kind, Reading, obstacles};
 use super::{Arm, Carrier, Grip, Part, Payload, Workspace};
 use cplan_geometry::{Convex, Point, drawn_in};
 use nalgebra::{Isometry2, Translation2};
@@ -33,7 +33,7 @@ impl Payload {
         differences: &mut [Vec<Convex>],
     ) -> Vec<(Part, Meetable)> {
         let mut parts = Vec::new();
-        for (piece, shape, kind) in self.parts_read(arm, reading) {
+        for (piece, shape, part_meets) in self.parts_read(arm, reading) {
             let (on_link, level) = match self.grip {
                 Grip::Rigid(in_link) => (shape.at(&in_link), None),
                 Grip::Level { angle, point } => {
@@ -42,22 +42,22 @@ impl Payload {
                 }
             };
             let mut meetable = Vec::new();
-            let first_self = workspace.obstacles.len() + workspace.movers.len();
-            for (number, obstacle) in obstacles(arm, workspace).enumerate() {
+            for (number, (kind, obstacle)) in obstacles(arm, workspace).enumerate() {
                 let own = obstacle.pieces.len();
-                let link = number.checked_sub(first_self).map(|link| arm.self_obstacles[link].carrier);
                 // How something level lies to what joint 1 carries is not known: it is covered all round, which is no evidence.
-                let is_turned = level.is_some() && link == Some(Carrier::FirstJoint);
-                let meets = self.meets(kind, number) && !(is_turned && reading.is_evidence());
-                let nearer = kind.nearer(workspace.clearance);
+                let is_folding = matches!(kind, Kind::Own(own) if own.carrier == Carrier::FirstJoint);
+                let is_turned = level.is_some() && is_folding;
+                let meets = self.meets(part_meets, number) && !(is_turned && reading.is_evidence());
+                let nearer = part_meets.nearer(workspace.clearance);
                 if !meets || (level.is_none() && nearer == 0.0) {
                     meetable.push(0..if meets { own } else { 0 });
                     continue;
                 }
                 // What moves has its pieces in its own frame, which does not turn where something level is carried.
-                let mover = number.checked_sub(workspace.obstacles.len()).and_then(|mover| workspace.movers.get(mover));
-                let turned = mover.map(|mover| Isometry2::rotation(-mover.course.stops()[0].angle));
-                let seen = |level: &Convex| turned.map_or_else(|| level.clone(), |turned| level.at(&turned));
+                let seen = |level: &Convex| match kind {
+                    Kind::Moving(mover) => level.at(&Isometry2::rotation(-mover.course.stops()[0].angle)),
+                    Kind::Standing | Kind::Own(_) => level.clone(),
+                };
                 let all_round =
                     |level: &Convex| Convex::trusted(vec![Point::origin()], level.reach_from(Point::origin()));
                 let level = level.as_ref().map(|level| if is_turned { all_round(level) } else { seen(level) });

@@ -1,10 +1,10 @@
 //! The arm among its obstacles.
 
+use super::pairing::{Meet, Pairing, Reading, obstacles};
 use super::scene_error::{check, check_clearance};
 use super::scene_record::SceneRecord;
 use super::{
-    Arm, Carrier, Dynamics, Grip, Heights, Joint, Link, Mover, Obstacle, Part, Payload, SceneError, SelfObstacle,
-    Workspace,
+    Arm, Carrier, Grip, Heights, Joint, Link, Mover, Obstacle, Part, Payload, SceneError, SelfObstacle, Workspace,
 };
 use crate::space::{Configuration, JointRange};
 use cplan_geometry::{Convex, Separation, separation};
@@ -56,61 +56,11 @@ pub struct Scene {
     differences: Vec<Vec<Convex>>,
 }
 
-/// Whether heights meet, where rounding leaves it open.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Meet {
-    /// They do: for what is to be free.
-    Perhaps,
-    /// They do not: for proofs that something is in the way.
-    Surely,
-}
-
-impl Meet {
-    /// Of a part of the arm, or of an object that it carries, and an obstacle.
-    fn holds(self, is_carried: bool, part: Heights, obstacle: Heights) -> bool {
-        match (self, is_carried) {
-            (Self::Perhaps, false) => part.meet(obstacle),
-            (Self::Perhaps, true) => part.object_meets(obstacle),
-            (Self::Surely, false) => part.surely_meet(obstacle),
-            (Self::Surely, true) => part.object_surely_meets(obstacle),
-        }
-    }
-}
-
-/// How it takes what is left open, and what it leaves out.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Reading {
-    /// Which heights can meet.
-    meet: Meet,
-    /// Pieces of what stands that are farther from joint 1 are no part of a pair, metres.
-    farthest: f64,
-}
-
-impl Reading {
-    /// What may meet does, and nothing is left out.
-    pub const ALL: Self = Self { meet: Meet::Perhaps, farthest: f64::INFINITY };
-
-    /// Whether what is hit proves something.
-    pub fn is_evidence(&self) -> bool {
-        self.meet == Meet::Surely
-    }
-
-    /// Whether a piece is perhaps nothing without rounding, and so no evidence.
-    pub fn takes_for_nothing(&self, piece: &Convex) -> bool {
-        self.meet == Meet::Surely && piece.is_sliver()
-    }
-}
-
 /// More pairs out of reach are left out of a search: with fewer it is as fast.
 const MANY_OUT_OF_REACH: usize = 200;
 
 /// By which share rounding may make a distance too large or a reach too small, and much more.
 const ROUNDING: f64 = 1e-9;
-
-/// All obstacles in the order in which a scene numbers them: those of the workspace, those that move, links of the robot.
-pub(super) fn obstacles<'a>(arm: &'a Arm, workspace: &'a Workspace) -> impl Iterator<Item = &'a Obstacle> {
-    workspace.all().chain(arm.self_obstacles.iter().map(|own| &own.obstacle))
-}
 
 impl Scene {
     /// Puts the arm into the workspace.
@@ -156,6 +106,7 @@ impl Scene {
         Self::assembled(arm, workspace, payload, allowed_contacts, Reading::ALL)
     }
 
+    /// The scene of what is known to be valid.
     fn assembled(
         mut arm: Arm,
         workspace: Workspace,
@@ -166,54 +117,12 @@ impl Scene {
         debug_assert_eq!(check(&arm, &workspace, payload.as_ref(), allowed_contacts), Ok(()));
         let own_parts = arm.links[1].parts.len();
         let mut differences = vec![Vec::new(); obstacles(&arm, &workspace).count()];
-        let carried =
-            payload.as_ref().map_or_else(Vec::new, |p| p.on_link(&arm, &workspace, &reading, &mut differences));
-        arm.links[1].parts.extend(carried.iter().map(|(part, _)| part.clone()));
-        let (mut pairs, mut moving, mut folding) = (Vec::new(), Vec::new(), Vec::new());
-        let standing = workspace.obstacles.len();
-        let movers = standing..standing + workspace.movers.len();
-        let base = Convex::point(arm.base);
-        let is_far = |obstacle: usize, piece: &Convex| {
-            let stands = obstacle < standing && reading.farthest.is_finite();
-            stands && separation(&base, piece).distance > reading.farthest
-        };
-        let is_left_out = |obstacle: usize, piece: &Convex| is_far(obstacle, piece) || reading.takes_for_nothing(piece);
-        let left_out = |(number, o): (usize, &Obstacle)| o.pieces.iter().map(|p| is_left_out(number, p)).collect();
-        let may_leave_out = reading.farthest.is_finite() || reading.meet == Meet::Surely;
-        let left_out: Vec<Vec<bool>> =
-            if may_leave_out { obstacles(&arm, &workspace).enumerate().map(left_out).collect() } else { Vec::new() };
-        // What is made of pieces comes after them, all for one piece of the payload after all for another.
-        let is_kept = |pair: &Pair| left_out.get(pair.obstacle).is_none_or(|all| !all[pair.piece % all.len()]);
-        for (link, l) in arm.links.iter().enumerate() {
-            for (part, p) in l.parts.iter().enumerate() {
-                let meetable = (link == 1 && part >= own_parts).then(|| &carried[part - own_parts].1);
-                let is_own = meetable.is_none();
-                let can_meet = |(number, o): &(usize, &Obstacle)| match number.checked_sub(movers.end) {
-                    None => reading.meet.holds(meetable.is_some(), p.heights, o.heights),
-                    // Links of a robot lie on each other.
-                    Some(number) => {
-                        let own = &arm.self_obstacles[number];
-                        let can_hit = link == 1 || own.carrier == Carrier::Base;
-                        can_hit && p.heights.surely_meet(o.heights) && !(is_own && own.ignores(&p.body))
-                    }
-                };
-                for (obstacle, o) in obstacles(&arm, &workspace).enumerate().filter(can_meet) {
-                    let pieces = match meetable {
-                        Some(meetable) => meetable[obstacle].clone(),
-                        None if link == 1 && allowed_contacts.contains(&obstacle) => 0..0,
-                        None => 0..o.pieces.len(),
-                    };
-                    let own = obstacle.checked_sub(movers.end).map(|number| arm.self_obstacles[number].carrier);
-                    let (among, link) = match own {
-                        None if movers.contains(&obstacle) => (&mut moving, link),
-                        Some(Carrier::FirstJoint) => (&mut folding, 2),
-                        _ => (&mut pairs, link),
-                    };
-                    among.extend(pieces.map(|piece| Pair { link, part, obstacle, piece }).filter(is_kept));
-                }
-            }
-        }
-        pairs.extend(folding);
+        let parts = payload.as_ref().map_or_else(Vec::new, |p| p.on_link(&arm, &workspace, &reading, &mut differences));
+        let (parts, carried): (Vec<_>, Vec<_>) = parts.into_iter().unzip();
+        arm.links[1].parts.extend(parts);
+        let [pairs, moving] =
+            Pairing { arm: &arm, workspace: &workspace, reading, own_parts, carried: &carried, allowed_contacts }
+                .pairs();
         let allowed_contacts = allowed_contacts.to_vec();
         Self { arm, workspace, payload, allowed_contacts, own_parts, reading, pairs, moving, differences }
     }
@@ -223,7 +132,7 @@ impl Scene {
     #[must_use]
     pub fn inner(&self) -> Cow<'_, Self> {
         let parts = || self.arm.links.iter().flat_map(|link| &link.parts);
-        let all = || obstacles(&self.arm, &self.workspace);
+        let all = || obstacles(&self.arm, &self.workspace).map(|(_, obstacle)| obstacle);
         let is_level = self.payload.as_ref().is_some_and(|payload| matches!(payload.grip, Grip::Level { .. }));
         let is_covered = is_level && self.arm.self_obstacles.iter().any(|own| own.carrier == Carrier::FirstJoint);
         // Whether links of the robot meet is always known.
@@ -231,14 +140,14 @@ impl Scene {
             let meets = |meet: Meet, obstacle: &Obstacle| meet.holds(is_carried, part.heights, obstacle.heights);
             self.workspace.all().all(|obstacle| meets(Meet::Perhaps, obstacle) == meets(Meet::Surely, obstacle))
         };
-        let is_exact = self.reading.meet == Meet::Surely
+        let is_exact = self.reading.is_evidence()
             || (0..2).all(|link| {
                 let (own, carried) = (self.own_parts(link), &self.arm.links[link].parts[self.own_parts(link).len()..]);
                 own.iter().all(|part| is_known(false, part)) && carried.iter().all(|part| is_known(true, part))
             });
         let carried = self.payload.iter().flat_map(|payload| &payload.pieces);
         let mut pieces = all().flat_map(|obstacle| &obstacle.pieces).chain(carried);
-        let is_whole = self.reading.meet == Meet::Surely || !pieces.any(Convex::is_sliver);
+        let is_whole = self.reading.is_evidence() || !pieces.any(Convex::is_sliver);
         if is_exact && is_whole && !is_covered && parts().all(|part| part.inner.is_none()) {
             return Cow::Borrowed(self);
         }
@@ -264,12 +173,11 @@ impl Scene {
     /// The same scene with other heights for the arm's self obstacles, given the URDF link's name and those that it has.
     #[must_use]
     pub fn with_self_heights(&self, heights: impl Fn(&str, Heights) -> Heights) -> Self {
-        let (payload, allowed_contacts) = (self.payload.clone(), self.allowed_contacts.clone());
-        let (mut arm, workspace) = self.clone().into_parts();
-        for SelfObstacle { obstacle, .. } in &mut arm.self_obstacles {
-            obstacle.heights = heights(&obstacle.name, obstacle.heights);
-        }
-        Self::assembled(arm, workspace, payload, &allowed_contacts, self.reading)
+        self.changed(|arm, _| {
+            for SelfObstacle { obstacle, .. } in &mut arm.self_obstacles {
+                obstacle.heights = heights(&obstacle.name, obstacle.heights);
+            }
+        })
     }
 
     /// The same scene without the pairs with what stands farther from joint 1 than anything of the arm gets, clearance included; none where these are
@@ -296,13 +204,27 @@ impl Scene {
         pieces: impl FnMut(&Obstacle) -> Vec<Convex>,
         reading: Reading,
     ) -> Self {
+        let pieces: Vec<Vec<Convex>> = self.workspace.obstacles.iter().map(pieces).collect();
+        self.read_anew(reading, |arm, workspace| {
+            arm.links.iter_mut().flat_map(|link| &mut link.parts).for_each(reshape);
+            for (obstacle, pieces) in workspace.obstacles.iter_mut().zip(pieces) {
+                obstacle.pieces = pieces;
+            }
+        })
+    }
+
+    /// The same scene with a change of the arm (without what it carries) or the workspace, which nobody checks. What moves keeps its
+    /// number, and so does what is carried.
+    #[must_use]
+    #[doc(hidden)]
+    pub fn changed(&self, change: impl FnOnce(&mut Arm, &mut Workspace)) -> Self {
+        self.read_anew(self.reading, change)
+    }
+
+    fn read_anew(&self, reading: Reading, change: impl FnOnce(&mut Arm, &mut Workspace)) -> Self {
         let (mut arm, mut workspace) = (self.arm.clone(), self.workspace.clone());
         arm.links[1].parts.truncate(self.own_parts);
-        arm.links.iter_mut().flat_map(|link| &mut link.parts).for_each(reshape);
-        let pieces: Vec<Vec<Convex>> = workspace.obstacles.iter().map(pieces).collect();
-        for (obstacle, pieces) in workspace.obstacles.iter_mut().zip(pieces) {
-            obstacle.pieces = pieces;
-        }
+        change(&mut arm, &mut workspace);
         Self::assembled(arm, workspace, self.payload.clone(), &self.allowed_contacts, reading)
     }
 
@@ -310,12 +232,9 @@ impl Scene {
     ///
     /// # Errors
     /// When it is negative or not finite.
-    pub fn with_clearance(mut self, clearance: f64) -> Result<Self, SceneError> {
+    pub fn with_clearance(self, clearance: f64) -> Result<Self, SceneError> {
         check_clearance(clearance)?;
-        let (payload, allowed_contacts) = (self.payload.take(), std::mem::take(&mut self.allowed_contacts));
-        let reading = self.reading;
-        let (arm, workspace) = self.into_parts();
-        Ok(Self::assembled(arm, Workspace { clearance, ..workspace }, payload, &allowed_contacts, reading))
+        Ok(self.changed(|_, workspace| workspace.clearance = clearance))
     }
 
     /// The same scene at a time: what moves stands where it is then, after all that stands.
@@ -324,11 +243,7 @@ impl Scene {
         if self.workspace.movers.is_empty() {
             return self.clone();
         }
-        let mut scene = self.clone();
-        let (payload, allowed_contacts) = (scene.payload.take(), std::mem::take(&mut scene.allowed_contacts));
-        let (arm, mut workspace) = scene.into_parts();
-        workspace.obstacles.extend(std::mem::take(&mut workspace.movers).iter().map(|mover| mover.at(time)));
-        Self::assembled(arm, workspace, payload, &allowed_contacts, self.reading)
+        self.changed(|_, Workspace { obstacles, movers, .. }| obstacles.extend(movers.drain(..).map(|m| m.at(time))))
     }
 
     /// The same scene on a clock that begins at this time.
@@ -341,14 +256,10 @@ impl Scene {
     /// The same scene with one obstacle more, which stands.
     #[must_use]
     pub fn with_standing(&self, obstacle: Obstacle) -> Self {
-        let standing = self.workspace.obstacles.len();
+        let (mut scene, standing) = (self.clone(), self.workspace.obstacles.len());
         // What moves has the numbers after those of what stands.
-        let contacts: Vec<usize> =
-            self.allowed_contacts.iter().map(|&number| number + usize::from(number >= standing)).collect();
-        let payload = self.payload.clone();
-        let (arm, mut workspace) = self.clone().into_parts();
-        workspace.obstacles.push(obstacle);
-        Self::assembled(arm, workspace, payload, &contacts, self.reading)
+        scene.allowed_contacts.iter_mut().filter(|number| **number >= standing).for_each(|number| *number += 1);
+        scene.changed(|_, workspace| workspace.obstacles.push(obstacle))
     }
 
     /// What it was made of: the arm without what it carries, and the workspace, to make another scene of them.
@@ -379,13 +290,6 @@ impl Scene {
     /// The arm, to give its joints other limits on speed, acceleration, jerk and effort: the pairs do not depend on them.
     pub fn arm_mut(&mut self) -> &mut Arm {
         &mut self.arm
-    }
-
-    /// Masses and efforts with what is carried, if motions have to keep within the efforts.
-    #[must_use]
-    pub fn limiting_dynamics(&self) -> Option<Dynamics> {
-        let own = self.arm.dynamics.filter(|dynamics| dynamics.limits)?;
-        Some(self.payload.as_ref().map_or(own, |payload| own.carrying(&self.arm, payload)))
     }
 
     /// What the arm carries, if anything.

@@ -230,7 +230,11 @@ fn check_joint(joint: &Joint) -> Result<(), SceneError> {
     }
 }
 
-pub(super) fn check_range(joint: &str, range: JointRange) -> Result<(), SceneError> {
+/// The range of a joint that makes sense: ends in order, finite and not too large.
+///
+/// # Errors
+/// [`SceneError::Range`].
+pub fn check_range(joint: &str, range: JointRange) -> Result<(), SceneError> {
     match range {
         JointRange::Interval { lower, upper } if !(lower <= upper && are_small([lower, upper])) => {
             Err(SceneError::Range { joint: joint.to_owned(), lower, upper })
@@ -261,23 +265,26 @@ pub(super) fn check_clearance(clearance: f64) -> Result<(), SceneError> {
 
 /// Numbers beyond which nothing is taken, metres: predicates and distances are far from overflowing, and sums of lengths in files,
 /// which are smaller, are within.
-pub(super) const LARGEST: f64 = 1e15;
+pub const LARGEST: f64 = 1e15;
 
 /// A turning joint's range at most, radians: intervals are repeated turn after turn, and a hundred turns are enough for any wrist.
 pub const LONGEST_TURN: f64 = 1e3;
 
 /// Whether all are finite, and no larger than makes sense.
-pub(super) fn are_small(values: impl IntoIterator<Item = f64>) -> bool {
+#[must_use]
+pub fn are_small(values: impl IntoIterator<Item = f64>) -> bool {
     values.into_iter().all(|value| value.abs() <= LARGEST)
 }
 
 /// Whether all of a shape is where numbers make sense.
-pub(super) fn is_small(shape: &Convex) -> bool {
+#[must_use]
+pub fn is_small(shape: &Convex) -> bool {
     are_small(shape.core().iter().flat_map(|p| [p.x, p.y]).chain([shape.radius()]))
 }
 
 /// Whether a pose moves and turns, and nothing else.
-pub(super) fn is_pose(pose: &Pose) -> bool {
+#[must_use]
+pub fn is_pose(pose: &Pose) -> bool {
     are_small(pose.translation.vector.iter().copied()) && (pose.rotation.as_ref().norm() - 1.0).abs() <= UNIT_ROUNDING
 }
 

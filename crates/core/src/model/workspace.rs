@@ -61,6 +61,12 @@ impl Heights {
     }
 
     /// Whether these heights begin where the others end, or less than `into` below that.
+    /// The heights of what lies at these, lifted by anything from `least` to `most`.
+    #[must_use]
+    pub fn lifted(self, [least, most]: [f64; 2]) -> Self {
+        Self { lower: self.lower + least, upper: self.upper + most }
+    }
+
     fn is_above(self, other: Heights, into: f64) -> bool {
         other.upper - self.lower <= into
     }
@@ -103,7 +109,7 @@ impl Shape {
     }
 
     /// Leaves the shape if it consists of just these pieces; else they are the shape, for pictures are to show what is judged.
-    pub(super) fn hold_to(&mut self, pieces: &[Convex]) {
+    pub fn hold_to(&mut self, pieces: &[Convex]) {
         let own = match self {
             // Predicates would overflow on others, of which no pieces are taken.
             Shape::Polygon(corners) if are_small(corners.iter().flat_map(|p| [p.x, p.y])) => {
@@ -212,12 +218,12 @@ impl Workspace {
     }
 
     /// All obstacles as a scene numbers them: those that stay where they are, then those that move, in their own frames.
-    pub(super) fn all(&self) -> impl Iterator<Item = &Obstacle> {
+    pub fn all(&self) -> impl Iterator<Item = &Obstacle> {
         self.obstacles.iter().chain(self.movers.iter().map(|mover| &mover.obstacle))
     }
 
     /// Holds the shapes to what is judged: for what is read as data.
-    pub(super) fn hold_shapes(&mut self) {
+    pub fn hold_shapes(&mut self) {
         let moving = self.movers.iter_mut().map(|mover| &mut mover.obstacle);
         self.obstacles.iter_mut().chain(moving).for_each(|obstacle| obstacle.shape.hold_to(&obstacle.pieces));
     }

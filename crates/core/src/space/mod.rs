@@ -1,4 +1,4 @@
-//! Configurations, motions, and the topology of their space.
+//! Configurations, paths, and the topology of the space they live in.
 //!
 //! Goals are a set ([`GoalSet`]): configurations, and segments if a tip goal leaves a joint free. Roadmaps end where
 //! their last leg meets a segment perpendicularly, or at an end of its free part. Fields start in all its free cells.
@@ -14,31 +14,22 @@
 //! assert!(topology.lift(to, from)[0] > 3.0);
 //! ```
 
-mod bernstein;
-mod blend;
 mod copies;
-mod curve;
 mod draws;
 pub mod funnel;
 mod goal_set;
-mod interpolation;
 mod measure;
 mod metric;
 mod path;
-mod recording;
 mod segment;
 mod topology;
 
-pub use blend::{Blend, BlendedPath, HAIR, Stretch};
-pub use curve::{Derivative, Piece, State};
 pub use draws::Draws;
 pub use funnel::{Portal, funnel_path, nearest_end};
 pub use goal_set::GoalSet;
-pub use interpolation::{INTERPOLATION, Interpolation, SMOOTH_INTERPOLATION};
 pub use measure::Measure;
 pub use metric::Metric;
 pub use path::Path;
-pub use recording::{Recording, RecordingError};
 pub use segment::Segment;
 pub use topology::{JointRange, Topology};
 

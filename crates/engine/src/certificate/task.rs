@@ -3,8 +3,9 @@
 
 use super::{NoCertificate, lines};
 use crate::task::StepReport;
-use cplan_core::model::{Action, Object, Payload, RecordedStep, Step, Task};
+use cplan_core::model::Payload;
 use cplan_geometry::can_be_drawn_in;
+use cplan_handling::{Action, Object, RecordedStep, Step, Task};
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
 

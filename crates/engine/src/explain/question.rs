@@ -245,11 +245,7 @@ impl Question {
     }
 
     pub(super) fn rebuilt(&self, edit: impl FnOnce(&mut Arm, &mut Workspace)) -> Self {
-        let (payload, contacts) = (self.scene.payload().cloned(), self.scene.allowed_contacts().to_vec());
-        let (mut arm, mut workspace) = self.scene.clone().into_parts();
-        edit(&mut arm, &mut workspace);
-        let scene = Scene::handling_trusted(arm, workspace, payload, &contacts);
-        Self { scene, target: self.target.clone(), ..*self }
+        Self { scene: self.scene.changed(edit), target: self.target.clone(), ..*self }
     }
 }
 

@@ -10,8 +10,9 @@ use motion::Broken;
 pub use motion::{EncounterFinding, Judgement, LimitFinding, MomentFinding, MotionFindings, WayFinding};
 pub use task::{StepFinding, TurnContactFinding, TurnFinding};
 
-use cplan_core::model::{Claims, HeldMotion, RecordedStep, Scene};
-use cplan_core::space::Recording;
+use cplan_core::model::Scene;
+use cplan_dynamics::Torques;
+use cplan_handling::{Claims, HeldMotion, RecordedStep, Recording};
 use cplan_motion::recorded::{
     ENDS_WITHIN, check_collision, check_collision_with, claims_kept, ends_kept, limits_kept, replay, torques_kept,
 };
@@ -77,9 +78,9 @@ fn judge_motion(
     let untold = [
         (has_movers && recording.times().is_none())
             .then_some("obstacles move, and the file has no times: it cannot be told whether the motion meets them"),
-        (scene.limiting_dynamics().is_some() && recording.velocities().is_none())
+        (Torques::limited(scene).is_some() && recording.velocities().is_none())
             .then_some("motions have to keep within efforts, and the file has no velocities: torques cannot be told"),
-        (scene.limiting_dynamics().is_some() && !held.is_empty())
+        (Torques::limited(scene).is_some() && !held.is_empty())
             .then_some("motions have to keep within efforts, and joints of the tool move: torques cannot be told"),
     ];
     let clearance = scene.workspace().clearance;

@@ -1,9 +1,10 @@
 //! What is found of a motion, as data.
 
 use super::StepFinding;
-use cplan_core::model::{AssumedLimits, Claims, Joint, Scene};
-use cplan_core::space::Recording;
+use cplan_core::model::{Joint, Scene};
+use cplan_handling::{Claims, Recording};
 use cplan_motion::recorded::{CollisionCheck, Encounter, Excess, Limit, Moment};
+use cplan_robot::AssumedLimits;
 use serde::Serialize;
 
 /// What is found in a word, the worst last.

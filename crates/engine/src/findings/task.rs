@@ -1,9 +1,10 @@
 //! What is found of a task, step by step.
 
 use super::motion::{Broken, Judgement, LimitFinding, MotionFindings, WayFinding, limits, verdict};
-use cplan_core::model::{AssumedLimits, Claims, RecordedStep, Scene, Task};
-use cplan_core::space::Recording;
+use cplan_core::model::Scene;
+use cplan_handling::{Claims, RecordedStep, Recording, Task};
 use cplan_motion::recorded::{Departure, Replay, ReplayedStep, ReplayedTurn, step_claims_kept, task_claims_kept};
+use cplan_robot::AssumedLimits;
 use serde::Serialize;
 
 /// What there is to say of a step.

@@ -1,10 +1,11 @@
 //! When a motion may depart: at which times it would meet nothing that moves.
 
 use super::blocked::{Around, Movers, STILL};
-use cplan_core::check::{Place, Posture, Span};
-use cplan_core::space::Piece;
+use cplan_core::check::Posture;
 use cplan_geometry::{Interval, merge_in_place};
+use cplan_handling::Piece;
 use cplan_interrupt::checkpoint;
+use cplan_motion::{Place, Span};
 
 /// Stretches of a motion are halved until no point of the arm moves farther in half of one than this share of the arm's reach, ...
 const MOTION: f64 = 4e-3;

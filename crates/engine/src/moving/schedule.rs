@@ -2,10 +2,11 @@
 
 use super::blocked::Movers;
 use super::departures::{blocked_departures, first_departure};
-use cplan_core::check::{CertifiedCurve, CertifiedPath, Posture};
+use cplan_core::check::{CertifiedPath, Posture};
 use cplan_core::space::{Metric, Path};
 use cplan_geometry::{Interval, Ordered};
 use cplan_interrupt::checkpoint;
+use cplan_motion::CertifiedCurve;
 use cplan_motion::{Drive, Limits, Timed, TimingError, Trajectory, least_duration};
 use serde::Serialize;
 use std::cmp::Reverse;

@@ -7,9 +7,10 @@ use super::moving::Timing;
 use super::plan::{Detail, Plan};
 use super::task::FailedStep;
 use super::{Bound, Planner, Setting, Settings};
-use cplan_core::model::{Status, Task};
+use cplan_core::model::Status;
 use cplan_core::planner::VisibilityGraph;
 use cplan_core::space::{Metric, Path};
+use cplan_handling::Task;
 use cplan_motion::{Optimum, SearchUsed, Trajectory};
 
 impl Plan {

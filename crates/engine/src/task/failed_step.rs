@@ -3,8 +3,9 @@
 use super::legs::Refusal;
 use super::state::State;
 use cplan_core::check::CheckedProof;
-use cplan_core::model::{Arm, Joint, Scene, Step};
+use cplan_core::model::{Arm, Joint, Scene};
 use cplan_core::space::Configuration;
+use cplan_handling::Step;
 use std::sync::Arc;
 
 /// Beginnings of motions beyond these are not named for one reason.

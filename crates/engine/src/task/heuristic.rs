@@ -4,9 +4,10 @@ use super::ik_solutions::{goal_ik_solutions, ik_solutions};
 use super::least_time::least_time;
 use super::state::Progress;
 use super::stroke::least_rest;
-use cplan_core::model::{Action, Arm, Holding, Item, Object, Step, Task};
+use cplan_core::model::Arm;
 use cplan_core::space::Configuration;
 use cplan_geometry::{Point, Pose};
+use cplan_handling::{Action, Holding, Item, Object, Step, Task};
 use nalgebra::{Isometry2, Rotation2};
 
 /// Where a step can end.

@@ -6,8 +6,9 @@
 
 use super::answer::{Event, Leg};
 use super::sequence::Sequence;
-use cplan_core::model::{Driver, Drives, Holding, JointType, RobotJoint, RobotJoints, Task, ToolJoint, Wrist};
+use cplan_core::model::JointType;
 use cplan_core::space::JointRange;
+use cplan_handling::{Driver, Drives, Holding, RobotJoint, RobotJoints, Task, ToolJoint, Wrist};
 use cplan_motion::{AccelerationJump, JointMotion, nanoseconds, seconds, single, whole_nanoseconds};
 use thiserror::Error;
 

@@ -9,7 +9,8 @@ use super::legs::Legs;
 use super::plan::{Found, limits};
 use super::search::{Ending, Search};
 use crate::Options;
-use cplan_core::model::{Action, Item, Outcome, Shape, Task};
+use cplan_core::model::{Outcome, Shape};
+use cplan_handling::{Action, Item, Task};
 use std::collections::BTreeSet;
 
 /// Motions that are planned for one part.

@@ -2,9 +2,10 @@
 
 use super::answer::Event;
 use super::ik_solutions::{goal_ik_solutions, ik_solutions};
-use cplan_core::model::{Action, Grip, Holding, Item, Object, Payload, Scene, Step, Task};
+use cplan_core::model::{Grip, Payload, Scene};
 use cplan_core::space::Configuration;
 use cplan_geometry::{Point, Pose};
+use cplan_handling::{Action, Holding, Item, Object, Step, Task};
 use nalgebra::Isometry2;
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;

@@ -6,7 +6,7 @@ use super::sequence::Sequence;
 use super::stroke::ToolStroke;
 use crate::result::finite;
 use cplan_core::check::CheckedProof;
-use cplan_core::model::{Action, Task};
+use cplan_handling::{Action, Task};
 use cplan_motion::Blends;
 use cplan_motion::recorded::WristTurn;
 use serde::Serialize;

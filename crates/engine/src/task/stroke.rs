@@ -5,8 +5,9 @@ use super::least_time::rest_to_rest;
 use super::legs::{Refusal, unobstructed};
 use super::state::{Candidate, State};
 use cplan_core::check::certify;
-use cplan_core::model::{Arm, Grip, Heights, Scene, Step, Stroke, Task};
+use cplan_core::model::{Arm, Grip, Heights, Scene};
 use cplan_core::space::Path;
+use cplan_handling::{Step, Stroke, Task};
 use cplan_motion::single;
 
 /// The tool goes down, and up again after the gripper's work.

@@ -1,10 +1,12 @@
 //! Continuous collision check of a recorded motion: is it free, and if not, where does it hit first?
 
 use super::tool::ToolMotion;
-use cplan_core::check::{Bounded, Deviation, Place, Posture, Span};
-use cplan_core::model::{Contact, Drift, HeldMotion, Pair, Scene};
-use cplan_core::space::{Configuration, Piece, Recording};
+use crate::{Place, Span};
+use cplan_core::check::{Bounded, Deviation, Posture};
+use cplan_core::model::{Contact, Drift, Pair, Scene};
+use cplan_core::space::Configuration;
 use cplan_geometry::Separation;
+use cplan_handling::{HeldMotion, Piece, Recording};
 use cplan_interrupt::checkpoint;
 use std::borrow::Cow;
 
@@ -123,8 +125,8 @@ fn all_pairs<'a>(scene: &'a Scene, recording: &Recording) -> Cow<'a, [Pair]> {
     if moving.is_empty() { scene.pairs().into() } else { [scene.pairs(), moving].concat().into() }
 }
 
-/// Does the same for moving obstacles only, on the recording's clock from its first sample. The motion is certified if
-/// it is also known to avoid the static obstacles, as along a [`cplan_core::check::CertifiedCurve`].
+/// The same of what moves alone, on the recording's clock from its first sample on: the arm's motion in time is certified if it is known to be
+/// free of what stands, as the motion along a [`crate::CertifiedCurve`] is.
 #[must_use]
 pub fn certify_in_time(scene: &Scene, recording: &Recording, clearance: f64) -> CollisionCheck {
     check_pairs(scene, scene.moving_pairs().into(), recording, clearance)

@@ -1,7 +1,8 @@
 //! The check of a motion's start and goal.
 
 use cplan_core::model::{Arm, Goal};
-use cplan_core::space::{Configuration, Recording};
+use cplan_core::space::Configuration;
+use cplan_handling::Recording;
 use thiserror::Error;
 
 /// Largest distance of a motion from its start or goal, radians or metres: the effect of six printed decimals on a tip

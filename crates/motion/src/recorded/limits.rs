@@ -3,7 +3,9 @@
 use super::collision::Moment;
 use super::torque::torque_looks;
 use cplan_core::model::{Joint, Scene};
-use cplan_core::space::{Configuration, Derivative, JointRange, Piece, Recording};
+use cplan_core::space::{Configuration, JointRange};
+use cplan_dynamics::Torques;
+use cplan_handling::{Derivative, Piece, Recording};
 
 /// Relative excess of a limit that is tolerated: programs that plan up to a limit exceed it by rounding and by six
 /// printed digits, which no drive can distinguish.
@@ -66,12 +68,13 @@ pub struct Excess {
 /// there are velocities. Without velocities, the velocity jumps at the samples, which does not show the intended
 /// motion.
 ///
-/// Stated velocities and accelerations are judged as stated. The motion between samples is judged as the consumer of
-/// the format joins them ([`cplan_core::space::Interpolation`]), by the extremes of each piece. A limit is violated if
-/// it is exceeded by more than a relative 1e-6 and by more than the rounding of the recording's numbers explains: half
-/// a unit of their last decimal for stated numbers, and its effect on a motion within the limits between samples. (Six
-/// decimals with a spacing of a millisecond leave the acceleration of a cubic uncertain by several radians per squared
-/// second.)
+/// What a file states is judged as stated: its velocities and accelerations. So is what the consumer of its format makes of
+/// it between the samples ([`cplan_handling::Interpolation`]), by the extremes of each piece. A limit counts as broken if it is exceeded by more
+/// than 1e-6 of it and by more than the rounding of the recording's own numbers explains: for stated numbers half a unit of
+/// their last decimal, and between samples what such roundings make of a motion within the limits. (Six decimals at a
+/// millisecond's spacing leave the acceleration of a cubic open to some radians per squared second.) What rounding explains
+/// on short pieces it does not explain on long stretches: from any sample to any later one, too, the joint moves no farther
+/// than its top speed allows, and its stated velocity changes by no more than its acceleration does.
 ///
 /// Rounding may explain excesses on short pieces, but not over long stretches. So between any two samples, the joint
 /// must not move farther than its top speed allows, and its stated velocity must not change by more than its
@@ -123,19 +126,19 @@ const FINE: f64 = 1e-4;
 /// the torque that holds the arm there.
 #[must_use]
 pub fn torques_kept(scene: &Scene, recording: &Recording) -> Vec<Excess> {
-    let Some(dynamics) = scene.limiting_dynamics().filter(|_| recording.velocities().is_some()) else {
+    let Some(torques) = Torques::limited(scene).filter(|_| recording.velocities().is_some()) else {
         return Vec::new();
     };
     let (arm, precision, pieces) = (scene.arm(), Precision::of(recording), recording.pieces());
-    let inertia = dynamics.greatest_inertia(arm);
+    let inertia = torques.greatest_inertia();
     let mut judges = [0, 1].map(|k| {
         let joint = &arm.joints[k];
         Judge { joint, k, pieces: &pieces, precision: precision.of_joint(k), worst: Vec::new() }
     });
     if let [q] = recording.positions() {
-        let holding = dynamics.at(arm, *q).holding();
+        let holding = torques.at(*q).holding();
         for judge in &mut judges {
-            let (value, allowed) = (holding[judge.k], dynamics.effort[judge.k]);
+            let (value, allowed) = (holding[judge.k], torques.dynamics.effort[judge.k]);
             if value.abs() > allowed * (1.0 + TOLERANCE) {
                 judge.note(value.abs() - allowed, Limit::Torque, allowed, value, judge.sample(0));
             }
@@ -144,9 +147,9 @@ pub fn torques_kept(scene: &Scene, recording: &Recording) -> Vec<Excess> {
     for (index, piece) in pieces.iter().enumerate().filter(|(_, piece)| piece.to > piece.from) {
         let explained =
             judges.each_ref().map(|judge| judge.explained(piece, &Sensitivity::of(piece, Derivative::Acceleration)));
-        for look in torque_looks(&dynamics, arm, piece, FINE) {
+        for look in torque_looks(&torques, piece, FINE) {
             for judge in &mut judges {
-                let (k, value, allowed) = (judge.k, look.torque[judge.k], dynamics.effort[judge.k]);
+                let (k, value, allowed) = (judge.k, look.torque[judge.k], torques.dynamics.effort[judge.k]);
                 let may = inertia[k][0] * explained[0] + inertia[k][1] * explained[1] + TOLERANCE * allowed;
                 if value.abs() - allowed > may {
                     judge.note(value.abs() - allowed, Limit::Torque, allowed, value, judge.moment(index, look.u));

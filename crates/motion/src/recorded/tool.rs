@@ -4,10 +4,11 @@
 //! contact is claimed only for the heights at one moment. A part that turns about a wrist counts as the disc that it
 //! sweeps about the axis. No contact of such a disc is claimed, unless the part is that disc itself.
 
-use cplan_core::check::{Deviation, Place, Span};
-use cplan_core::model::{Heights, HeldEffect, HeldMotion, Pair, Part, Scene};
-use cplan_core::space::Piece;
+use crate::{Place, Span};
+use cplan_core::check::Deviation;
+use cplan_core::model::{Heights, Pair, Part, Scene};
 use cplan_geometry::{Convex, Point};
+use cplan_handling::{HeldEffect, HeldMotion, Piece};
 
 /// Largest distance of a round part from its axis of rotation, metres: rounding, as of heights.
 const ON_AXIS: f64 = 1e-9;

@@ -1,7 +1,8 @@
 //! Torques along a motion.
 
-use cplan_core::model::{Arm, Dynamics, Rates};
-use cplan_core::space::{Configuration, Derivative, Piece};
+use cplan_core::space::Configuration;
+use cplan_dynamics::{Rates, Torques};
+use cplan_handling::{Derivative, Piece};
 
 /// Looks at a piece at the most.
 const MOST_LOOKS: f64 = 4096.0;
@@ -21,7 +22,7 @@ pub struct TorqueLook {
 
 /// Looks at the torques along a piece: so many that between two of them they change by no more than a share of the efforts, or some thousands
 /// where that would take more.
-pub fn torque_looks(dynamics: &Dynamics, arm: &Arm, piece: &Piece, fine: f64) -> impl Iterator<Item = TorqueLook> {
+pub fn torque_looks<'a>(torques: &Torques<'a>, piece: &Piece, fine: f64) -> impl Iterator<Item = TorqueLook> + use<'a> {
     let duration = piece.to - piece.from;
     let greatest = |of: Derivative| {
         [0, 1].map(|k| piece.critical(of, k).map(|u| piece.derivative(of, u)[k].abs()).fold(0.0, f64::max))
@@ -31,17 +32,17 @@ pub fn torque_looks(dynamics: &Dynamics, arm: &Arm, piece: &Piece, fine: f64) ->
         second: greatest(Derivative::Acceleration),
         third: greatest(Derivative::Jerk),
     };
-    let rate = dynamics.change(arm, piece.at(0.5), duration / 2.0, &rates);
-    let share = |k: usize| rate[k] * duration / (2.0 * fine * dynamics.effort[k]);
+    let rate = torques.change(piece.at(0.5), duration / 2.0, &rates);
+    let share = |k: usize| rate[k] * duration / (2.0 * fine * torques.dynamics.effort[k]);
     let count = share(0).max(share(1)).ceil().clamp(1.0, MOST_LOOKS);
     let off = rate.map(|rate| rate * duration / (2.0 * count));
-    let (dynamics, piece) = (*dynamics, *piece);
+    let (torques, piece) = (*torques, *piece);
     (0..count as u32).map(move |i| {
         let u = (f64::from(i) + 0.5) / count;
         let q = piece.at(u);
         let [velocity, acceleration] =
             [Derivative::Velocity, Derivative::Acceleration].map(|of| piece.derivative(of, u));
-        let here = dynamics.at(arm, q);
+        let here = torques.at(q);
         let holding = here.holding();
         let torque = here.inertial(acceleration) + here.centrifugal(velocity) + holding;
         TorqueLook { u, torque, holding, off }

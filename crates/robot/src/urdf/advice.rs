@@ -48,19 +48,18 @@ pub(super) fn missing_axis(reduction: &Reduction, index: usize) -> Option<String
 fn speed(reduction: &Reduction, index: usize, joint: &Joint) -> Option<String> {
     let Reduction { document, settings, .. } = reduction;
     let name = &joint.name;
-    let tag = document.joints[index].limit.clone().and_then(|at| document.source.text().get(at))?;
-    if !tag.contains("velocity") || find(&settings.table.velocity, name).is_some() {
+    if !document.joints[index].has_velocity || find(&settings.table.velocity, name).is_some() {
         return None;
     }
     let velocity = document.robot.joints[index].limit.velocity;
-    let (fastest, unit, example) =
-        if joint.joint_type.is_revolute() { (FASTEST_TURN, "rad", "2.0") } else { (FASTEST_SLIDE, "m", "0.5") };
+    let turns = joint.joint_type.is_revolute();
+    let (fastest, unit, example) = if turns { (FASTEST_TURN, "rad", "2.0") } else { (FASTEST_SLIDE, "m", "0.5") };
     let given = format!("joint \"{name}\": velocity=\"{velocity}\" in the URDF");
     let help = format!("[robot] velocity = {{ {} = {example} }} in the world file gives its top speed", key(name));
     if velocity == 0.0 {
         return Some(format!("{given} is taken as not given: {help}"));
     }
-    let degrees = if unit == "rad" { format!(" ({} deg/s)", short(velocity.to_degrees())) } else { String::new() };
+    let degrees = if turns { format!(" ({} deg/s)", short(velocity.to_degrees())) } else { String::new() };
     (velocity > fastest)
         .then(|| format!("{given} is {velocity} {unit}/s{degrees}, faster than any drive: times are too short; {help}"))
 }

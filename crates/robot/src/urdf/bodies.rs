@@ -51,6 +51,8 @@ pub(super) struct Outlines {
     pub self_obstacles: Vec<SelfObstacle>,
     pub geometry: Vec<String>,
     pub notes: Vec<String>,
+    /// Those of the notes that name shapes of size zero.
+    pub sizeless: Vec<String>,
     pub warnings: Vec<String>,
 }
 
@@ -77,7 +79,7 @@ impl Bodies<'_> {
     /// world names links that the robot does not have.
     pub fn outlines(&self) -> Result<Outlines, InputError> {
         let bar = self.bar()?;
-        let (mut notes, mut warnings) = (Vec::new(), Vec::new());
+        let (mut notes, mut sizeless, mut warnings) = (Vec::new(), Vec::new(), Vec::new());
         let mut gathered = [0, 1].map(|index| self.gather(self.bodies(index)));
         let mut fixed = self.gather(self.fixed_links());
         let mut all = std::mem::take(&mut fixed.shapes);
@@ -96,6 +98,9 @@ impl Bodies<'_> {
             for shape in all.iter().filter(|shape| self.bodies(index).contains(&shape.link)) {
                 parts.extend(self.parts(index, shape, &own.cuts(shape.link, &all))?);
             }
+            let ignored = self.sizeless(index, &gathered.empty);
+            notes.extend(ignored.clone());
+            sizeless.extend(ignored);
             links.push(self.link(index, parts, gathered, bar, &mut notes, &mut warnings)?);
         }
         let links: [Link; 2] = links.try_into().expect("two links");
@@ -114,7 +119,7 @@ impl Bodies<'_> {
             warnings.extend(fixed.unread.iter().chain(&fixed.unseen).map(left_out));
             notes.extend(own.notes());
         }
-        Ok(Outlines { links, self_obstacles, geometry, notes, warnings })
+        Ok(Outlines { links, self_obstacles, geometry, notes, sizeless, warnings })
     }
 
     fn bar(&self) -> Result<Option<f64>, Diagnostic> {
@@ -127,7 +132,17 @@ impl Bodies<'_> {
         Err(self.settings.source.diagnostic_at(bar.span(), message).help("bar = 0.05, metres"))
     }
 
-    /// Creates a link from the parts that could be read.
+    fn name(&self, index: usize) -> &str {
+        &self.tree.links[self.tree.child[self.chain.joints[index]]]
+    }
+
+    /// Names the bodies of a link that have shapes of size zero.
+    fn sizeless(&self, index: usize, bodies: &[String]) -> Option<String> {
+        let (link, name, bodies) = (index + 1, self.name(index), bodies.join(", "));
+        (!bodies.is_empty()).then(|| format!("link {link} \"{name}\": shapes of size zero are ignored (in {bodies})"))
+    }
+
+    /// A link of these parts, which are all that could be read of it.
     fn link(
         &self,
         index: usize,
@@ -137,12 +152,8 @@ impl Bodies<'_> {
         notes: &mut Vec<String>,
         warnings: &mut Vec<String>,
     ) -> Result<Link, InputError> {
-        let name = self.tree.links[self.tree.child[self.chain.joints[index]]].clone();
-        let Gathered { empty, mut unread, unseen, .. } = gathered;
-        if !empty.is_empty() {
-            let bodies = empty.join(", ");
-            notes.push(format!("link {} \"{name}\": shapes of size zero are ignored (in {bodies})", index + 1));
-        }
+        let name = self.name(index).to_owned();
+        let Gathered { mut unread, unseen, .. } = gathered;
         let has_collision = parts.iter().any(|part| !part.is_visual);
         if has_collision {
             warnings.extend(unseen.iter().map(left_out));

@@ -50,6 +50,8 @@ pub(super) struct JointPlace {
     pub mimic: Option<Range<usize>>,
     /// The `safety_controller`, if it gives both soft limits and they are not both 0 (which exporters write for none).
     pub soft_limits: Option<Range<usize>>,
+    /// Whether the limit gives a `velocity`.
+    pub has_velocity: bool,
     /// The `acceleration` of the limit. URDF 1.2 has it; taken from older files too, where `urdf-rs` drops it.
     pub acceleration: Option<f64>,
 }
@@ -277,6 +279,7 @@ impl Reader<'_> {
             parent: tag(parent),
             child: tag(child),
             limit: limit.map(tag),
+            has_velocity: limit.is_some_and(|limit| limit.has_attribute("velocity")),
             mimic: mimic.map(tag),
             soft_limits: soft.and(safety).map(tag),
             acceleration,

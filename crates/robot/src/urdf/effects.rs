@@ -5,8 +5,9 @@ use super::plane::project;
 use super::reduction::Reduction;
 use super::tool::PARALLEL;
 use super::tree;
-use cplan_core::model::{HeldEffect, HeldJoint, Plane};
+use cplan_core::model::Plane;
 use cplan_geometry::Point;
+use cplan_handling::{HeldEffect, HeldJoint};
 use urdf_rs::JointType;
 
 impl Reduction<'_> {

@@ -7,6 +7,7 @@ use super::tree::isometry;
 use crate::error::Diagnostic;
 use crate::settings::RobotSettings;
 use cplan_core::model::{Arm, Body, Dynamics};
+use cplan_dynamics::{Torques, joined};
 use cplan_geometry::Vector;
 use nalgebra::{Matrix3, Vector3};
 
@@ -51,14 +52,15 @@ impl Bodies<'_> {
         let gravity = self.gravity();
         let gravity = Vector::new(gravity.dot(&self.plane.u), gravity.dot(&self.plane.v));
         let dynamics = Dynamics { bodies, gravity, effort, assumed, limits: false };
-        let inertia = dynamics.greatest_inertia(arm);
-        let acceleration = dynamics.greatest_accelerations(arm);
+        let torques = Torques { arm, dynamics };
+        let inertia = torques.greatest_inertia();
+        let acceleration = torques.greatest_accelerations();
         if inertia.iter().flatten().chain(&acceleration).all(|value| value.is_finite())
             && (0..2).all(|k| effort[k] > NEGLIGIBLE * inertia[k][k] * acceleration[k])
         {
             return Ok(dynamics);
         }
-        let is_moved = dynamics.least_determinant(arm) > NEGLIGIBLE * inertia[0][0] * inertia[1][1];
+        let is_moved = torques.least_determinant() > NEGLIGIBLE * inertia[0][0] * inertia[1][1];
         let (message, help) = if is_moved {
             (
                 "the efforts of the joints are nothing beside what their velocities, masses and gravity ask for",
@@ -107,7 +109,7 @@ impl Bodies<'_> {
                 return Err(self.document.diagnostic_at(at, message).help("no body has less than 0 of either"));
             }
             let center = (project(self.plane, &pose.translation.vector) - joint).into();
-            whole = whole.and(&Body { mass, center, inertia });
+            whole = joined(&whole, &Body { mass, center, inertia });
         }
         if whole.mass > 0.0 {
             return Ok(whole);

@@ -14,6 +14,7 @@ use crate::error::{Diagnostic, InputError};
 use crate::settings::RobotSettings;
 use cplan_core::model::{Arm, Dynamics, Joint, Plane};
 use cplan_core::space::JointRange;
+use cplan_dynamics::keep_efforts;
 use cplan_geometry::Point;
 use nalgebra::Isometry3;
 
@@ -177,7 +178,7 @@ impl<'a> Reduction<'a> {
             Err(diagnostic) => Some(diagnostic),
         };
         if self.settings.table.dynamics {
-            arm.keep_efforts();
+            keep_efforts(&mut arm);
         }
         let told = |diagnostic: &Diagnostic| {
             let help = diagnostic.help.as_ref().map(|help| format!("; {help}"));

@@ -136,9 +136,10 @@ fn reduced(report: &mut Inspection, reduction: &Reduction) {
         }
         None => bare(reduction),
     };
-    let (arm, notes, unknown) = reduction.arm(plane, bounds.unwrap_or_else(|_| unbounded(reduction)), outlines);
+    let sizeless = outlines.sizeless.clone();
+    let (arm, _, unknown) = reduction.arm(plane, bounds.unwrap_or_else(|_| unbounded(reduction)), outlines);
     report.errors.extend(unknown.filter(|_| reduction.settings.table.dynamics).map(InputError::from));
-    report.ignored.extend(notes.notes.into_iter().filter(|note| note.contains("are ignored")));
+    report.ignored.extend(sizeless);
     report.self_obstacles = arm.self_obstacles.iter().map(self_obstacle).collect();
     report.warnings.extend(advice::warnings(reduction, &arm));
     report.reach = Some(reach(&arm));
@@ -282,7 +283,7 @@ fn reach(arm: &Arm) -> ReachEntry {
     let (upper, fore) = (arm.offset.norm(), arm.tip.coords.norm());
     ReachEntry {
         tip: [tip.x, tip.y],
-        distances: (arm.kind() == "RR").then_some([(upper - fore).abs(), upper + fore]),
+        distances: arm.only_turns().then_some([(upper - fore).abs(), upper + fore]),
         outline: arm.reach(),
     }
 }
@@ -313,7 +314,14 @@ fn bare(reduction: &Reduction) -> Outlines {
         parts: Vec::new(),
         source: OutlineSource::None,
     });
-    Outlines { links, self_obstacles: Vec::new(), geometry: Vec::new(), notes: Vec::new(), warnings: Vec::new() }
+    Outlines {
+        links,
+        self_obstacles: Vec::new(),
+        geometry: Vec::new(),
+        notes: Vec::new(),
+        sizeless: Vec::new(),
+        warnings: Vec::new(),
+    }
 }
 
 /// Ranges for the picture of an arm whose ranges are not all known: the known ones, a turn, or no slide.

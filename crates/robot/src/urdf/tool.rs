@@ -7,8 +7,8 @@ use super::tree;
 use crate::error::Diagnostic;
 use crate::quantity::Number;
 use crate::stroke::StrokeTable;
-use cplan_core::model::assumed_acceleration;
-use cplan_core::model::{Driver, Plane, RobotJoint, RobotJoints, Stroke, ToolJoint};
+use cplan_core::model::{Plane, assumed_acceleration};
+use cplan_handling::{Driver, RobotJoint, RobotJoints, Stroke, ToolJoint};
 use toml::Spanned;
 use urdf_rs::JointType;
 
@@ -17,6 +17,25 @@ pub(super) const PARALLEL: f64 = 1e-9;
 
 /// Rounding within which the tip is on the wrist's axis, metres.
 const ON_AXIS: f64 = 1e-6;
+
+/// What a joint of the tool does.
+#[derive(Clone, Copy, PartialEq)]
+enum Tool {
+    /// It lowers the tool.
+    Stroke,
+    /// It turns the tool.
+    Wrist,
+}
+
+impl Tool {
+    /// Names its table in the world file.
+    fn table(self) -> &'static str {
+        match self {
+            Self::Stroke => "stroke",
+            Self::Wrist => "wrist",
+        }
+    }
+}
 
 impl Reduction<'_> {
     /// Returns the movable joints in the order of the file, and which of them move the tool.
@@ -27,7 +46,7 @@ impl Reduction<'_> {
         let chooser = Chooser { document: self.document, tree: self.tree, settings: self.settings };
         let robot = &self.settings.table;
         let stroke = robot.stroke.as_ref().map(|table| self.stroke(&chooser, table, plane)).transpose()?;
-        let wrist = robot.wrist_joint().map(|name| self.tool_joint(&chooser, name, "wrist", plane)).transpose()?;
+        let wrist = robot.wrist_joint().map(|name| self.tool_joint(&chooser, name, Tool::Wrist, plane)).transpose()?;
         let driver = |leader: usize| {
             let is = |joint: Option<&ToolJoint>| joint.is_some_and(|joint| joint.name == chooser.all()[leader].name);
             match self.chain.joints.iter().position(|chosen| *chosen == leader) {
@@ -46,7 +65,7 @@ impl Reduction<'_> {
     }
 
     fn stroke(&self, chooser: &Chooser, table: &StrokeTable, plane: &Plane) -> Result<Stroke, Diagnostic> {
-        let joint = self.tool_joint(chooser, &table.joint, "stroke", plane)?;
+        let joint = self.tool_joint(chooser, &table.joint, Tool::Stroke, plane)?;
         let source = self.settings.source;
         let given = |number: &Option<Number>, what: &str, allowed: fn(f64) -> bool, how: &str| match number {
             None => Ok(None),
@@ -63,7 +82,7 @@ impl Reduction<'_> {
         let travel = given(&table.travel, "travel", |x| x != 0.0, "other than 0")?;
         let velocity = given(&table.velocity, "velocity", |x| x > 0.0, "positive")?;
         let acceleration = given(&table.acceleration, "acceleration", |x| x > 0.0, "positive")?;
-        let index = chooser.named(&table.joint, "stroke")?;
+        let index = chooser.named(&table.joint, Tool::Stroke.table())?;
         let (velocity, own) = match velocity {
             Some(velocity) => (velocity, assumed_acceleration(velocity)),
             None => {
@@ -92,9 +111,10 @@ impl Reduction<'_> {
         &self,
         chooser: &Chooser,
         name: &Spanned<String>,
-        table: &str,
+        tool: Tool,
         plane: &Plane,
     ) -> Result<ToolJoint, Diagnostic> {
+        let table = tool.table();
         let index = chooser.named(name, table)?;
         let joint = &chooser.all()[index];
         let diagnostic = |why: &str, help: &str| {
@@ -107,9 +127,9 @@ impl Reduction<'_> {
         if let Some(mimic) = &joint.mimic {
             return diagnostic(&format!("mimics joint \"{}\"", mimic.joint), "name the joint that it mimics");
         }
-        match (table, joint.joint_type == JointType::Prismatic) {
-            ("stroke", false) => return diagnostic("turns", "a stroke needs a joint that slides"),
-            ("wrist", true) => return diagnostic("slides", "a wrist needs a joint that turns"),
+        match (tool, joint.joint_type == JointType::Prismatic) {
+            (Tool::Stroke, false) => return diagnostic("turns", "a stroke needs a joint that slides"),
+            (Tool::Wrist, true) => return diagnostic("slides", "a wrist needs a joint that turns"),
             _ => {}
         }
         let [_, second] = self.chain.joints;
@@ -138,7 +158,7 @@ impl Reduction<'_> {
         }
         let to_tip = self.poses[tip].translation.vector - self.poses[self.tree.child[index]].translation.vector;
         let off = (to_tip - plane.normal * to_tip.dot(&plane.normal)).norm();
-        if table == "wrist" && off > ON_AXIS {
+        if tool == Tool::Wrist && off > ON_AXIS {
             let why = format!("moves the tip \"{tip_link}\", which is {off:.2e} m off its axis");
             return diagnostic(&why, "name a link on the axis: [robot] tip = \"LINK\"");
         }

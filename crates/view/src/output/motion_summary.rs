@@ -1,12 +1,12 @@
 //! The summary of a single motion for people.
 
 use super::summary::{Line, Told, configuration, field, goal_lines, non_empty, torque};
-use cplan_core::check::CertifiedCurve;
 use cplan_core::model::{Arm, MotionProblem, Outcome, Scene};
 use cplan_core::planner::Proposal;
 use cplan_core::space::{Configuration, Metric};
 use cplan_engine::explain::{BlockingSet, Question, blocking_set};
 use cplan_engine::{Answer, Bound, GridSpace, Motion, Plan, Space, Timing, Wait};
+use cplan_motion::CertifiedCurve;
 use cplan_motion::{Fastest, Timed};
 use cplan_text::{at_least, counted, percent};
 

@@ -3,9 +3,10 @@
 use super::summary::facts;
 use crate::{DrawError, Moments, Picture, TaskPicture, View};
 use cplan_core::cspace::{CObstacle, c_obstacles, exact_c_obstacles};
-use cplan_core::model::{MotionProblem, Outcome, Scene, Status, Task};
+use cplan_core::model::{MotionProblem, Outcome, Scene, Status};
 use cplan_engine::task::TaskAnswer;
 use cplan_engine::{Answer, Detail, Motion, Options, Plan};
+use cplan_handling::Task;
 use cplan_text::{at_least, counted};
 use std::path::Path;
 use thiserror::Error;

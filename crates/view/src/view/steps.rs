@@ -2,8 +2,9 @@
 
 use super::task_picture::TaskPicture;
 use crate::color::{BARRED, GREY, INK, Rgb};
-use cplan_core::model::{Object, Outcome, Step};
+use cplan_core::model::Outcome;
 use cplan_engine::task::{Leg, TaskAnswer};
+use cplan_handling::{Object, Step};
 
 /// Largest number of rows that are shown.
 const MOST: usize = 26;

@@ -10,9 +10,10 @@ use super::steps::{Order, rounds, rows, words};
 use super::task_picture::TaskPicture;
 use super::world::{ContourView, ObstacleView, WorldView, contours};
 use crate::{FieldLines, color};
-use cplan_core::model::{Object, Obstacle, Scene, Task};
+use cplan_core::model::{Obstacle, Scene};
 use cplan_engine::task::{Event, FailedStep, Leg, Sequence};
 use cplan_geometry::Pose;
+use cplan_handling::{Object, Task};
 use std::sync::Arc;
 
 /// Poses nearer than this look the same, in metres or radians. It covers rounding.

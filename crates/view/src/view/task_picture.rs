@@ -1,8 +1,9 @@
 //! A task as it is given to be drawn.
 
 use cplan_core::cspace::CObstacle;
-use cplan_core::model::{Scene, Status, Task};
+use cplan_core::model::{Scene, Status};
 use cplan_engine::task::TaskAnswer;
+use cplan_handling::Task;
 
 /// C-obstacles at some times.
 pub type Moments = Vec<(f64, Vec<CObstacle>)>;

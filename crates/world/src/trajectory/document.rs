@@ -2,7 +2,7 @@
 
 use super::samples::{Samples, Series};
 use crate::parsers::{json_diagnostic, yaml_diagnostic};
-use cplan_core::space::{INTERPOLATION, Interpolation, SMOOTH_INTERPOLATION};
+use cplan_handling::{INTERPOLATION, Interpolation, SMOOTH_INTERPOLATION};
 use cplan_robot::{Diagnostic, InputError, Source};
 use serde::Deserialize;
 use serde::de::IgnoredAny;

@@ -16,8 +16,9 @@ mod steps;
 mod units;
 
 use super::LoadedScene;
-use cplan_core::model::{Claims, HeldMotion, JointType, RecordedStep};
-use cplan_core::space::{Configuration, Interpolation, Recording};
+use cplan_core::model::JointType;
+use cplan_core::space::Configuration;
+use cplan_handling::{Claims, HeldMotion, Interpolation, RecordedStep, Recording};
 use cplan_robot::{Diagnostic, InputError, Source, quoted};
 use samples::{Names, Samples, Series, misplaced};
 use std::path::Path;

@@ -1,8 +1,9 @@
 //! Recorded joints other than the arm's two.
 
 use super::samples::{Names, Samples, Series, misplaced};
-use cplan_core::model::{HeldEffect, HeldJoint, HeldMotion, OutlineSource, Scene};
-use cplan_core::space::{Configuration, Interpolation, Recording, RecordingError};
+use cplan_core::model::{OutlineSource, Scene};
+use cplan_core::space::Configuration;
+use cplan_handling::{HeldEffect, HeldJoint, HeldMotion, Interpolation, Recording, RecordingError};
 use cplan_robot::{Diagnostic, Source};
 
 /// Largest deviation of a held joint's recorded value from its held value, radians or metres. It exceeds a controller's

@@ -1,7 +1,6 @@
 //! What a file holds, whatever its format.
 
-use cplan_core::model::HeldJoint;
-use cplan_core::space::{Interpolation, RecordingError};
+use cplan_handling::{HeldJoint, Interpolation, RecordingError};
 use cplan_robot::{Diagnostic, Source};
 use std::borrow::Cow;
 use std::ops::Range;

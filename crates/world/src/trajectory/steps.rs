@@ -2,7 +2,7 @@
 
 use super::samples::Samples;
 use crate::parsers::json_diagnostic;
-use cplan_core::model::{RecordedStep, RecordedTurn};
+use cplan_handling::{RecordedStep, RecordedTurn};
 use cplan_robot::{Diagnostic, InputError, Source};
 use serde::Deserialize;
 

@@ -22,8 +22,9 @@ use crate::Options;
 use crate::moving::{Demand, InTime, Movers, Timing, Wait, in_time, stands};
 use crate::result::finite;
 use cplan_core::check::Posture;
-use cplan_core::model::{Action, Item, MotionProblem, Outcome, Step, Task};
+use cplan_core::model::{MotionProblem, Outcome};
 use cplan_geometry::Ordered;
+use cplan_handling::{Action, Item, Step, Task};
 use cplan_interrupt::checkpoint;
 use cplan_motion::{Limits, Timed, after_pause, nanoseconds, not_before, seconds};
 use passing::passages;
@@ -391,7 +392,7 @@ impl<'a> Search<'a> {
             until: way.moment.map(|moment| since(moment.time)),
         };
         let path = motion.timed.curve.straight();
-        let planned = in_time(&problem, &path, (*motion.timed).clone(), options, &demand);
+        let planned = in_time(&problem, path, (*motion.timed).clone(), options, &demand);
         let planned = planned.map_err(|error| Refusal::new(error.to_string(), false))?;
         let InTime { timed: Timed { curve, trajectory }, figures } =
             planned.map_err(|reason| Refusal::new(reason, false))?;

@@ -1,8 +1,9 @@
 //! When what moves passes where the arm may reach it.
 
-use cplan_core::model::{Arm, Course, JointType, Leg, Object};
+use cplan_core::model::{Arm, Course, JointType, Leg};
 use cplan_core::space::JointRange;
 use cplan_geometry::{Interval, Point};
+use cplan_handling::Object;
 
 /// Radii are larger than they are by this share: far more than rounding.
 const ROOM: f64 = 1e-9;

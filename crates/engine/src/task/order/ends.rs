@@ -4,9 +4,10 @@
 use super::super::state::State;
 use super::Group;
 use super::condition::{Before, Condition};
-use cplan_core::model::{Action, Item, Scene, Step, Task};
+use cplan_core::model::Scene;
 use cplan_core::space::Configuration;
 use cplan_geometry::Pose;
+use cplan_handling::{Action, Item, Step, Task};
 use nalgebra::Isometry2;
 use std::sync::Arc;
 

@@ -3,9 +3,10 @@
 use super::super::heuristic::{Stop, Stops};
 use super::super::least_time::least_time;
 use super::condition::Condition;
-use cplan_core::model::{Arm, Task};
+use cplan_core::model::Arm;
 use cplan_core::space::Configuration;
 use cplan_geometry::Ordered;
+use cplan_handling::Task;
 
 /// Runs of up to so many pairs are moved elsewhere.
 const LONGEST_RUN: usize = 3;

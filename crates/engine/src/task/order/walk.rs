@@ -3,8 +3,8 @@
 use super::super::least_time::least_time;
 use super::super::legs::{Legs, Refusal};
 use super::super::state::State;
-use cplan_core::model::Task;
 use cplan_geometry::Ordered;
+use cplan_handling::Task;
 use cplan_interrupt::checkpoint;
 use std::collections::BTreeMap;
 

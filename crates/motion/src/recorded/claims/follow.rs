@@ -1,6 +1,7 @@
 //! The check whether a motion follows a path.
 
-use cplan_core::space::{Configuration, Path, Recording};
+use cplan_core::space::{Configuration, Path};
+use cplan_handling::Recording;
 
 /// Largest deviation of a motion from its path, in each joint, radians or metres: a thousand times the rounding of
 /// either, and the tolerance of blends.

@@ -9,8 +9,9 @@ pub use steps::{step_claims_kept, task_claims_kept};
 
 use super::collision::{CollisionCheck, check_collision};
 use cplan_core::check::{Rejection, certify};
-use cplan_core::model::{Arm, BlendsClaim, Claims, OptimumClaim, Scene};
-use cplan_core::space::{Configuration, Path, Recording};
+use cplan_core::model::{Arm, Scene};
+use cplan_core::space::{Configuration, Path};
+use cplan_handling::{BlendsClaim, Claims, OptimumClaim, Recording};
 use follow::follows;
 use std::fmt::Display;
 use thiserror::Error;

@@ -4,9 +4,9 @@ use super::{FalseClaim, Ledger, TIME};
 use crate::recorded::replay::{AT, angle_between};
 use crate::recorded::wrist::turn_resolution;
 use crate::recorded::{Happening, ReplayedStep};
-use cplan_core::model::{Action, Claims, EventClaim, RecordedStep, Task};
-use cplan_core::space::{Configuration, Recording};
+use cplan_core::space::Configuration;
 use cplan_geometry::Point;
+use cplan_handling::{Action, Claims, EventClaim, RecordedStep, Recording, Task};
 
 /// Returns the false claims of a result about the step with this `index`, given its replay.
 #[must_use]

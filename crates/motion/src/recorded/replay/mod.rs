@@ -11,9 +11,10 @@ mod state;
 pub use fault::{Departure, Fault};
 
 use super::{CollisionCheck, Excess, Limit, TurnContact, WristTurn, check_collision, limits_kept, torques_kept};
-use cplan_core::model::{Action, Goal, RecordedStep, RecordedTurn, Scene, Step, Task};
-use cplan_core::space::{Configuration, JointRange, Recording};
+use cplan_core::model::{Goal, Scene};
+use cplan_core::space::{Configuration, JointRange};
 use cplan_geometry::{Interval, Point, Pose};
+use cplan_handling::{Action, RecordedStep, RecordedTurn, Recording, Step, Task};
 use order::{Matched, matched};
 use state::{State, stroke_seconds};
 

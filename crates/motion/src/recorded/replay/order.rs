@@ -1,8 +1,8 @@
 //! The match of recorded steps with those of the task.
 
 use super::Departure;
-use cplan_core::model::{Item, RecordedStep, Step, Task};
-use cplan_core::space::{Configuration, Recording};
+use cplan_core::space::Configuration;
+use cplan_handling::{Item, RecordedStep, Recording, Step, Task};
 
 /// A step of the task at its place in the record.
 #[derive(Debug, Clone)]

@@ -2,9 +2,10 @@
 
 use super::super::given_turn;
 use super::{AT, Fault, ReplayedTurn, SHORT, angle_between};
-use cplan_core::model::{Action, Grip, Holding, Object, Payload, RecordedTurn, Scene, Step, Task};
+use cplan_core::model::{Grip, Payload, Scene};
 use cplan_core::space::Configuration;
 use cplan_geometry::{Point, Pose};
+use cplan_handling::{Action, Holding, Object, RecordedTurn, Step, Task};
 
 /// The places of the objects, and the load.
 #[derive(Debug, Clone)]

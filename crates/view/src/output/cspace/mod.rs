@@ -9,14 +9,16 @@ pub use format::CSpaceFormat;
 pub use seen::{Boxes, Cells, FieldGrid, Roadmap};
 
 use super::picture::{PICTURE_TOLERANCE, contours};
-use cplan_core::check::{CertifiedCurve, CheckedProof};
+use cplan_core::check::CheckedProof;
 use cplan_core::cspace::{self, Polygon, Proves};
-use cplan_core::model::{Joint, MotionProblem, Scene, Status, Task};
+use cplan_core::model::{Joint, MotionProblem, Scene, Status};
 use cplan_core::planner::{Trace, VisibilityGraph};
 use cplan_core::space::{Configuration, Path};
 use cplan_engine::task::TaskAnswer;
 use cplan_engine::{Answer, Detail, Motion, Plan, Space};
 use cplan_geometry::Point;
+use cplan_handling::Task;
+use cplan_motion::CertifiedCurve;
 use cplan_motion::line_a_field;
 use schemars::JsonSchema;
 use schemars::generate::SchemaSettings;

@@ -6,7 +6,7 @@ mod message;
 mod topics;
 
 use super::samples::{Names, Samples, Series};
-use cplan_core::space::Interpolation;
+use cplan_handling::Interpolation;
 use cplan_robot::{Diagnostic, InputError, Source, quoted};
 use message::{Kind, Message, Row};
 use topics::Topic;

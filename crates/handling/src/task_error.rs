@@ -1,9 +1,8 @@
 //! What arm, objects and steps must be to make a task.
 
-use super::scene_error::{LARGEST, are_small, is_pose, is_small};
-use super::{
-    Action, Goal, Holding, Item, LATEST, MotionProblem, MotionProblemError, Object, Scene, SceneError, Step, Stroke,
-    Task,
+use super::{Action, Holding, Item, Object, Step, Stroke, Task};
+use cplan_core::model::{
+    Goal, LARGEST, LATEST, MotionProblem, MotionProblemError, Scene, SceneError, are_small, is_pose, is_small,
 };
 use std::collections::BTreeSet;
 use std::f64::consts::TAU;

@@ -10,38 +10,9 @@
 //! and the sum of that over all bodies (d'Alembert; Siciliano, Sciavicco, Villani, Oriolo, *Robotics*, 2009, section 7.1). Torques in N m of
 //! joints that turn, forces in N of those that slide. Friction, gears and the rotors' own inertia are not in it.
 
-use super::{Arm, JointType, Payload};
-use crate::space::Configuration;
-use cplan_geometry::{Convex, Point, Pose, Vector, perpendicular};
-use serde::{Deserialize, Serialize};
-
-/// A rigid body in the plane.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Body {
-    /// Kilograms.
-    pub mass: f64,
-    /// Centre of mass in the frame that the body belongs to.
-    pub center: Point,
-    /// Moment of inertia about the centre of mass and the plane's normal, kg m2.
-    pub inertia: f64,
-}
-
-/// Masses, gravity and the joints' efforts.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Dynamics {
-    /// What each joint carries up to the next, in the link's frame.
-    pub bodies: [Body; 2],
-    /// Acceleration of free fall in plane coordinates, m/s2.
-    pub gravity: Vector,
-    /// Greatest torque (N m) or force (N) of each joint.
-    pub effort: [f64; 2],
-    /// Joints whose greatest acceleration nobody gives.
-    pub assumed: [bool; 2],
-    /// Whether motions have to keep within the efforts.
-    pub limits: bool,
-}
+use cplan_core::model::{Arm, Body, Dynamics, Grip, JointType, Payload, Scene};
+use cplan_core::space::Configuration;
+use cplan_geometry::{Convex, Point, Vector, perpendicular};
 
 /// Greatest magnitudes of a curve's derivatives by its parameter, joint by joint, over a part of it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -65,34 +36,25 @@ pub struct Curvature {
     pub holding: [f64; 2],
 }
 
-impl Body {
-    /// Nothing.
-    pub const NONE: Self = Self { mass: 0.0, center: Point::new(0.0, 0.0), inertia: 0.0 };
-
-    /// Both joined rigidly.
-    #[must_use]
-    pub fn and(&self, other: &Self) -> Self {
-        let mass = self.mass + other.mass;
-        if mass == 0.0 {
-            return Self { inertia: self.inertia + other.inertia, ..*self };
-        }
-        let center = Point::from((self.center.coords * self.mass + other.center.coords * other.mass) / mass);
-        let about = |body: &Self| body.inertia + body.mass * (body.center - center).norm_squared();
-        Self { mass, center, inertia: about(self) + about(other) }
+/// Joins two bodies rigidly, given in the same frame.
+#[must_use]
+pub fn joined(a: &Body, b: &Body) -> Body {
+    let mass = a.mass + b.mass;
+    if mass == 0.0 {
+        return Body { inertia: a.inertia + b.inertia, ..*a };
     }
+    let center = Point::from((a.center.coords * a.mass + b.center.coords * b.mass) / mass);
+    let about = |body: &Body| body.inertia + body.mass * (body.center - center).norm_squared();
+    Body { mass, center, inertia: about(a) + about(b) }
+}
 
-    /// A mass spread evenly over pieces that do not overlap. Pieces that are rounded off count as their cores but for discs.
-    #[must_use]
-    pub fn spread(mass: f64, pieces: &[Convex]) -> Self {
-        let sheets = pieces.iter().map(sheet).fold(Self::NONE, |sum, piece| sum.and(&piece));
-        // Of sheets the mass is their area.
-        let density = if sheets.mass > 0.0 { mass / sheets.mass } else { 0.0 };
-        Self { mass, inertia: density * sheets.inertia, ..sheets }
-    }
-
-    fn at(&self, pose: &Pose) -> Self {
-        Self { center: pose * self.center, ..*self }
-    }
+/// Spreads a mass evenly over pieces that do not overlap. Pieces that are rounded off count as their cores but for discs.
+#[must_use]
+pub fn spread(mass: f64, pieces: &[Convex]) -> Body {
+    let sheets = pieces.iter().map(sheet).fold(Body::NONE, |sum, piece| joined(&sum, &piece));
+    // Of sheets the mass is their area.
+    let density = if sheets.mass > 0.0 { mass / sheets.mass } else { 0.0 };
+    Body { mass, inertia: density * sheets.inertia, ..sheets }
 }
 
 /// A piece of density 1.
@@ -111,68 +73,80 @@ fn sheet(piece: &Convex) -> Body {
         let center = Point::from(corners.iter().map(|corner| corner.coords).sum::<Vector>() / 3.0);
         Body { mass, center, inertia: mass * (a.norm_squared() + b.norm_squared() + c.norm_squared()) / 36.0 }
     });
-    triangles.fold(Body::NONE, |sum, triangle| sum.and(&triangle))
+    triangles.fold(Body::NONE, |sum, triangle| joined(&sum, &triangle))
 }
 
-impl Arm {
-    /// Lets motions keep within the joints' efforts, which take the place of accelerations that nobody gives; where nothing is known of
-    /// masses and efforts, nothing changes.
-    pub fn keep_efforts(&mut self) {
-        let Some(mut dynamics) = self.dynamics else { return };
-        dynamics.limits = true;
-        let greatest = dynamics.greatest_accelerations(self);
-        for (k, joint) in self.joints.iter_mut().enumerate().filter(|(k, _)| dynamics.assumed[*k]) {
-            // From one top speed to the other the jerk takes it no farther than this.
-            let by_jerk = joint.jerk.map_or(f64::MAX, |jerk| (2.0 * jerk * joint.velocity).sqrt());
-            joint.acceleration = greatest[k].min(by_jerk);
+/// Lets motions keep within the joints' efforts, which take the place of accelerations that nobody gives; where nothing is known of
+/// masses and efforts, nothing changes.
+pub fn keep_efforts(arm: &mut Arm) {
+    let Some(mut dynamics) = arm.dynamics else { return };
+    dynamics.limits = true;
+    let greatest = Torques { arm, dynamics }.greatest_accelerations();
+    for (k, joint) in arm.joints.iter_mut().enumerate().filter(|(k, _)| dynamics.assumed[*k]) {
+        // From one top speed to the other the jerk takes it no farther than this.
+        let by_jerk = joint.jerk.map_or(f64::MAX, |jerk| (2.0 * jerk * joint.velocity).sqrt());
+        joint.acceleration = greatest[k].min(by_jerk);
+    }
+    arm.dynamics = Some(dynamics);
+}
+
+/// What a payload adds to link 2, in the link's frame. What a wrist keeps level does not turn: its mass counts at the tip.
+fn carried(arm: &Arm, payload: &Payload) -> Body {
+    match payload.grip {
+        Grip::Rigid(in_link) => {
+            let body = spread(payload.mass, &payload.pieces);
+            Body { center: in_link * body.center, ..body }
         }
-        self.dynamics = Some(dynamics);
+        Grip::Level { .. } => Body { mass: payload.mass, center: arm.tip, inertia: 0.0 },
     }
 }
 
-impl Dynamics {
-    /// The same with what is carried as a part of link 2. What a wrist keeps level does not turn: its mass counts at the tip.
+/// An arm and all that its joints move: the torques of its motions.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Torques<'a> {
+    /// The arm whose joints bring them.
+    pub arm: &'a Arm,
+    /// What the arm and its payload weigh, and the efforts.
+    pub dynamics: Dynamics,
+}
+
+impl<'a> Torques<'a> {
+    /// Those of a scene's arm with what it carries, if motions have to keep within its efforts.
     #[must_use]
-    pub fn carrying(&self, arm: &Arm, payload: &Payload) -> Self {
-        let body = match payload.grip {
-            super::Grip::Rigid(in_link) => Body::spread(payload.mass, &payload.pieces).at(&in_link),
-            super::Grip::Level { .. } => Body { mass: payload.mass, center: arm.tip, inertia: 0.0 },
-        };
-        let [first, second] = self.bodies;
-        Self { bodies: [first, second.and(&body)], ..*self }
+    pub fn limited(scene: &'a Scene) -> Option<Self> {
+        let arm = scene.arm();
+        let mut dynamics = arm.dynamics.filter(|dynamics| dynamics.limits)?;
+        if let Some(payload) = scene.payload() {
+            dynamics.bodies[1] = joined(&dynamics.bodies[1], &carried(arm, payload));
+        }
+        Some(Self { arm, dynamics })
     }
 
     /// Torques of a motion at `q` with these speeds and accelerations of the joints.
     #[must_use]
-    pub fn torque(
-        &self,
-        arm: &Arm,
-        q: Configuration,
-        velocity: Configuration,
-        acceleration: Configuration,
-    ) -> Configuration {
-        let here = self.at(arm, q);
+    pub fn torque(&self, q: Configuration, velocity: Configuration, acceleration: Configuration) -> Configuration {
+        let here = self.at(q);
         here.inertial(acceleration) + here.centrifugal(velocity) + here.holding()
     }
 
     /// What all torques at a configuration depend on.
     #[must_use]
-    pub fn at<'a>(&'a self, arm: &'a Arm, q: Configuration) -> DynamicsAt<'a> {
-        let columns = [0, 1].map(|link| arm.jacobian(link, self.bodies[link].center, q));
-        DynamicsAt { dynamics: self, arm, columns }
+    pub fn at(&self, q: Configuration) -> TorquesAt<'_> {
+        let columns = [0, 1].map(|link| self.arm.jacobian(link, self.dynamics.bodies[link].center, q));
+        TorquesAt { torques: self, columns }
     }
 
     /// How fast torques change by the time along a part of a motion, at the most: no farther from `middle` than `reach` seconds, with these
     /// derivatives.
     #[must_use]
-    pub fn change(&self, arm: &Arm, middle: Configuration, reach: f64, rates: &Rates) -> [f64; 2] {
+    pub fn change(&self, middle: Configuration, reach: f64, rates: &Rates) -> [f64; 2] {
         let mut change = [0.0; 2];
-        for (link, body) in self.bodies.iter().enumerate() {
-            let Bounds { column, way } = bounds(arm, link, body.center, middle, reach, rates);
-            let turn = is_turned(arm, link);
+        for (link, body) in self.dynamics.bodies.iter().enumerate() {
+            let Bounds { column, way } = bounds(self.arm, link, body.center, middle, reach, rates);
+            let turn = is_turned(self.arm, link);
             let turning = turn[0] * rates.third[0] + turn[1] * rates.third[1];
             for (k, change) in change.iter_mut().enumerate() {
-                let moved = column[k][1] * (way[1] + self.gravity.norm()) + column[k][0] * way[2];
+                let moved = column[k][1] * (way[1] + self.dynamics.gravity.norm()) + column[k][0] * way[2];
                 *change += body.mass * moved + body.inertia * turn[k] * turning;
             }
         }
@@ -181,16 +155,16 @@ impl Dynamics {
 
     /// How far torques are from linear on a part of a curve without third derivatives: no farther from `middle` than `reach` of the parameter.
     #[must_use]
-    pub fn curvature(&self, arm: &Arm, middle: Configuration, reach: f64, rates: &Rates) -> Curvature {
+    pub fn curvature(&self, middle: Configuration, reach: f64, rates: &Rates) -> Curvature {
         let mut curvature = Curvature::default();
-        for (link, body) in self.bodies.iter().enumerate() {
-            let Bounds { column, way } = bounds(arm, link, body.center, middle, reach, rates);
+        for (link, body) in self.dynamics.bodies.iter().enumerate() {
+            let Bounds { column, way } = bounds(self.arm, link, body.center, middle, reach, rates);
             for (k, column) in column.iter().enumerate() {
                 // The second derivative of a product of a column and a derivative of the way.
                 let of = |n: usize| column[2] * way[n] + 2.0 * column[1] * way[n + 1] + column[0] * way[n + 2];
                 curvature.inertial[k] += body.mass * of(0);
                 curvature.bent[k] += body.mass * of(1);
-                curvature.holding[k] += body.mass * column[2] * self.gravity.norm();
+                curvature.holding[k] += body.mass * column[2] * self.dynamics.gravity.norm();
             }
         }
         curvature
@@ -198,10 +172,10 @@ impl Dynamics {
 
     /// Bounds on the magnitudes of the inertia matrix's entries, wherever the arm is.
     #[must_use]
-    pub fn greatest_inertia(&self, arm: &Arm) -> [[f64; 2]; 2] {
+    pub fn greatest_inertia(&self) -> [[f64; 2]; 2] {
         let mut greatest = [[0.0; 2]; 2];
-        for (link, body) in self.bodies.iter().enumerate() {
-            let (bounds, turn) = (everywhere(arm, link, body.center), is_turned(arm, link));
+        for (link, body) in self.dynamics.bodies.iter().enumerate() {
+            let (bounds, turn) = (everywhere(self.arm, link, body.center), is_turned(self.arm, link));
             for (k, row) in greatest.iter_mut().enumerate() {
                 for (l, entry) in row.iter_mut().enumerate() {
                     *entry += body.mass * bounds.column[k][0] * bounds.column[l][0] + body.inertia * turn[k] * turn[l];
@@ -213,23 +187,23 @@ impl Dynamics {
 
     /// Accelerations that no motion within speeds and efforts exceeds, wherever the arm is; infinite where a joint moves nothing.
     #[must_use]
-    pub fn greatest_accelerations(&self, arm: &Arm) -> [f64; 2] {
-        let mut pull = self.effort;
-        for (link, body) in self.bodies.iter().enumerate() {
-            let bounds = everywhere(arm, link, body.center);
+    pub fn greatest_accelerations(&self) -> [f64; 2] {
+        let mut pull = self.dynamics.effort;
+        for (link, body) in self.dynamics.bodies.iter().enumerate() {
+            let bounds = everywhere(self.arm, link, body.center);
             for (k, pull) in pull.iter_mut().enumerate() {
-                *pull += body.mass * bounds.column[k][0] * (bounds.way[1] + self.gravity.norm());
+                *pull += body.mass * bounds.column[k][0] * (bounds.way[1] + self.dynamics.gravity.norm());
             }
         }
-        let (inertia, determinant) = (self.greatest_inertia(arm), self.least_determinant(arm));
+        let (inertia, determinant) = (self.greatest_inertia(), self.least_determinant());
         [0, 1].map(|k| (inertia[1 - k][1 - k] * pull[k] + inertia[0][1] * pull[1 - k]) / determinant)
     }
 
     /// A lower bound on the determinant of the inertia matrix, wherever the arm is.
     #[must_use]
-    pub fn least_determinant(&self, arm: &Arm) -> f64 {
+    pub fn least_determinant(&self) -> f64 {
         use JointType::{Prismatic, Revolute};
-        let [a, b] = &self.bodies;
+        let (arm, [a, b]) = (self.arm, &self.dynamics.bodies);
         let about = |body: &Body| body.inertia + body.mass * body.center.coords.norm_squared();
         match (arm.joints[0].joint_type, arm.joints[1].joint_type) {
             (Revolute { .. }, Revolute { .. }) => about(a) * about(b) + b.mass * arm.offset.norm_squared() * b.inertia,
@@ -242,21 +216,20 @@ impl Dynamics {
     }
 }
 
-/// An arm's dynamics at a configuration.
+/// Torques at a configuration.
 #[derive(Debug, Clone, Copy)]
-pub struct DynamicsAt<'a> {
-    dynamics: &'a Dynamics,
-    arm: &'a Arm,
+pub struct TorquesAt<'a> {
+    torques: &'a Torques<'a>,
     /// Of each link's centre of mass its derivative by each joint.
     columns: [[Vector; 2]; 2],
 }
 
-impl DynamicsAt<'_> {
+impl TorquesAt<'_> {
     /// What accelerations alone ask for: the inertia matrix times them.
     #[must_use]
     pub fn inertial(&self, acceleration: Configuration) -> Configuration {
         self.sum(|link, [first, second]| {
-            let turning = turns(self.arm, link).map(|turn| turn.unwrap_or(0.0));
+            let turning = turns(self.torques.arm, link).map(|turn| turn.unwrap_or(0.0));
             let along = first * acceleration[0] + second * acceleration[1];
             (along, turning[0] * acceleration[0] + turning[1] * acceleration[1])
         })
@@ -265,21 +238,21 @@ impl DynamicsAt<'_> {
     /// What speeds alone ask for: centrifugal and Coriolis forces.
     #[must_use]
     pub fn centrifugal(&self, velocity: Configuration) -> Configuration {
-        self.sum(|link, columns| (bending(self.arm, link, velocity, columns), 0.0))
+        self.sum(|link, columns| (bending(self.torques.arm, link, velocity, columns), 0.0))
     }
 
     /// What it takes to hold the arm at rest against gravity.
     #[must_use]
     pub fn holding(&self) -> Configuration {
-        self.sum(|_, _| (-self.dynamics.gravity, 0.0))
+        self.sum(|_, _| (-self.torques.dynamics.gravity, 0.0))
     }
 
     /// Torques for accelerations of each link's centre of mass and of its turning.
     fn sum(&self, accelerations: impl Fn(usize, [Vector; 2]) -> (Vector, f64)) -> Configuration {
         let mut torque = Configuration::zeros();
-        for (link, (body, columns)) in self.dynamics.bodies.iter().zip(self.columns).enumerate() {
+        for (link, (body, columns)) in self.torques.dynamics.bodies.iter().zip(self.columns).enumerate() {
             let (moved, turned) = accelerations(link, columns);
-            for (k, turn) in turns(self.arm, link).into_iter().enumerate() {
+            for (k, turn) in turns(self.torques.arm, link).into_iter().enumerate() {
                 torque[k] += body.mass * columns[k].dot(&moved) + body.inertia * turn.unwrap_or(0.0) * turned;
             }
         }

@@ -1,6 +1,6 @@
 //! A range sensor on an arm.
 
-use super::Arm;
+use cplan_core::model::Arm;
 use cplan_geometry::{Point, Vector};
 use nalgebra::Rotation2;
 use serde::Serialize;

@@ -1,6 +1,7 @@
 //! Motions as samples.
 
-use super::{Configuration, Interpolation, Path, Piece, Topology};
+use super::{Interpolation, Piece};
+use cplan_core::space::{Configuration, Path, Topology};
 use std::ops::RangeInclusive;
 use thiserror::Error;
 
@@ -276,7 +277,7 @@ fn outside(value: f64, limit: f64) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::space::JointRange;
+    use cplan_core::space::JointRange;
 
     fn q(a: f64, b: f64) -> Configuration {
         Configuration::new(a, b)

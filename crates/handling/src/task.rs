@@ -1,7 +1,8 @@
 //! A sequence of things to do.
 
-use super::{Arm, Course, Goal, Grip, Heights, Mover, Obstacle, Payload, Shape, Stroke, Workspace};
-use crate::space::Configuration;
+use super::Stroke;
+use cplan_core::model::{Arm, Course, Goal, Grip, Heights, Mover, Obstacle, Payload, Shape, Workspace};
+use cplan_core::space::Configuration;
 use cplan_geometry::{Convex, Interval, Point, Pose};
 use cplan_text::short;
 use serde::{Deserialize, Serialize};

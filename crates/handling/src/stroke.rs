@@ -1,8 +1,8 @@
 //! A tool that is lowered at picks and places, and a wrist that turns it.
 
-use super::scene_error::check_range;
-use super::{Arm, Heights, Object, OutlineSource};
-use crate::space::JointRange;
+use super::Object;
+use cplan_core::model::{Arm, Heights, OutlineSource, check_range};
+use cplan_core::space::JointRange;
 use serde::{Deserialize, Serialize};
 
 /// A joint of the tool: it moves along the plane's normal, or about it, and so changes nothing in the plane but what it carries.

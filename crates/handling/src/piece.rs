@@ -1,7 +1,7 @@
 //! Pieces of motions.
 
-use super::Configuration;
 use super::bernstein::Polynomial;
+use cplan_core::space::Configuration;
 
 /// A quantity of a motion: its value or a derivative by time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

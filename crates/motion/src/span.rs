@@ -1,7 +1,8 @@
-//! Stretches of a recorded motion, and how far it deviates in them from where it is halfway.
+//! Stretches of a motion, and how far it deviates in them from where it is halfway.
 
-use super::deviation::Deviation;
-use crate::space::{Configuration, Piece};
+use cplan_core::check::Deviation;
+use cplan_core::space::Configuration;
+use cplan_handling::Piece;
 
 /// Spans of a piece are halved down to this share of it: a nanosecond of a long one, and still far above what rounding
 /// does to a share.

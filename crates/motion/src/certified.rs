@@ -1,9 +1,11 @@
 //! Corners cut short as far as the clearance allows.
 
-use super::motion::{CertifiedPath, Nearest, Search};
-use super::vicinity::Vicinity;
-use crate::model::Scene;
-use crate::space::{Blend, BlendedPath, Path, Piece};
+use super::blend::{Blend, BlendedPath, HAIR};
+use super::span::along;
+use cplan_core::check::{CertifiedPath, CurveSearch, Nearest, Rejection, Vicinity};
+use cplan_core::model::Scene;
+use cplan_core::space::Path;
+use cplan_handling::Piece;
 
 /// Share of the clearance beyond what is to be kept that stays when corners are cut: half, so that a motion on
 /// blends is proven to keep at least half the distance of the straight path.
@@ -27,13 +29,13 @@ const REFINEMENTS: u32 = 2;
 const LOOKS: usize = 64;
 
 /// A path with blended corners whose whole motion is proven: it is within the joint limits and keeps its clearance, on
-/// the straight legs up to their corners and on the blends and anywhere up to [`crate::space::HAIR`] off these; or, where a motion rounds
-/// the corners by another curve, on that curve. Only [`blend`] and [`super::Rounding`] make either.
+/// the straight legs up to their corners and on the blends and anywhere up to [`HAIR`] off these; or, where a motion rounds
+/// the corners by another curve, on that curve. Only [`blend`] and [`Rounding`] make either.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CertifiedCurve {
     curve: BlendedPath,
-    clearance: f64,
-    nearest: Option<Nearest>,
+    /// The straight path, with the clearance of all of the motion.
+    straight: CertifiedPath,
     /// What rounds the corners, where it is not parabolas: how far they reach, and a polyline for pictures.
     driven: Option<(Vec<f64>, Path)>,
 }
@@ -41,8 +43,7 @@ pub struct CertifiedCurve {
 impl From<CertifiedPath> for CertifiedCurve {
     /// The straight path, without blends.
     fn from(path: CertifiedPath) -> Self {
-        let (clearance, nearest) = (path.clearance(), path.nearest());
-        Self { curve: path.into_path().into(), clearance, nearest, driven: None }
+        Self { curve: path.path().clone().into(), straight: path, driven: None }
     }
 }
 
@@ -64,19 +65,19 @@ impl CertifiedCurve {
     /// legs all the way to their corners; infinite if nothing can meet. Never less than the clearance asked for.
     #[must_use]
     pub fn clearance(&self) -> f64 {
-        self.clearance
+        self.straight.clearance()
     }
 
     /// Where it comes nearest, as far as was looked; none if nothing can meet.
     #[must_use]
     pub fn nearest(&self) -> Option<Nearest> {
-        self.nearest
+        self.straight.nearest()
     }
 
     /// The straight path, which is proven up to its corners.
     #[must_use]
-    pub fn straight(&self) -> CertifiedPath {
-        CertifiedPath::part_of(self)
+    pub fn straight(&self) -> &CertifiedPath {
+        &self.straight
     }
 
     /// A polyline for pictures.
@@ -88,27 +89,21 @@ impl CertifiedCurve {
     /// Followed by another one that begins where this ends, at rest between them.
     #[must_use]
     pub fn then(self, next: &Self) -> Self {
-        let nearer = |a: &Nearest, b: &Nearest| a.contact.separation.distance <= b.contact.separation.distance;
-        let nearest = match (self.nearest, next.nearest) {
-            (Some(a), Some(b)) => Some(if nearer(&a, &b) { a } else { b }),
-            (a, b) => a.or(b),
-        };
         let driven = (self.driven.is_some() || next.driven.is_some()).then(|| {
             let radii = self.radii().iter().take(self.radii().len() - 1).chain(next.radii()).copied().collect();
             let outline = self.outline().waypoints().iter().chain(next.outline().waypoints()).copied().collect();
             (radii, Path::new(outline))
         });
-        let clearance = self.clearance.min(next.clearance);
-        Self { curve: self.curve.then(&next.curve), clearance, nearest, driven }
+        Self { curve: self.curve.then(&next.curve), straight: self.straight.then(&next.straight), driven }
     }
 
     /// The same, known to keep this distance from what moves, too, which is nearest here.
     #[must_use]
     pub fn among_movers(self, clearance: f64, nearest: Option<Nearest>) -> Self {
-        let nearer =
-            |a: &Nearest| self.nearest.is_none_or(|b| a.contact.separation.distance < b.contact.separation.distance);
-        let nearest = nearest.filter(nearer).or(self.nearest);
-        Self { clearance: self.clearance.min(clearance), nearest, ..self }
+        let known = self.nearest();
+        let nearer = |a: &Nearest| known.is_none_or(|b| a.contact.separation.distance < b.contact.separation.distance);
+        let nearest = nearest.filter(nearer).or(known);
+        Self { straight: self.straight.within(clearance, nearest), ..self }
     }
 
     /// The same without the blend at an inner waypoint: the legs are proven up to the corner.
@@ -147,15 +142,21 @@ pub fn blend(scene: &Scene, path: &CertifiedPath, greatest: f64, clearance: f64)
         }
         let judge = |radius: f64| {
             let blend = Blend::new([q[waypoint - 1], q[waypoint], q[waypoint + 1]], radius);
-            let mut search = Search::beside(&blended, scene, required, budget);
-            search.blend(&vicinity, &blend).ok()?;
-            Some((radius, search.proven, search.nearest))
+            let mut search = CurveSearch::beside(&blended.straight, scene, required, budget);
+            follow(&mut search, &vicinity, &blend.piece(), HAIR * blend.radius()).ok()?;
+            Some((radius, search.found()))
         };
-        if let Some((radius, clearance, nearest)) = largest(most, judge) {
-            blended = CertifiedCurve { curve: blended.curve.with(waypoint, radius), clearance, nearest, driven: None };
+        if let Some((radius, (clearance, nearest))) = largest(most, judge) {
+            let straight = blended.straight.within(clearance, nearest);
+            blended = CertifiedCurve { curve: blended.curve.with(waypoint, radius), straight, driven: None };
         }
     }
     blended
+}
+
+/// Judges a piece of a motion and all that is in each joint no more than `beside` off it.
+fn follow(search: &mut CurveSearch, vicinity: &Vicinity, piece: &Piece, beside: f64) -> Result<(), Rejection> {
+    search.curve(vicinity, |middle: f64, half: f64| along(piece, middle - half, middle + half, beside))
 }
 
 /// What motions are to keep that leave a path at its corners.
@@ -187,7 +188,8 @@ impl<'a> Rounding<'a> {
     pub fn open(&self, pieces: &[Piece]) -> Vec<usize> {
         let budget = LOOKS_OF_A_PIECE * self.scene.pairs().len();
         let is_open = |piece: &Piece| {
-            Search::deciding(self.scene, self.required, budget).piece(&self.vicinity, piece, 0.0).is_err()
+            let mut search = CurveSearch::deciding(self.scene, self.required, budget);
+            follow(&mut search, &self.vicinity, piece, 0.0).is_err()
         };
         (0..pieces.len()).filter(|&i| is_open(&pieces[i])).collect()
     }
@@ -196,13 +198,14 @@ impl<'a> Rounding<'a> {
     /// free. Joint limits are not looked at.
     #[must_use]
     pub fn certified(&self, radii: Vec<f64>, pieces: &[Piece]) -> Option<CertifiedCurve> {
-        let known = CertifiedCurve::from(self.path.clone());
         let budget = LOOKS_OF_A_PIECE * self.scene.pairs().len() * pieces.len();
-        let mut search = Search::beside(&known, self.scene, self.required, budget);
-        pieces.iter().try_for_each(|piece| search.piece(&self.vicinity, piece, 0.0)).ok()?;
-        let Search { proven, nearest, .. } = search;
+        let mut search = CurveSearch::beside(self.path, self.scene, self.required, budget);
+        pieces.iter().try_for_each(|piece| follow(&mut search, &self.vicinity, piece, 0.0)).ok()?;
+        let (clearance, nearest) = search.found();
         let knots = pieces.iter().map(|piece| piece.at(0.0)).chain(pieces.last().map(|piece| piece.at(1.0)));
-        Some(CertifiedCurve { clearance: proven, nearest, driven: Some((radii, Path::new(knots.collect()))), ..known })
+        let straight = self.path.clone().within(clearance, nearest);
+        let curve = straight.path().clone().into();
+        Some(CertifiedCurve { curve, straight, driven: Some((radii, Path::new(knots.collect()))) })
     }
 }
 

@@ -1,22 +1,9 @@
 //! Limits that a motion keeps although nobody gives them, and the words for them.
 
+use cplan_core::model::TIME_TO_TOP_SPEED;
 use cplan_text::short;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
-
-/// Top speed of a joint that turns, without one of its own; rad/s.
-pub const TURNING_SPEED: f64 = 1.0;
-
-/// The same of one that slides; m/s.
-pub const SLIDING_SPEED: f64 = 0.25;
-
-/// Seconds to top speed, without a limit on the acceleration.
-const TIME_TO_TOP_SPEED: f64 = 0.25;
-
-/// The greatest acceleration of a joint that has none, of its top speed.
-pub fn assumed_acceleration(velocity: f64) -> f64 {
-    (velocity / TIME_TO_TOP_SPEED).min(f64::MAX)
-}
 
 /// Defaults that were taken for want of limits, by joint: rad/s or m/s, rad/s2 or m/s2. Only timing depends on them; path,
 /// certificate and proof do not.

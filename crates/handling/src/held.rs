@@ -1,7 +1,6 @@
 //! Joints beside the two that are planned, and somebody's motion of them.
 
-use super::Heights;
-use crate::space::Recording;
+use super::Recording;
 use cplan_geometry::Point;
 use serde::{Deserialize, Serialize};
 
@@ -47,12 +46,4 @@ pub struct HeldMotion {
     pub joint: HeldJoint,
     /// Its values as the first coordinate, at the samples of the arm's motion.
     pub values: Recording,
-}
-
-impl Heights {
-    /// What lies at these heights, lifted by anything from `least` to `most`.
-    #[must_use]
-    pub fn lifted(self, [least, most]: [f64; 2]) -> Self {
-        Self { lower: self.lower + least, upper: self.upper + most }
-    }
 }

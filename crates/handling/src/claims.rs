@@ -1,6 +1,6 @@
 //! What a record says of a motion or a task besides its samples.
 
-use crate::space::{Configuration, Metric};
+use cplan_core::space::{Configuration, Metric};
 use std::ops::RangeInclusive;
 
 /// A turn of the wrist as a record has it, while the arm stands still.

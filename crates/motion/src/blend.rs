@@ -1,6 +1,7 @@
 //! Corners cut short by parabolas.
 
-use super::{Configuration, Path, Piece};
+use cplan_core::space::{Configuration, Path};
+use cplan_handling::Piece;
 
 /// Share of a blend's radius by which a motion may be off its parabola, in each joint, and still follow it: certificates
 /// hold for all of that tube, so that a reader that joins a motion's samples by cubics is covered, too.

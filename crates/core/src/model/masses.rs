@@ -1,0 +1,37 @@
+//! Masses and efforts of an arm: plain values beside its limits, which the crate `dynamics` computes with.
+
+use cplan_geometry::{Point, Vector};
+use serde::{Deserialize, Serialize};
+
+/// A rigid body in the plane.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Body {
+    /// Kilograms.
+    pub mass: f64,
+    /// Centre of mass in the frame that the body belongs to.
+    pub center: Point,
+    /// Moment of inertia about the centre of mass and the plane's normal, kg m2.
+    pub inertia: f64,
+}
+
+impl Body {
+    /// A body without mass.
+    pub const NONE: Self = Self { mass: 0.0, center: Point::new(0.0, 0.0), inertia: 0.0 };
+}
+
+/// Masses, gravity and the joints' efforts.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Dynamics {
+    /// What each joint carries up to the next, in the link's frame.
+    pub bodies: [Body; 2],
+    /// Acceleration of free fall in plane coordinates, m/s2.
+    pub gravity: Vector,
+    /// Greatest torque (N m) or force (N) of each joint.
+    pub effort: [f64; 2],
+    /// Joints whose greatest acceleration nobody gives.
+    pub assumed: [bool; 2],
+    /// Whether motions have to keep within the efforts.
+    pub limits: bool,
+}

@@ -1,0 +1,140 @@
+//! Which pairs of shapes of a scene can meet.
+
+use super::payload_parts::Meetable;
+use super::{Arm, Carrier, Heights, Mover, Obstacle, Pair, Part, SelfObstacle, Workspace};
+use cplan_geometry::{Convex, separation};
+
+/// Whether heights meet, where rounding leaves it open.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Meet {
+    /// They do: for what is to be free.
+    Perhaps,
+    /// They do not: for proofs that something is in the way.
+    Surely,
+}
+
+impl Meet {
+    /// Returns whether a part of the arm, or of an object that it carries, shares a height with an obstacle.
+    pub fn holds(self, is_carried: bool, part: Heights, obstacle: Heights) -> bool {
+        match (self, is_carried) {
+            (Self::Perhaps, false) => part.meet(obstacle),
+            (Self::Perhaps, true) => part.object_meets(obstacle),
+            (Self::Surely, false) => part.surely_meet(obstacle),
+            (Self::Surely, true) => part.object_surely_meets(obstacle),
+        }
+    }
+}
+
+/// Which pairs a scene takes, and which it leaves out.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Reading {
+    /// Which heights can meet.
+    pub meet: Meet,
+    /// Pieces of what stands that are farther from joint 1 are no part of a pair, metres.
+    pub farthest: f64,
+}
+
+impl Reading {
+    /// Takes all pairs that may meet.
+    pub const ALL: Self = Self { meet: Meet::Perhaps, farthest: f64::INFINITY };
+
+    /// Returns whether a contact proves something.
+    pub fn is_evidence(&self) -> bool {
+        self.meet == Meet::Surely
+    }
+
+    /// Returns whether a piece is perhaps nothing without rounding, and so no evidence.
+    pub fn takes_for_nothing(&self, piece: &Convex) -> bool {
+        self.is_evidence() && piece.is_sliver()
+    }
+}
+
+/// What an obstacle of a scene is.
+#[derive(Clone, Copy)]
+pub(super) enum Kind<'a> {
+    /// It stays where it is.
+    Standing,
+    /// It moves.
+    Moving(&'a Mover),
+    /// It is a link of the robot.
+    Own(&'a SelfObstacle),
+}
+
+/// Returns all obstacles in the order of their numbers: those of the workspace, those that move, links of the robot.
+pub(super) fn obstacles<'a>(arm: &'a Arm, workspace: &'a Workspace) -> impl Iterator<Item = (Kind<'a>, &'a Obstacle)> {
+    let standing = workspace.obstacles.iter().map(|obstacle| (Kind::Standing, obstacle));
+    let moving = workspace.movers.iter().map(|mover| (Kind::Moving(mover), &mover.obstacle));
+    let own = arm.self_obstacles.iter().map(|own| (Kind::Own(own), &own.obstacle));
+    standing.chain(moving).chain(own)
+}
+
+/// What decides which pairs a scene has.
+pub(super) struct Pairing<'a> {
+    /// The arm, with what it carries.
+    pub arm: &'a Arm,
+    pub workspace: &'a Workspace,
+    pub reading: Reading,
+    /// Number of parts of link 2 that are its own; others are carried.
+    pub own_parts: usize,
+    /// What each carried part can meet.
+    pub carried: &'a [Meetable],
+    /// Obstacles that link 2 itself is free to meet.
+    pub allowed_contacts: &'a [usize],
+}
+
+impl Pairing<'_> {
+    /// Returns the pairs with what stands and with what moves, each ordered by link, part, obstacle and piece.
+    pub fn pairs(&self) -> [Vec<Pair>; 2] {
+        let left_out = self.left_out();
+        // What is made of pieces comes after them, all for one piece of the payload after all for another.
+        let is_kept = |pair: &Pair| left_out.get(pair.obstacle).is_none_or(|all| !all[pair.piece % all.len()]);
+        let (mut pairs, mut moving, mut folding) = (Vec::new(), Vec::new(), Vec::new());
+        let parts = |link: usize| self.arm.links[link].parts.iter().enumerate().map(move |(part, p)| (link, part, p));
+        for (link, part, p) in parts(0).chain(parts(1)) {
+            let carried = if link == 1 { part.checked_sub(self.own_parts) } else { None };
+            let carried = carried.map(|number| &self.carried[number]);
+            for (obstacle, (kind, o)) in obstacles(self.arm, self.workspace).enumerate() {
+                if !self.can_meet(link, p, carried.is_some(), kind, o) {
+                    continue;
+                }
+                let pieces = match carried {
+                    Some(meetable) => meetable[obstacle].clone(),
+                    None if link == 1 && self.allowed_contacts.contains(&obstacle) => 0..0,
+                    None => 0..o.pieces.len(),
+                };
+                let (among, link) = match kind {
+                    Kind::Moving(_) => (&mut moving, link),
+                    Kind::Own(SelfObstacle { carrier: Carrier::FirstJoint, .. }) => (&mut folding, 2),
+                    Kind::Standing | Kind::Own(_) => (&mut pairs, link),
+                };
+                among.extend(pieces.map(|piece| Pair { link, part, obstacle, piece }).filter(is_kept));
+            }
+        }
+        pairs.extend(folding);
+        [pairs, moving]
+    }
+
+    /// Returns whether a part of a link and an obstacle can meet, by their heights and by who carries them.
+    fn can_meet(&self, link: usize, part: &Part, is_carried: bool, kind: Kind, obstacle: &Obstacle) -> bool {
+        let Kind::Own(own) = kind else { return self.reading.meet.holds(is_carried, part.heights, obstacle.heights) };
+        // Links of a robot lie on each other.
+        (link == 1 || own.carrier == Carrier::Base)
+            && part.heights.surely_meet(obstacle.heights)
+            && (is_carried || !own.ignores(&part.body))
+    }
+
+    /// Returns, for each obstacle, which of its pieces are in no pair; nothing at all if every piece may be.
+    fn left_out(&self) -> Vec<Vec<bool>> {
+        let Reading { farthest, .. } = self.reading;
+        if farthest.is_infinite() && !self.reading.is_evidence() {
+            return Vec::new();
+        }
+        let base = Convex::point(self.arm.base);
+        let is_left_out = |kind: Kind, piece: &Convex| {
+            let is_far = || matches!(kind, Kind::Standing) && separation(&base, piece).distance > farthest;
+            (farthest.is_finite() && is_far()) || self.reading.takes_for_nothing(piece)
+        };
+        let of = |(kind, o): (Kind, &Obstacle)| o.pieces.iter().map(|piece| is_left_out(kind, piece)).collect();
+        obstacles(self.arm, self.workspace).map(of).collect()
+    }
+}
