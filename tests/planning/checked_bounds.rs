@@ -8,8 +8,8 @@ use cplan::engine::{Bound, Criterion, Method, Planner, certificate_of_bound, sol
 use cplan::input::Overrides;
 use cplan::model::MotionProblem;
 
-/// Share of a bound that its evidence may miss: walls whose ends are not seen to the last.
-const UNSEEN: f64 = 1e-6;
+/// Share of a bound that its evidence may miss, because walls are found at finitely many points: that of `cplan recheck`.
+const MISSED: f64 = 1e-3;
 
 /// A bound on a path that is about the shortest.
 fn stated(problem: &MotionProblem, criterion: Criterion) -> Option<Bound> {
@@ -30,9 +30,9 @@ fn unseen(problems: impl IntoIterator<Item = (String, MotionProblem, Criterion)>
         let words = format!("{name}: {} walls, less by {share:.1e}", found.walls);
         println!("{words}");
         count += 1;
-        unseen.extend((share > UNSEEN).then_some(words));
+        unseen.extend((share > MISSED).then_some(words));
         // However much is claimed, what is seen is true.
-        let boast = Bound { lower: 2.0 * stated.upper, upper: 2.0 * stated.upper, ..stated };
+        let boast = Bound { lower: 1.1 * stated.upper, upper: 1.1 * stated.upper, ..stated };
         let length = seen(&boast).map_or(0.0, |found| found.length);
         assert!(length <= stated.upper, "{name}: {length} beyond a path of {}", stated.upper);
     }
@@ -55,5 +55,5 @@ fn bounds_in_random_worlds_are_seen_to_hold() {
         Some((format!("{kind} {seed}"), problem, criteria[(seed / 4 % 3) as usize]))
     });
     let (count, unseen) = unseen(problems);
-    assert!(!usual() || count >= 10 && 10 * unseen.len() <= count, "{count}, but {unseen:#?}");
+    assert!(!usual() || count >= 10 && unseen.is_empty(), "{count}, but {unseen:#?}");
 }

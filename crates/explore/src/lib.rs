@@ -23,9 +23,9 @@
 //!
 //! ```
 //! use cplan_explore::{Ending, Settings, Strategy, explore};
-//! use cplan_core::model::{Scene, Sensor};
-//! use cplan_core::model::{Arm, Obstacle, Workspace};
+//! use cplan_core::model::{Arm, Obstacle, Scene, Workspace};
 //! use cplan_core::space::Configuration;
+//! use cplan_world::Sensor;
 //!
 //! let arm = Arm::rr([0.6, 0.4], 0.04)?;
 //! let post = Obstacle::circle("post", [0.5, 0.6], 0.1)?;

@@ -247,7 +247,7 @@ fn recheck_accepts_true_bounds_and_no_others() {
         assert_eq!((holds.code, holds.stdout.starts_with("the bound holds")), (0, true), "{world}: {}", holds.stderr);
         // More than is true; no length at all; not of this world.
         let lower = made["optimum"]["lower_bound"].as_f64().unwrap();
-        for (wrong, said) in [(lower * (1.0 + 2e-4), "are no bounds"), (lower * 1.01, "not seen to hold")] {
+        for (wrong, said) in [(lower * (1.0 + 2e-4), "are no bounds"), (lower * 1.01, "not confirmed")] {
             made["optimum"]["lower_bound"] = wrong.into();
             place.write("wrong.json", made.to_string());
             place.run(&recheck, "--proof wrong.json").refused(1, &["wrong.json", said]);
@@ -257,7 +257,7 @@ fn recheck_accepts_true_bounds_and_no_others() {
     let shelf = [shipped("robots/planar_2r.urdf"), shipped("workspaces/shelf.toml")];
     place.run(&shelf, "--quiet --output shelf.json");
     let elsewhere = ["recheck".into(), shelf[0].clone(), shipped("workspaces/two_branches.toml")];
-    place.run(&elsewhere, "--proof shelf.json").refused(1, &["not seen to hold"]);
+    place.run(&elsewhere, "--proof shelf.json").refused(1, &["not confirmed"]);
 }
 
 #[test]

@@ -360,7 +360,7 @@ fn what_is_wrong_is_said_with_its_place_and_cure() {
         ("one.dxf", "--height a=1:0", "lower end"),
         ("one.dxf", "--height a=0:1e300", "NAME=LOW:HIGH"),
         ("one.dxf", "--scale 0", "more than 0"),
-        ("one.dxf", "--unit feet", "none of the units mm, cm"),
+        ("one.dxf", "--unit feet", "the units are mm, cm"),
     ] {
         place.run(&["import", file], options).refused(2, &[part]);
     }

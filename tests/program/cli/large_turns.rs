@@ -80,7 +80,7 @@ fn a_start_half_a_million_radians_from_zero_is_not_moved_into_a_stuck_box() {
     let start = format!("{start:?},{FOLDED}");
     let done = place.run(&["recheck", &robot, "world.toml", "--proof", "proof.json", "--start", &start], "");
     assert_ne!(done.code, 0, "{}", done.stdout);
-    assert!(done.stderr.contains("do not separate the start"), "{}", done.stderr);
+    assert!(done.stderr.contains("do not separate the goal from the start"), "{}", done.stderr);
 }
 
 #[test]

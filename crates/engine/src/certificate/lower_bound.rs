@@ -12,6 +12,11 @@ use cplan_proofs::ClosedSegment;
 use cplan_world::Overrides;
 use serde_json::json;
 
+/// Points that are checked along a wall in either direction. A checker that looks as closely takes longer.
+const LOOKS: usize = 60;
+/// The same where [`LOOKS`] lose too much of the bound.
+const MORE_LOOKS: usize = 300;
+
 /// That no motion is shorter than a length, which is the bound of a result up to a hair.
 ///
 /// It is about motions to one configuration, or to wherever the tip is at the place that was asked for. Then there are boxes about those of
@@ -24,8 +29,10 @@ pub(super) struct LowerBound {
 }
 
 impl LowerBound {
-    /// Finds the evidence anew. None if goals are a curve, or not told from what is beside them.
-    pub fn of(problem: &MotionProblem, stated: &Bound, asked: &Overrides, care: &Care) -> Option<Self> {
+    /// Computes evidence for the bound again. It looks more closely if more than the share `loss` of the bound is lost, because shapes
+    /// that come apart slowly, as in a slot, make walls end too early. Returns `None` if the goals are a curve, or cannot be
+    /// separated from the configurations beside them.
+    pub fn of(problem: &MotionProblem, stated: &Bound, asked: &Overrides, loss: f64) -> Option<Self> {
         let motions = motions(problem, stated.metric);
         let topology = problem.scene().arm().topology();
         let Ends { to, goals, boxes } = Ends::of(problem, asked)?;
@@ -39,12 +46,9 @@ impl LowerBound {
         };
         let evidence = evidence(&motions, stated);
         let of = |looks: usize| LeastLength::new(&ways, evidence.segments(motions.scene, motions.clearance, looks));
-        let (first, more) = care.looks.split_first()?;
-        let mut least = of(*first)?;
-        for looks in more {
-            if least.length < stated.lower * (1.0 - care.loss) {
-                least = of(*looks).filter(|closer| closer.length > least.length).unwrap_or(least);
-            }
+        let mut least = of(LOOKS)?;
+        if least.length < stated.lower * (1.0 - loss) {
+            least = of(MORE_LOOKS).filter(|closer| closer.length > least.length).unwrap_or(least);
         }
         Some(Self { least, metric: stated.metric, to, boxes })
     }
@@ -84,22 +88,6 @@ impl LowerBound {
         let boxes = (!self.boxes.is_empty()).then(|| contacts.boxes(&self.boxes));
         boxes.into_iter().chain([("bound", format!("{{ {members} }}"))]).collect()
     }
-}
-
-/// How closely walls are looked at.
-pub(super) struct Care {
-    /// Looks along a wall in either direction, where a checker is to look as well that takes longer: as many as do for most, and then more ...
-    looks: &'static [usize],
-    /// ... if the bound loses more than this share. Where shapes come apart slowly, as in a slot, walls end too early.
-    loss: f64,
-}
-
-impl Care {
-    /// For certificates, which are to be small and soon checked.
-    pub const USUAL: Self = Self { looks: &[60, 300], loss: 1e-3 };
-
-    /// For bounds that are to be seen whole.
-    pub const CLOSE: Self = Self { looks: &[60, 300, 2000], loss: 1e-7 };
 }
 
 /// Where a bound leads to.

@@ -18,11 +18,14 @@ use cplan_core::model::{Arm, MotionProblem, Outcome, Scene, Status, inverse};
 use cplan_core::space::{Configuration, JointRange, Segment, Topology};
 use cplan_handling::Task;
 use cplan_world::{Digests, Overrides, TipPoint};
-use lower_bound::{Care, LowerBound};
+use lower_bound::LowerBound;
 use serde::Serialize;
 use serde_json::json;
 use std::collections::BTreeSet;
 use thiserror::Error;
+
+/// Share of a bound that the certificate of a motion may lose, so that it is small and quickly checked.
+const LOSS: f64 = 1e-3;
 
 /// Why an answer has no certificate.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
@@ -66,7 +69,7 @@ fn certificate_of_motion(
     let (word, evidence) = match &answer.outcome {
         Outcome::Found(motion) => {
             let mut evidence = vec![motion::evidence(problem.scene().arm(), &motion.timed.trajectory)];
-            let bound = motion.path.bound.and_then(|stated| LowerBound::of(problem, &stated, asked, &Care::USUAL));
+            let bound = motion.path.bound.and_then(|stated| LowerBound::of(problem, &stated, asked, LOSS));
             evidence.extend(bound.into_iter().flat_map(|bound| bound.evidence(&mut contacts)));
             ("found", evidence)
         }

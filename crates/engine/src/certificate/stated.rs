@@ -1,12 +1,15 @@
 //! Certificates of what a result states, made anew for its files.
 
 use super::contacts::Contacts;
-use super::lower_bound::{Care, LowerBound};
+use super::lower_bound::LowerBound;
 use super::{about, ruled_out, said, written};
 use crate::bound::Bound;
 use cplan_core::check::StuckBox;
 use cplan_core::model::MotionProblem;
 use cplan_world::Overrides;
+
+/// Share of a bound that its own certificate may lose before it is computed more closely.
+const LOSS: f64 = 1e-6;
 
 /// A certificate that no motion is shorter than a length.
 #[derive(Debug, Clone, PartialEq)]
@@ -38,7 +41,7 @@ pub fn certificate_of_boxes(problem: &MotionProblem, stuck: &[StuckBox], asked: 
 /// Returns the certificate of a bound. None if goals are a curve, or not told from configurations beside them.
 #[must_use]
 pub fn certificate_of_bound(problem: &MotionProblem, stated: &Bound, asked: &Overrides) -> Option<BoundCertificate> {
-    let bound = LowerBound::of(problem, stated, asked, &Care::CLOSE)?;
+    let bound = LowerBound::of(problem, stated, asked, LOSS)?;
     let mut contacts = Contacts::new(problem.scene());
     let evidence = bound.evidence(&mut contacts);
     let said = [about(None, problem.scene().arm()), said(problem, asked)].concat();
