@@ -5,7 +5,7 @@
 //! use cplan_core::model::{Arm, Joint, Obstacle, Outcome, Scene, Workspace};
 //! use cplan_core::space::{Configuration, GoalSet};
 //! use cplan_core::model::Status;
-//! use cplan_engine::Options;
+//! use cplan_solver::Options;
 //!
 //! // A post in the way of the first link, and one far away that does no harm.
 //! let posts = [Obstacle::circle("far", [5.0, 0.0], 0.1)?, Obstacle::circle("near", [0.4, 0.0], 0.1)?];

@@ -15,14 +15,13 @@ mod schedule;
 pub(super) use blocked::Movers;
 pub use schedule::{Demand, Scheduled, Wait};
 
-use super::options::Options;
-use super::solve;
 use cplan_core::check::{CertifiedPath, Nearest, certify};
 use cplan_core::model::{MotionProblem, Outcome, Scene};
 use cplan_core::space::{Configuration, GoalSet, Segment};
 use cplan_handling::{Interpolation, Recording};
 use cplan_motion::recorded::{CollisionCheck, certify_in_time, met_in_time};
 use cplan_motion::{Limits, Timed, TimingError, Trajectory};
+use cplan_solver::{Options, solve};
 use cplan_text::counted;
 use refutation::no_timing;
 use schedule::{Effort, schedule};

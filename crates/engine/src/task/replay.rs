@@ -2,9 +2,9 @@
 
 use super::answer::{Leg, TaskAnswer};
 use super::legs::{of_legs, planned_again};
-use crate::{Options, Phase, Replay, Shows};
 use cplan_core::planner::Trace;
 use cplan_handling::Task;
+use cplan_solver::{Options, Phase, Replay, Shows};
 use std::sync::Arc;
 
 /// How the planner came to the motions of a task. Those that are repeated are told once.
