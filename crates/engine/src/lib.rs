@@ -15,7 +15,6 @@ mod fastest;
 mod field_report;
 pub mod findings;
 mod motion;
-mod moving;
 mod plan;
 mod problem;
 mod reach;
@@ -26,9 +25,9 @@ pub mod task;
 pub use certificate::{
     BoundCertificate, NoCertificate, certificate_of_bound, certificate_of_boxes, certificate_of_recording,
 };
+pub use cplan_movers::{Timing, Wait};
 pub use cplan_solver::*;
 pub use motion::Motion;
-pub use moving::{Timing, Wait};
 pub use plan::{Detail, Plan, PlanError, Refutation, plan, plan_with};
 pub use problem::{Problem, ProblemError};
 pub use reach::{Access, MOST_PLACES, Reach, Solution, reach};

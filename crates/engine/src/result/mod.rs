@@ -3,7 +3,6 @@
 mod files;
 mod json;
 
-use super::moving::Timing;
 use super::plan::{Detail, Plan};
 use super::task::FailedStep;
 use cplan_core::model::Status;
@@ -11,6 +10,7 @@ use cplan_core::planner::VisibilityGraph;
 use cplan_core::space::{Metric, Path};
 use cplan_handling::Task;
 use cplan_motion::{Optimum, SearchUsed, Trajectory};
+use cplan_movers::Timing;
 use cplan_solver::{Bound, Planner, Setting, Settings};
 
 impl Plan {

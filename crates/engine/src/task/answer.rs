@@ -3,7 +3,6 @@
 use super::failed_step::FailedStep;
 use super::sequence::Sequence;
 use super::stroke::ToolStroke;
-use crate::Timing;
 use crate::result::finite;
 use cplan_core::model::{Outcome, Scene};
 use cplan_core::space::Path;
@@ -11,6 +10,7 @@ use cplan_geometry::Pose;
 use cplan_handling::Step;
 use cplan_motion::Timed;
 use cplan_motion::recorded::WristTurn;
+use cplan_movers::Timing;
 use std::sync::Arc;
 
 /// What happens at the end of a step's motion.

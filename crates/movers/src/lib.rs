@@ -12,8 +12,8 @@ mod departures;
 mod refutation;
 mod schedule;
 
-pub(super) use blocked::Movers;
-pub use schedule::{Demand, Scheduled, Wait};
+pub use blocked::Movers;
+pub use schedule::{Demand, Wait};
 
 use cplan_core::check::{CertifiedPath, Nearest, certify};
 use cplan_core::model::{MotionProblem, Outcome, Scene};
@@ -24,7 +24,7 @@ use cplan_motion::{Limits, Timed, TimingError, Trajectory};
 use cplan_solver::{Options, solve};
 use cplan_text::counted;
 use refutation::no_timing;
-use schedule::{Effort, schedule};
+use schedule::{Effort, Scheduled, schedule};
 use serde::Serialize;
 
 /// Ways that are tried: the planner's, and others around what is met on those before.
