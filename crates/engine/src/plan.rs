@@ -3,13 +3,14 @@
 use super::clock::Clock;
 use super::motion::{Motion, driven};
 use super::problem::{MotionOrTask, Problem};
-use super::task::{self, FailedStep, MessageError, Messages, TaskAnswer, TaskMotion, TaskReplay};
+use super::result::{MessageError, Messages};
 use cplan_core::check::CheckedProof;
 use cplan_core::cspace::has_exact_polygons;
 use cplan_core::model::{Arm, MotionProblem, Outcome, Status};
 use cplan_handling::{RobotJoints, Task};
 use cplan_motion::{TimingError, Trajectory};
 use cplan_solver::{Answer, NamedJoints, Options, Replay, solve};
+use cplan_tasks::{FailedStep, TaskAnswer, TaskMotion, TaskReplay};
 use cplan_text::percent;
 use std::borrow::Cow;
 use thiserror::Error;
@@ -180,7 +181,7 @@ fn plan_task(
 ) -> Result<Detail, PlanError> {
     let mut task = task.clone();
     options.override_limits(&mut task.arm);
-    let answer = task::plan(&task, options, progress);
+    let answer = cplan_tasks::plan(&task, options, progress);
     clock.stage("plan");
     if let Some(TaskMotion { sequence, .. }) = answer.outcome.found() {
         let messages = Messages::new(robot, &task, &answer.legs, sequence)?;

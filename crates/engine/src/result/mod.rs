@@ -2,9 +2,14 @@
 
 mod files;
 mod json;
+mod messages;
+mod step_report;
+
+pub use messages::MessageError;
+pub(crate) use messages::Messages;
+pub(crate) use step_report::{StepReport, step_reports};
 
 use super::plan::{Detail, Plan};
-use super::task::FailedStep;
 use cplan_core::model::Status;
 use cplan_core::planner::VisibilityGraph;
 use cplan_core::space::{Metric, Path};
@@ -12,6 +17,7 @@ use cplan_handling::Task;
 use cplan_motion::{Optimum, SearchUsed, Trajectory};
 use cplan_movers::Timing;
 use cplan_solver::{Bound, Planner, Setting, Settings};
+use cplan_tasks::FailedStep;
 
 impl Plan {
     /// Returns why there is no motion, or why none is known; none if there is one.
