@@ -10,29 +10,19 @@
 
 mod certificate;
 mod clock;
-pub mod explain;
 mod fastest;
 mod field_report;
 pub mod findings;
 mod motion;
 mod plan;
 mod problem;
-mod reach;
 mod result;
 mod stored;
 
 pub use certificate::{
     BoundCertificate, NoCertificate, certificate_of_bound, certificate_of_boxes, certificate_of_recording,
 };
-pub use cplan_movers::{Timing, Wait};
-pub use cplan_solver::*;
-
-/// Sequences of motions.
-pub mod task {
-    pub use crate::result::MessageError;
-    pub use cplan_tasks::*;
-}
 pub use motion::Motion;
 pub use plan::{Detail, Plan, PlanError, Refutation, plan, plan_with};
 pub use problem::{Problem, ProblemError};
-pub use reach::{Access, MOST_PLACES, Reach, Solution, reach};
+pub use result::MessageError;
