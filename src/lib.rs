@@ -46,7 +46,6 @@
 pub mod cli;
 pub use cplan_compare as report;
 pub use cplan_core::cspace;
-pub use cplan_engine as engine;
 pub use cplan_explore as explore;
 pub use cplan_geometry as geometry;
 pub use cplan_interrupt as interrupt;
@@ -110,6 +109,21 @@ pub mod input {
         read_bytes, read_from,
     };
     pub use cplan_world::*;
+}
+
+/// From a problem to a plan; the solver of one motion, motions among moving obstacles, tasks, and explanations.
+pub mod engine {
+    pub use cplan_engine::*;
+    pub use cplan_explain as explain;
+    pub use cplan_explain::{Access, MOST_PLACES, Reach, Solution, reach};
+    pub use cplan_movers::{Timing, Wait};
+    pub use cplan_solver::*;
+
+    /// From a task to a sequence of certified motions.
+    pub mod task {
+        pub use cplan_engine::MessageError;
+        pub use cplan_tasks::*;
+    }
 }
 
 /// Planners: pure functions from a space and a query to a run.

@@ -28,7 +28,7 @@ mod words;
 
 pub use comparison::Comparison;
 pub use convergence::{Convergence, Course, FactorScan, Point, Setup, StrengthScan, WeightScan, convergence};
-pub use cplan_engine::Family;
+pub use cplan_solver::Family;
 pub use labels::labels;
 pub use measure::Measure;
 pub use page::{Overlay, Page, Picture};

@@ -2,7 +2,7 @@
 
 use cplan_core::model::Status;
 use cplan_core::planner::{Note, PathKind, Size};
-use cplan_engine::Family;
+use cplan_solver::Family;
 
 /// Figures of a planner's path of the other kind than the row is about.
 #[derive(Debug, Clone, Copy, PartialEq)]

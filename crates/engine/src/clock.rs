@@ -1,7 +1,7 @@
 //! Time per stage.
 
-use super::Stages;
 use cplan_interrupt::Instant;
+use cplan_solver::Stages;
 use std::time::Duration;
 
 /// Stages in the order in which they end, each with the time since the one before.

@@ -1,11 +1,9 @@
 //! The fastest motion among several ways.
 
-use super::options::Options;
-use super::setting::Criterion;
-use super::{BoundedPath, bound, solve};
 use cplan_core::model::MotionProblem;
 use cplan_core::space::Metric;
 use cplan_motion::{Fastest, Limits, Timed, TimingError, least_duration};
+use cplan_solver::{BoundedPath, Criterion, Options, bound, solve};
 
 /// Share of the least time by which its lower bound may be too low, for the ways that it is a bound on.
 const GAP: f64 = 1e-3;

@@ -1,10 +1,10 @@
 //! A field's settings in the result.
 
-use super::{Answer, Space};
 use cplan_core::planner::{Note, Size};
 use cplan_fields::{Difference, Factor, Khatib, Limits, Measure, Relaxation, Scheme};
 use cplan_fields::{EquationChoice, FieldChoice, FieldPlanner};
 use cplan_motion::FieldReport;
+use cplan_solver::{Answer, Space};
 
 /// The field that was asked for and what came of it.
 pub(super) fn field_report<F>(planner: &FieldPlanner, answer: &Answer<F>) -> FieldReport {

@@ -1,11 +1,10 @@
 //! The motion along a path that was found.
 
-use super::answer::{Answer, BoundedPath};
 use super::fastest::fastest;
-use super::moving::{Demand, InTime, Timing, in_time};
-use super::options::Options;
 use cplan_core::model::{MotionProblem, Outcome};
 use cplan_motion::{Fastest, Objective, Timed, TimingError};
+use cplan_movers::{Demand, InTime, Timing, in_time};
+use cplan_solver::{Answer, BoundedPath, Options};
 
 /// A motion that is certified free of collision.
 #[derive(Debug, Clone)]

@@ -2,14 +2,15 @@
 
 use super::clock::Clock;
 use super::motion::{Motion, driven};
-use super::options::{NamedJoints, Options};
 use super::problem::{MotionOrTask, Problem};
-use super::task::{self, FailedStep, MessageError, Messages, TaskAnswer, TaskMotion, TaskReplay};
-use super::{Answer, Replay, solve};
+use super::result::{MessageError, Messages};
 use cplan_core::check::CheckedProof;
+use cplan_core::cspace::has_exact_polygons;
 use cplan_core::model::{Arm, MotionProblem, Outcome, Status};
 use cplan_handling::{RobotJoints, Task};
 use cplan_motion::{TimingError, Trajectory};
+use cplan_solver::{Answer, NamedJoints, Options, Replay, solve};
+use cplan_tasks::{FailedStep, TaskAnswer, TaskMotion, TaskReplay};
 use cplan_text::percent;
 use std::borrow::Cow;
 use thiserror::Error;
@@ -50,7 +51,8 @@ pub enum Refutation<'a> {
 ///
 /// ```
 /// use cplan_core::model::{Arm, Obstacle, Workspace};
-/// use cplan_engine::{Options, Plan, Problem, plan};
+/// use cplan_engine::{Plan, Problem, plan};
+/// use cplan_solver::Options;
 ///
 /// let post = Obstacle::circle("post", [1.6, 0.0], 0.1)?;
 /// let problem = Problem::new(Arm::rr([1.0, 0.8], 0.06)?, Workspace::new([post]), [1.0, 0.2], [-1.0, -0.2])?;
@@ -112,7 +114,7 @@ pub fn plan_with(problem: &Problem, options: &Options, progress: &mut dyn FnMut(
     if let Some(lack) = options.planner.lack(&problem.scene().workspace().preferences) {
         return Err(PlanError::Options(lack));
     }
-    if let Some(lack) = options.lack(problem) {
+    if let Some(lack) = lack(options, problem) {
         return Err(PlanError::Robot(lack));
     }
     let mut clock = Clock::after(problem.read_in().map(|time| ("load", time)).into_iter().collect());
@@ -121,6 +123,22 @@ pub fn plan_with(problem: &Problem, options: &Options, progress: &mut dyn FnMut(
         MotionOrTask::Task(task, _) => plan_task(task, &named(problem, options), options, &mut clock, progress)?,
     };
     Ok(Plan { problem: problem.clone(), options: *options, detail: Box::new(detail), clock })
+}
+
+/// What the options ask of a robot that its file does not say.
+fn lack(options: &Options, problem: &Problem) -> Option<String> {
+    if options.planner.is_exact() && !has_exact_polygons(problem.scene()) {
+        let kind = problem.scene().arm().kind();
+        return Some(format!(
+            "--margin 0 takes C-obstacles that are polygons, as gantries (PP) have them: this arm ({kind}) turns, or slides in one \
+             direction; use a small margin, such as --margin 1e-5"
+        ));
+    }
+    if !options.drive.torque || problem.scene().arm().dynamics.is_some() {
+        return None;
+    }
+    let why = problem.robot().no_dynamics.as_deref().unwrap_or("the arm has none of them");
+    Some(format!("--torque takes masses, inertias and efforts: {why}"))
 }
 
 /// Plans a single motion.
@@ -163,7 +181,7 @@ fn plan_task(
 ) -> Result<Detail, PlanError> {
     let mut task = task.clone();
     options.override_limits(&mut task.arm);
-    let answer = task::plan(&task, options, progress);
+    let answer = cplan_tasks::plan(&task, options, progress);
     clock.stage("plan");
     if let Some(TaskMotion { sequence, .. }) = answer.outcome.found() {
         let messages = Messages::new(robot, &task, &answer.legs, sequence)?;

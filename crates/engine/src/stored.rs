@@ -6,12 +6,12 @@
 //! A plan is a problem, options and the result. Only `check` certifies, so nothing that a file states is believed: reading plans
 //! again and compares. The same input gives the same output, so a difference is a change of the file, or another version's answer.
 
-use super::options::Options;
 use super::plan::{Plan, plan};
 use super::problem::{MotionOrTask, Problem};
 use cplan_core::model::{MotionProblem, Scene};
 use cplan_handling::{Driver, RobotJoints, Task, TaskError, ToolJoint};
 use cplan_robot::RobotReport;
+use cplan_solver::Options;
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use serde_json::Value;

@@ -10,9 +10,9 @@ use cplan_core::check::{CertifiedPath, certify};
 use cplan_core::cspace::Grid;
 use cplan_core::model::{MotionProblem, Outcome, Scene};
 use cplan_core::space::{Configuration, GoalSet, Path, Segment};
-use cplan_engine::{Options, Unknown, solve};
 use cplan_harmonic::{Component, Lattice, harmonic_way};
 use cplan_interrupt::checkpoint;
+use cplan_solver::{Options, Unknown, solve};
 use cplan_text::{counted, listed};
 use std::collections::{BTreeSet, HashSet};
 

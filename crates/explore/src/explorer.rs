@@ -10,10 +10,10 @@ use super::survey::Survey;
 use cplan_core::check::{CertifiedPath, certify};
 use cplan_core::model::{MotionProblem, Scene};
 use cplan_core::space::{Configuration, Draws, GoalSet, Path};
-use cplan_engine::{Options, solve};
 use cplan_interrupt::Instant;
 use cplan_interrupt::checkpoint;
 use cplan_motion::Trajectory;
+use cplan_solver::{Options, solve};
 use cplan_text::counted;
 use cplan_world::Sensor;
 

@@ -1,8 +1,8 @@
 //! Settings of an exploration.
 
 use super::survey::MOST_CELLS;
-use cplan_engine::Options;
 use cplan_motion::Drive;
+use cplan_solver::Options;
 use cplan_world::OccupancyMap;
 use serde::Serialize;
 use thiserror::Error;

@@ -14,9 +14,9 @@ use super::protocol::{
 };
 use cplan_core::model::{Arm, inverse, within};
 use cplan_core::space::{Configuration, JointRange};
-use cplan_engine::Method;
 use cplan_geometry::Point;
 use cplan_interrupt::{Instant, Interrupt, Interrupted};
+use cplan_solver::Method;
 use cplan_world::{LoadedScene, Overrides};
 use std::sync::Arc;
 

@@ -160,8 +160,9 @@ impl Gallery {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use cplan_engine::{Options, Plan, Problem, plan};
+    use cplan_engine::{Plan, Problem, plan};
     use cplan_robot::Source;
+    use cplan_solver::Options;
     use cplan_world::{Overrides, scene_from};
     use std::collections::BTreeSet;
 

@@ -8,9 +8,9 @@ use super::protocol::{OptionReply, PlannerReply};
 use clap::{Arg, Command};
 use cplan_core::planner::GridSearch;
 use cplan_core::waves::Neighborhood;
-use cplan_engine::{FIRST_CELLS, GridSpace, Method, Planner, Setting};
 use cplan_options::Named;
 use cplan_roadmaps::Prm;
+use cplan_solver::{FIRST_CELLS, GridSpace, Method, Planner, Setting};
 
 /// An option with its own menu. The user can type all others.
 struct Choice {

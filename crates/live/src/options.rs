@@ -2,8 +2,8 @@
 
 use clap::{Command, CommandFactory, Parser};
 use cplan_core::model::Scene;
-use cplan_engine::Method;
 use cplan_options::{MotionArgs, PlannerArgs, word};
+use cplan_solver::Method;
 
 /// Shortest period of a trajectory that a page may request, in seconds, because it is drawn and sent to a browser.
 const SHORTEST_PERIOD: f64 = 1e-3;
@@ -11,7 +11,7 @@ const SHORTEST_PERIOD: f64 = 1e-3;
 /// A planner and its options.
 #[derive(Debug)]
 pub struct Options {
-    options: cplan_engine::Options,
+    options: cplan_solver::Options,
 }
 
 #[derive(Debug, Parser)]
@@ -48,12 +48,12 @@ impl Options {
         }
         let planner = grammar.options.planner(grammar.planner)?;
         grammar.options.missing().map_or(Ok(()), Err)?;
-        let options = cplan_engine::Options {
+        let options = cplan_solver::Options {
             levels: grammar.options.levels(&planner),
             planner,
             drive: grammar.motion.drive(),
             jerk: grammar.motion.jerk(),
-            ..cplan_engine::Options::default()
+            ..cplan_solver::Options::default()
         };
         Ok(Self { options })
     }
@@ -62,7 +62,7 @@ impl Options {
     ///
     /// # Errors
     /// The field needs preferences, and the world has none.
-    pub fn within(&self, scene: &Scene) -> Result<&cplan_engine::Options, String> {
+    pub fn within(&self, scene: &Scene) -> Result<&cplan_solver::Options, String> {
         self.options.planner.lack(&scene.workspace().preferences).map_or(Ok(&self.options), Err)
     }
 }
@@ -70,7 +70,7 @@ impl Options {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use cplan_engine::Planner;
+    use cplan_solver::Planner;
 
     #[test]
     fn options_are_those_of_the_command_line() {

@@ -6,12 +6,12 @@ use super::readers::{listed, require};
 use clap::builder::PossibleValue;
 use clap::{Args, ValueEnum};
 use cplan_core::planner::PathKind;
-use cplan_engine::{Method, Setting};
 use cplan_fields::{
     Attraction, Device, Difference, Direction, Escape, Factor, Khatib, Limits, Lines, Measure, Order,
     RELATIVE_TOLERANCE, Relaxation, Repulsion, Scan, Stencil,
 };
 use cplan_fields::{EquationChoice, FieldChoice, FieldPlanner};
+use cplan_solver::{Method, Setting};
 
 /// Equations.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]

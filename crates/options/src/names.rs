@@ -3,9 +3,9 @@
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use cplan_core::planner::{GridSearch, PathKind, VisibilityGraph};
 use cplan_core::waves::search::Ties;
-use cplan_engine::{GridSpace, Method, NamedJoints};
 use cplan_fields::{Device, Difference, Limits, Measure, Stencil};
 use cplan_motion::Objective;
+use cplan_solver::{GridSpace, Method, NamedJoints};
 use std::ffi::OsStr;
 use std::marker::PhantomData;
 

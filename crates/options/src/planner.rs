@@ -10,8 +10,8 @@ use clap::{Args, Parser, ValueEnum};
 use cplan_core::planner::{GridSearch, PathKind};
 use cplan_core::waves::Neighborhood;
 use cplan_core::waves::search::Ties;
-use cplan_engine::{CellCounts, Criterion, GridSpace, LEVELS, MOST_MARGIN, Method, Options, Planner, Setting};
 use cplan_fields::FieldPlanner;
+use cplan_solver::{CellCounts, Criterion, GridSpace, LEVELS, MOST_MARGIN, Method, Options, Planner, Setting};
 use std::ops::RangeInclusive;
 use std::sync::LazyLock;
 

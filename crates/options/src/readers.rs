@@ -1,6 +1,6 @@
 //! Which planners read a setting: for help and errors.
 
-use cplan_engine::{Method, Setting};
+use cplan_solver::{Method, Setting};
 
 /// Returns the planners that read one of these settings, those of the first setting first: `visibility, trapezoid or prm`, with this word
 /// before the last.

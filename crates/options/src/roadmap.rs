@@ -5,7 +5,7 @@ use super::planner::whole;
 use super::readers::{readers, require};
 use clap::Args;
 use cplan_core::planner::{GridSearch, RoadmapSearch, SearchOrder, VisibilityGraph};
-use cplan_engine::{Method, NEAREST, Planner, SAMPLES, Setting};
+use cplan_solver::{Method, NEAREST, Planner, SAMPLES, Setting};
 use std::sync::LazyLock;
 
 static HEADING: LazyLock<String> =

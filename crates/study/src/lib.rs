@@ -38,9 +38,10 @@ pub use row::{Ending, Row};
 pub use schema::study_schema;
 pub use summary::Summary;
 
-use cplan_engine::{Options, Plan, Problem, plan, solve};
+use cplan_engine::{Plan, Problem, plan};
 use cplan_parallel::{caught, in_order};
 use cplan_robot::{InputError, Source};
+use cplan_solver::{Options, solve};
 use cplan_world::{LoadedScene, Overrides};
 use file::Named;
 use overlap::overlap;

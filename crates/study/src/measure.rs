@@ -1,6 +1,7 @@
 //! Measures of layouts, and conditions on them.
 
-use cplan_engine::{Bound, Plan};
+use cplan_engine::Plan;
+use cplan_solver::Bound;
 use std::fmt;
 
 /// A number that a plan has.

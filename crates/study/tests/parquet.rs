@@ -1,6 +1,6 @@
 //! Tests that Parquet tables contain the same values as the rows.
 
-use cplan_engine::Options;
+use cplan_solver::Options;
 use cplan_study::{Ending, Row, Study};
 use cplan_world::Overrides;
 use parquet::file::reader::{FileReader, SerializedFileReader};

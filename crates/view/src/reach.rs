@@ -6,7 +6,7 @@ use super::color::Rgb;
 use super::figure::{Item, Raster, Rect, Style};
 use super::key::{Key, Sign};
 use super::view::{Chain, Grain};
-use cplan_engine::{Access, Reach, Solution};
+use cplan_explain::{Access, Reach, Solution};
 use serde::Serialize;
 
 /// Colour and meaning of each kind of cell: one solution, several, proven unreachable, blocked, unknown.

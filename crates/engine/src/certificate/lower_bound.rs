@@ -3,12 +3,12 @@
 use super::bound::{LeastLength, Potential, Ways};
 use super::contacts::Contacts;
 use super::{Evidence, inward, lines, ruled_out};
-use crate::bound::{Bound, evidence, motions};
 use cplan_core::check::StuckBox;
 use cplan_core::model::{Arm, MotionProblem, inverse};
 use cplan_core::space::{Configuration, Metric, Segment};
 use cplan_geometry::cross;
 use cplan_proofs::ClosedSegment;
+use cplan_solver::Bound;
 use cplan_world::Overrides;
 use serde_json::json;
 
@@ -33,19 +33,19 @@ impl LowerBound {
     /// that come apart slowly, as in a slot, make walls end too early. Returns `None` if the goals are a curve, or cannot be
     /// separated from the configurations beside them.
     pub fn of(problem: &MotionProblem, stated: &Bound, asked: &Overrides, loss: f64) -> Option<Self> {
-        let motions = motions(problem, stated.metric);
-        let topology = problem.scene().arm().topology();
+        let scene = problem.scene();
+        let topology = scene.arm().topology();
         let Ends { to, goals, boxes } = Ends::of(problem, asked)?;
         let ways = Ways {
             topology: &topology,
             metric: stated.metric,
-            start: topology.wrap(motions.start),
+            start: topology.wrap(problem.start()),
             goals: &goals,
             about: if to.is_some() { 0.0 } else { ABOUT_A_GOAL },
             limit: stated.upper,
         };
-        let evidence = evidence(&motions, stated);
-        let of = |looks: usize| LeastLength::new(&ways, evidence.segments(motions.scene, motions.clearance, looks));
+        let (evidence, clearance) = (stated.evidence(problem), scene.workspace().clearance);
+        let of = |looks: usize| LeastLength::new(&ways, evidence.segments(scene, clearance, looks));
         let mut least = of(LOOKS)?;
         if least.length < stated.lower * (1.0 - loss) {
             least = of(MORE_LOOKS).filter(|closer| closer.length > least.length).unwrap_or(least);

@@ -10,13 +10,15 @@ mod task;
 pub use motion::recorded as certificate_of_recording;
 pub use stated::{BoundCertificate, certificate_of_bound, certificate_of_boxes};
 
-use super::task::{TaskAnswer, step_reports};
-use super::{Answer, Detail, Motion, Plan};
+use super::{Detail, Motion, Plan};
+use crate::result::step_reports;
 use contacts::Contacts;
 use cplan_core::check::{Cell, StuckBox};
 use cplan_core::model::{Arm, MotionProblem, Outcome, Scene, Status, inverse};
 use cplan_core::space::{Configuration, JointRange, Segment, Topology};
 use cplan_handling::Task;
+use cplan_solver::Answer;
+use cplan_tasks::TaskAnswer;
 use cplan_world::{Digests, Overrides, TipPoint};
 use lower_bound::LowerBound;
 use serde::Serialize;

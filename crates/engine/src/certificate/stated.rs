@@ -3,9 +3,9 @@
 use super::contacts::Contacts;
 use super::lower_bound::LowerBound;
 use super::{about, ruled_out, said, written};
-use crate::bound::Bound;
 use cplan_core::check::StuckBox;
 use cplan_core::model::MotionProblem;
+use cplan_solver::Bound;
 use cplan_world::Overrides;
 
 /// Share of a bound that its own certificate may lose before it is computed more closely.

@@ -2,7 +2,7 @@
 //! are then follows from the world.
 
 use super::{NoCertificate, lines};
-use crate::task::StepReport;
+use crate::result::StepReport;
 use cplan_core::model::Payload;
 use cplan_geometry::can_be_drawn_in;
 use cplan_handling::{Action, Object, RecordedStep, Step, Task};

@@ -1,7 +1,7 @@
 //! The result in the formats of files.
 
+use super::Messages;
 use crate::plan::{Detail, Plan, named};
-use crate::task::Messages;
 use cplan_motion::{Format, JointMotion, Trajectory, csv, ros_yaml};
 #[cfg(feature = "mcap")]
 use cplan_motion::{Stage, mcap};

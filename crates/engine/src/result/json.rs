@@ -3,16 +3,17 @@
 //! What a script relies on is always there, `path`, `length`, `clearance` and `trajectory` as null if there is none; the rest is left out if there
 //! is none of it. Numbers are finite; radians for a revolute joint and metres for a prismatic one, and seconds.
 
-use super::finite;
+use super::step_report::{FailedStepReport, step_reports};
+use super::{finite, optimum};
 use crate::field_report::field_report;
 use crate::motion::Motion;
 use crate::plan::{Detail, Plan};
-use crate::task::{FailedStepReport, TaskAnswer, TaskMotion, step_reports};
-use crate::{Answer, GridSpace};
 use cplan_core::model::{Joint, MotionProblem};
 use cplan_handling::Task;
-use cplan_motion::{Blends, Optimum, Trajectory, interpolation, line_a_field};
+use cplan_motion::{Blends, Trajectory, interpolation, line_a_field};
 use cplan_robot::AssumedLimits;
+use cplan_solver::{Answer, GridSpace};
+use cplan_tasks::{TaskAnswer, TaskMotion};
 use serde::Serialize;
 use serde::ser::{SerializeMap, Serializer};
 use serde_json::value::RawValue;
@@ -130,7 +131,7 @@ impl PlanResult<'_> {
         let free = free_joints(problem);
         fields.some("free_joints", Some(free).filter(|joints| !joints.is_empty()))?;
         fields.put("length", &plan.length())?;
-        fields.some("optimum", plan.bound().map(Optimum::from))?;
+        fields.some("optimum", plan.bound().map(optimum))?;
         fields.some("fastest", motion.and_then(|motion| motion.fastest))?;
         fields.some("moving", plan.timing())?;
         fields.put("certified", &motion.is_some())?;

@@ -2,16 +2,22 @@
 
 mod files;
 mod json;
+mod messages;
+mod step_report;
 
-use super::moving::Timing;
+pub use messages::MessageError;
+pub(crate) use messages::Messages;
+pub(crate) use step_report::{StepReport, step_reports};
+
 use super::plan::{Detail, Plan};
-use super::task::FailedStep;
-use super::{Bound, Planner, Setting, Settings};
 use cplan_core::model::Status;
 use cplan_core::planner::VisibilityGraph;
 use cplan_core::space::{Metric, Path};
 use cplan_handling::Task;
 use cplan_motion::{Optimum, SearchUsed, Trajectory};
+use cplan_movers::Timing;
+use cplan_solver::{Bound, Planner, Setting, Settings};
+use cplan_tasks::FailedStep;
 
 impl Plan {
     /// Returns why there is no motion, or why none is known; none if there is one.
@@ -118,15 +124,14 @@ pub(super) fn finite(value: f64) -> Option<f64> {
     value.is_finite().then_some(value)
 }
 
-impl From<Bound> for Optimum {
-    fn from(bound: Bound) -> Self {
-        let (metric, weights) = match bound.metric {
-            Metric::Euclidean => ("euclidean", None),
-            Metric::Weighted { weights } => ("weighted", Some(weights)),
-            Metric::Time { .. } => ("time", None),
-        };
-        Self { metric, weights, length: bound.upper, lower_bound: bound.lower, gap: finite(bound.gap()) }
-    }
+/// A bound as the result has it.
+fn optimum(bound: Bound) -> Optimum {
+    let (metric, weights) = match bound.metric {
+        Metric::Euclidean => ("euclidean", None),
+        Metric::Weighted { weights } => ("weighted", Some(weights)),
+        Metric::Time { .. } => ("time", None),
+    };
+    Optimum { metric, weights, length: bound.upper, lower_bound: bound.lower, gap: finite(bound.gap()) }
 }
 
 /// How a planner searches its grid, or its roadmap if that is not by the usual search.

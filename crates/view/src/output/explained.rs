@@ -4,11 +4,11 @@ use super::picture::{contours, title_of};
 use super::summary::{Line, configuration, goal_lines, laid_out};
 use crate::{Picture, Stuck, View};
 use cplan_core::model::{Outcome, Scene};
-use cplan_engine::BoundedPath;
-use cplan_engine::explain::{
+use cplan_explain::{
     Among, BlockedEnd, BlockingSet, Bottleneck, Change, Closed, Cure, Element, End, Explanation, OutOfReach, Shaped,
     TIME_LIMIT, Target,
 };
+use cplan_solver::BoundedPath;
 use cplan_text::{at_least, at_most, fixed, listed, nonzero, percent, short};
 
 /// Factor by which more time is suggested for an explanation that was stopped.

@@ -4,10 +4,12 @@ use super::summary::{Line, Told, configuration, field, goal_lines, non_empty, to
 use cplan_core::model::{Arm, MotionProblem, Outcome, Scene};
 use cplan_core::planner::Proposal;
 use cplan_core::space::{Configuration, Metric};
-use cplan_engine::explain::{BlockingSet, Question, blocking_set};
-use cplan_engine::{Answer, Bound, GridSpace, Motion, Plan, Space, Timing, Wait};
+use cplan_engine::{Motion, Plan};
+use cplan_explain::{BlockingSet, Question, blocking_set};
 use cplan_motion::CertifiedCurve;
 use cplan_motion::{Fastest, Timed};
+use cplan_movers::{Timing, Wait};
+use cplan_solver::{Answer, Bound, GridSpace, Space};
 use cplan_text::{at_least, counted, percent};
 
 /// What the planner found and did; start and goals.

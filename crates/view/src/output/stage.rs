@@ -3,11 +3,11 @@
 use crate::color::{GREY, INK, Rgb, obstacle as obstacle_color};
 use cplan_core::model::{Mover, Obstacle, Part, Workspace};
 use cplan_core::space::Configuration;
-use cplan_engine::task::{Event, Leg, TaskAnswer};
 use cplan_engine::{Detail, Plan};
 use cplan_geometry::Pose;
 use cplan_handling::Task;
 use cplan_motion::{Body, Solid, Stage};
+use cplan_tasks::{Event, Leg, TaskAnswer};
 
 /// Number of the first link (`LINKS`) and of the first object (`OBJECTS`) among the bodies. The workspace has number 0.
 const LINKS: usize = 1;

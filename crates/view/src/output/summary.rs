@@ -3,8 +3,9 @@
 use super::{motion_summary, task_summary};
 use cplan_core::model::{Arm, Joint};
 use cplan_core::space::{Configuration, GoalSet, JointRange, Segment};
-use cplan_engine::{Detail, Options, Plan};
+use cplan_engine::{Detail, Plan};
 use cplan_motion::Trajectory;
+use cplan_solver::Options;
 use cplan_text::{Columns, first_lines};
 use std::time::Duration;
 

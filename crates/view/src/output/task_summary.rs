@@ -5,8 +5,8 @@ use super::step_lines::{StepLine, step_lines};
 use super::summary::{Line, Told, configuration, field, non_empty, torque};
 use cplan_core::model::{Arm, Outcome};
 use cplan_engine::Plan;
-use cplan_engine::task::{FailedStep, Leg, TaskAnswer, TaskMotion};
 use cplan_handling::Task;
+use cplan_tasks::{FailedStep, Leg, TaskAnswer, TaskMotion};
 use cplan_text::{at_least, counted, nonzero, percent};
 
 /// What came of the steps; start and steps.

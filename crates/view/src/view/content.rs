@@ -11,7 +11,7 @@ use crate::flow::FieldLines;
 use crate::stuck::Stuck;
 use cplan_core::model::{Arm, Status};
 use cplan_core::space::Configuration;
-use cplan_engine::Reach;
+use cplan_explain::Reach;
 use serde::{Serialize, Serializer};
 
 /// How what is shown ended, for colours and symbols; `shown` where nothing was asked for: a comparison, a configuration.

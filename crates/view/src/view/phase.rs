@@ -27,7 +27,7 @@ pub struct PhaseView {
     pub shows: ShowsView,
 }
 
-/// What a phase shows: see [`Shows`](cplan_engine::Shows).
+/// What a phase shows: see [`Shows`](cplan_solver::Shows).
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(tag = "kind", rename_all = "lowercase")]
 pub enum ShowsView {

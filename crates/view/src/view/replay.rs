@@ -7,8 +7,8 @@ use super::trace::TraceView;
 use super::waves::{self, Waves};
 use super::world::WorldView;
 use cplan_core::space::{Configuration, Topology};
-use cplan_engine::task::TaskReplay;
-use cplan_engine::{Phase, Replay, Shows, SlabBoxes, Sweeps};
+use cplan_solver::{Phase, Replay, Shows, SlabBoxes, Sweeps};
+use cplan_tasks::TaskReplay;
 
 /// Shortest and longest time of a phase, in seconds; in between, `A_ROOT` times the square root of the number of its
 /// events.

@@ -2,7 +2,7 @@
 
 use super::steps::Order;
 use cplan_core::space::{Configuration, Topology};
-use cplan_engine::task::Leg;
+use cplan_tasks::Leg;
 use std::sync::Arc;
 
 /// Configurations nearer than this look the same, in radians or metres. It covers rounding.

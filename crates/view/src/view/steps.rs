@@ -3,8 +3,8 @@
 use super::task_picture::TaskPicture;
 use crate::color::{BARRED, GREY, INK, Rgb};
 use cplan_core::model::Outcome;
-use cplan_engine::task::{Leg, TaskAnswer};
 use cplan_handling::{Object, Step};
+use cplan_tasks::{Leg, TaskAnswer};
 
 /// Largest number of rows that are shown.
 const MOST: usize = 26;

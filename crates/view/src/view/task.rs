@@ -11,9 +11,9 @@ use super::task_picture::TaskPicture;
 use super::world::{ContourView, ObstacleView, WorldView, contours};
 use crate::{FieldLines, color};
 use cplan_core::model::{Obstacle, Scene};
-use cplan_engine::task::{Event, FailedStep, Leg, Sequence};
 use cplan_geometry::Pose;
 use cplan_handling::{Object, Task};
+use cplan_tasks::{Event, FailedStep, Leg, Sequence};
 use std::sync::Arc;
 
 /// Poses nearer than this look the same, in metres or radians. It covers rounding.

@@ -2,8 +2,8 @@
 
 use cplan_core::cspace::CObstacle;
 use cplan_core::model::{Scene, Status};
-use cplan_engine::task::TaskAnswer;
 use cplan_handling::Task;
+use cplan_tasks::TaskAnswer;
 
 /// C-obstacles at some times.
 pub type Moments = Vec<(f64, Vec<CObstacle>)>;

@@ -3,7 +3,7 @@
 use super::Values;
 use cplan_core::cspace::Proves;
 use cplan_core::space::Configuration;
-use cplan_engine::Space;
+use cplan_solver::Space;
 use schemars::JsonSchema;
 use serde::{Serialize, Serializer};
 use std::collections::HashMap;

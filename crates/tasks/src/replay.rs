@@ -2,9 +2,9 @@
 
 use super::answer::{Leg, TaskAnswer};
 use super::legs::{of_legs, planned_again};
-use crate::{Options, Phase, Replay, Shows};
 use cplan_core::planner::Trace;
 use cplan_handling::Task;
+use cplan_solver::{Options, Phase, Replay, Shows};
 use std::sync::Arc;
 
 /// How the planner came to the motions of a task. Those that are repeated are told once.
@@ -68,18 +68,20 @@ impl MotionReplay {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Plan, Problem, plan};
+    use crate::plan;
     use cplan_core::model::Outcome;
     use cplan_robot::Source;
     use cplan_world::{Overrides, scene_from};
 
-    fn planned(urdf: &str, world: &str, options: &Options) -> Plan {
+    fn planned(urdf: &str, world: &str, options: &Options) -> (Task, TaskAnswer) {
         let read = |file: &str| {
             let path = std::path::Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join(file);
             Source::read(&path).unwrap()
         };
         let scene = scene_from(read(urdf), read(world)).unwrap();
-        plan(&Problem::of_scene(scene, &Overrides::default()).unwrap(), options).unwrap()
+        let task = scene.task(&Overrides::default()).unwrap().task;
+        let answer = plan(&task, options, &mut |_| ());
+        (task, answer)
     }
 
     /// Each motion is planned again as it was: the path is the same one, to the last digits of where it ends.
@@ -92,8 +94,7 @@ mod tests {
             ("robots/rail_arm.urdf", "workspaces/tasks/sorting.toml"),
         ] {
             let options = Options::default();
-            let plan = planned(urdf, world, &options);
-            let (task, answer) = plan.task().unwrap();
+            let (task, answer) = planned(urdf, world, &options);
             for leg in &answer.legs {
                 let path = leg.timed.curve.curve().path();
                 let ends = [path.start(), task.arm.topology().wrap(path.goal())];
@@ -109,7 +110,7 @@ mod tests {
                 assert_eq!(told.len(), real.len(), "{world}, step {}", leg.step.number);
                 assert!(told.iter().zip(real).all(|(a, b)| (a - b).norm() < 1e-9), "{world}, step {}", leg.step.number);
             }
-            let replay = plan.task_replay().unwrap();
+            let replay = TaskReplay::new(&task, &options, &answer);
             assert_eq!(replay.legs.len(), answer.legs.len());
             assert!(replay.legs.iter().all(|&told| told < replay.motions.len()));
             assert!(replay.motions.iter().all(|told| told.replay.phases.last().unwrap().shows == Shows::Path));

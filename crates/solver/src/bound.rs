@@ -24,6 +24,13 @@ impl Bound {
     pub fn gap(&self) -> f64 {
         if self.upper <= self.lower { 0.0 } else { self.upper / self.lower - 1.0 }
     }
+
+    /// Finds anew what closes ways that are shorter than was stated.
+    #[must_use]
+    pub fn evidence(&self, problem: &MotionProblem) -> BoundEvidence {
+        let gap = (self.gap() * FINER).clamp(LEAST_GAP, 1.0);
+        bound_evidence(&motions(problem, self.metric), self.upper.max(self.lower), gap)
+    }
 }
 
 /// A bound for `path`; see [`least_length`], and of gantries [`inner_regions`]. It is made better until the gap is known to be
@@ -65,12 +72,6 @@ fn past_polygons(motions: &Motions, gap: f64) -> Option<f64> {
     let run = planner.query(&space, &map, &Query { start, goals: goals.clone() });
     let Proposal::Found(path) = run.outcome else { return None };
     Some(metric.length(&path) * (1.0 - ROUNDING))
-}
-
-/// Finds anew what closes ways that are shorter than was stated.
-pub(super) fn evidence(motions: &Motions, stated: &Bound) -> BoundEvidence {
-    let gap = (stated.gap() * FINER).clamp(LEAST_GAP, 1.0);
-    bound_evidence(motions, stated.upper.max(stated.lower), gap)
 }
 
 /// Share of the stated gap that the evidence may leave open: it is found in another way than the bound was, from fewer slices that

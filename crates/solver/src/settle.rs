@@ -16,7 +16,7 @@ const AT_FIRST: [usize; 2] = [1000, 4000];
 
 /// A proof of more boxes than this is large: where slabs have only such a one, boxes that are halved need fewer, as where obstacles overlap little all
 /// along a slanted line, which slabs tile with boxes as narrow as themselves.
-pub(super) const LARGE_PROOF: usize = 10_000;
+pub const LARGE_PROOF: usize = 10_000;
 
 /// Boxes of a proof at most, where no smaller one is found.
 const LARGEST_PROOF: usize = 200_000;

@@ -43,7 +43,6 @@
 mod among_movers;
 mod answer;
 mod failed_step;
-mod joints;
 mod legs;
 mod least_time;
 mod order;
@@ -55,16 +54,12 @@ mod ik_solutions;
 mod search;
 mod sequence;
 mod state;
-mod step_report;
 mod stroke;
 
 pub use answer::{Event, Leg, TaskAnswer, TaskMotion};
 pub use failed_step::{FailedStep, RefusedIkSolution};
-pub use joints::MessageError;
-pub(super) use joints::Messages;
 pub use least_time::rest_to_rest;
 pub use plan::plan;
 pub use replay::{MotionReplay, TaskReplay};
 pub use sequence::Sequence;
-pub(super) use step_report::{FailedStepReport, StepReport, step_reports};
 pub use stroke::ToolStroke;

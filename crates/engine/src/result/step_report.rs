@@ -1,14 +1,11 @@
 //! The steps of a task as its result has them in JSON.
 
-use super::answer::{Event, Leg, TaskAnswer};
-use super::failed_step::{FailedStep, RefusedIkSolution};
-use super::sequence::Sequence;
-use super::stroke::ToolStroke;
-use crate::result::finite;
+use super::finite;
 use cplan_core::check::CheckedProof;
 use cplan_handling::{Action, Task};
 use cplan_motion::Blends;
 use cplan_motion::recorded::WristTurn;
+use cplan_tasks::{Event, FailedStep, Leg, RefusedIkSolution, Sequence, TaskAnswer, ToolStroke};
 use serde::Serialize;
 use std::borrow::Cow;
 

@@ -1,11 +1,11 @@
 //! Where the tip can get, with which solutions of the inverse kinematics, from a home configuration: certified, or proven impossible.
 
-use super::settle::decide;
 use cplan_core::check::certify;
 use cplan_core::model::{Arm, MotionProblem, Outcome, Scene, inverse};
 use cplan_core::space::{Configuration, GoalSet, Measure, Metric, Path, Segment};
 use cplan_geometry::Point;
 use cplan_interrupt::checkpoint;
+use cplan_solver::decide;
 use petgraph::unionfind::UnionFind;
 use serde::{Serialize, Serializer};
 

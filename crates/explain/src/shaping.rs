@@ -2,8 +2,8 @@
 
 use super::element::Element;
 use super::question::Question;
-use crate::{Answer, Bound, Options, solve};
 use cplan_interrupt::checkpoint;
+use cplan_solver::{Answer, Bound, Options, solve};
 
 /// What makes the shortest path longer.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,12 +1,12 @@
 //! What is asked, also where start or goal is not free, and the same with less in the way.
 
 use super::element::{Element, Side, widened};
-use crate::decide;
 use cplan_core::check::{CertifiedPath, CheckedProof};
 use cplan_core::model::{Arm, Goal, JointType, MotionProblem, Outcome, Scene, Workspace, area_goals, inverse};
 use cplan_core::space::{Configuration, GoalSet, Segment};
 use cplan_geometry::{Convex, Point};
 use cplan_interrupt::{Instant, Interrupt};
+use cplan_solver::decide;
 use std::f64::consts::TAU;
 use std::time::Duration;
 

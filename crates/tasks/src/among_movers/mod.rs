@@ -18,15 +18,14 @@ use super::heuristic::Heuristic;
 use super::legs::{Legs, Refusal, of_legs, unobstructed};
 use super::sequence::Sequence;
 use super::state::State;
-use crate::Options;
-use crate::moving::{Demand, InTime, Movers, Timing, Wait, in_time, stands};
-use crate::result::finite;
 use cplan_core::check::Posture;
 use cplan_core::model::{MotionProblem, Outcome};
 use cplan_geometry::Ordered;
 use cplan_handling::{Action, Item, Step, Task};
 use cplan_interrupt::checkpoint;
 use cplan_motion::{Limits, Timed, after_pause, nanoseconds, not_before, seconds};
+use cplan_movers::{Demand, InTime, Movers, Timing, Wait, in_time, stands};
+use cplan_solver::Options;
 use passing::passages;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -413,7 +412,7 @@ impl<'a> Search<'a> {
             event: candidate.event,
             begin: time,
         };
-        let clearance = figures.clearance.into_iter().chain(finite(kept)).reduce(f64::min);
+        let clearance = figures.clearance.into_iter().chain(kept.is_finite().then_some(kept)).reduce(f64::min);
         let timing = Timing { clearance, ..figures };
         Ok((Done { leg, timing }, state.after(task, candidate, q), after_pause(arrival, step.dwell)))
     }
@@ -461,7 +460,7 @@ impl<'a> Search<'a> {
         let scene = state.scene(self.task, released).since(node.seconds);
         let movers = Movers::new(&scene, scene.workspace().clearance);
         let safe = movers.safe_intervals(&Posture::new(&scene, state.q));
-        safe.first().and_then(|[_, until]| finite(*until)).map(|until| node.seconds + until)
+        safe.first().filter(|[_, until]| until.is_finite()).map(|[_, until]| node.seconds + until)
     }
 
     /// Why no more can be done than the steps to a node.

@@ -1,11 +1,12 @@
-//! Why there is no motion, and what opens a way; and of a motion that there is, what shapes it.
+//! Why there is no motion, and what opens a way; and of a motion that there is, what shapes it ([`explain`]). And where the tip can get to
+//! at all ([`reach`]).
 //!
 //! ```
-//! use cplan_engine::explain::{Question, explain};
+//! use cplan_explain::{Question, explain};
 //! use cplan_core::model::{Arm, Joint, Obstacle, Outcome, Scene, Workspace};
 //! use cplan_core::space::{Configuration, GoalSet};
 //! use cplan_core::model::Status;
-//! use cplan_engine::Options;
+//! use cplan_solver::Options;
 //!
 //! // A post in the way of the first link, and one far away that does no harm.
 //! let posts = [Obstacle::circle("far", [5.0, 0.0], 0.1)?, Obstacle::circle("near", [0.4, 0.0], 0.1)?];
@@ -28,6 +29,7 @@ mod ends;
 mod explanation;
 mod json;
 mod question;
+mod reach;
 mod shaping;
 mod threshold;
 
@@ -38,5 +40,6 @@ pub use element::{Element, Side};
 pub use ends::{BlockedEnd, End, OutOfReach, blocked_ends};
 pub use explanation::{Closed, Explanation, Shaped, explain};
 pub use question::{HARDLY_ANY, Question, TIME_LIMIT, Target};
+pub use reach::{Access, MOST_PLACES, Reach, Solution, reach};
 pub use shaping::{Saving, savings};
 pub use threshold::Threshold;

@@ -4,13 +4,13 @@ use super::super::least_time::least_time;
 use super::super::legs::Refusal;
 use super::super::state::{Candidate, State};
 use super::passing::{Passage, passages};
-use crate::moving::Movers;
 use cplan_core::check::Posture;
 use cplan_core::model::Scene;
 use cplan_core::space::Configuration;
 use cplan_geometry::Interval;
 use cplan_handling::{Action, Step, Task};
 use cplan_motion::{SHORTEST_INTERVAL, nanoseconds, nearest_within, not_after, not_before, seconds};
+use cplan_movers::Movers;
 
 /// Stretches of time in which a motion is to arrive, for each IK solution.
 const MOST_ARRIVALS: usize = 3;

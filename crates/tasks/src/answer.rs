@@ -3,14 +3,13 @@
 use super::failed_step::FailedStep;
 use super::sequence::Sequence;
 use super::stroke::ToolStroke;
-use crate::Timing;
-use crate::result::finite;
 use cplan_core::model::{Outcome, Scene};
 use cplan_core::space::Path;
 use cplan_geometry::Pose;
 use cplan_handling::Step;
 use cplan_motion::Timed;
 use cplan_motion::recorded::WristTurn;
+use cplan_movers::Timing;
 use std::sync::Arc;
 
 /// What happens at the end of a step's motion.
@@ -183,7 +182,8 @@ impl TaskAnswer {
     #[must_use]
     pub fn gap(&self) -> Option<f64> {
         let (seconds, least) = (self.outcome.found()?.seconds(), self.least_seconds());
-        finite(if seconds == least { 0.0 } else { seconds / least - 1.0 })
+        let gap = if seconds == least { 0.0 } else { seconds / least - 1.0 };
+        gap.is_finite().then_some(gap)
     }
 
     /// Seconds from the beginning to the end of the last step.

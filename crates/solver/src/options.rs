@@ -1,7 +1,6 @@
 //! What is asked for: a planner with options of its own, how to drive, and what files hold.
 
-use super::{Method, Planner, Problem};
-use cplan_core::cspace::has_exact_polygons;
+use super::{Method, Planner};
 use cplan_core::model::{Arm, Joint};
 use cplan_dynamics::keep_efforts;
 use cplan_motion::{Drive, SHORTEST_INTERVAL};
@@ -25,7 +24,7 @@ pub enum NamedJoints {
 /// What is asked for beside the problem.
 ///
 /// ```
-/// use cplan_engine::{Method, Options, Planner};
+/// use cplan_solver::{Method, Options, Planner};
 ///
 /// let options = Options { planner: Planner::named(Method::First), ..Options::default() };
 /// assert_eq!(options.levels, Options::default().levels);
@@ -91,22 +90,6 @@ impl Options {
         if self.drive.torque || arm.dynamics.is_some_and(|dynamics| dynamics.limits) {
             keep_efforts(arm);
         }
-    }
-
-    /// What they ask of a robot that its file does not say.
-    pub fn lack(&self, problem: &Problem) -> Option<String> {
-        if self.planner.is_exact() && !has_exact_polygons(problem.scene()) {
-            let kind = problem.scene().arm().kind();
-            return Some(format!(
-                "--margin 0 takes C-obstacles that are polygons, as gantries (PP) have them: this arm ({kind}) turns, or slides in one \
-                 direction; use a small margin, such as --margin 1e-5"
-            ));
-        }
-        if !self.drive.torque || problem.scene().arm().dynamics.is_some() {
-            return None;
-        }
-        let why = problem.robot().no_dynamics.as_deref().unwrap_or("the arm has none of them");
-        Some(format!("--torque takes masses, inertias and efforts: {why}"))
     }
 
     /// What makes no sense, by name. `has_steps` says whether they are for a sequence of steps.

@@ -8,9 +8,9 @@ use super::heuristic::Heuristic;
 use super::legs::Legs;
 use super::plan::{Found, limits};
 use super::search::{Ending, Search};
-use crate::Options;
 use cplan_core::model::{Outcome, Shape};
 use cplan_handling::{Action, Item, Task};
+use cplan_solver::Options;
 use std::collections::BTreeSet;
 
 /// Motions that are planned for one part.

@@ -10,9 +10,9 @@ use super::part;
 use super::search::{Ending, Limits, Search};
 use super::sequence::Sequence;
 use super::state::State;
-use crate::Options;
 use cplan_core::model::Outcome;
 use cplan_handling::{Item, Task};
+use cplan_solver::Options;
 use std::collections::BTreeSet;
 
 /// Motions that are planned, and nodes that are expanded, while a search insists on the fastest choice where the order is

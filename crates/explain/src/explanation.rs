@@ -6,9 +6,9 @@ use super::change::{Among, Change, changes};
 use super::ends::{BlockedEnd, OutOfReach, blocked_ends};
 use super::question::Question;
 use super::shaping::{Saving, savings};
-use crate::{Options, Unknown, solve};
 use cplan_core::check::CheckedProof;
 use cplan_core::model::{Outcome, Status};
+use cplan_solver::{Answer, Options, Unknown, solve};
 
 /// Boxes that are looked at for each of the many decisions.
 const BOXES: usize = 20_000;
@@ -31,7 +31,7 @@ pub struct Explanation {
 #[derive(Debug, Clone)]
 pub struct Shaped {
     /// The shortest path, and how it was found.
-    pub answer: Box<crate::Answer>,
+    pub answer: Box<Answer>,
     /// What it would be shorter without, the greatest savings first.
     pub savings: Vec<Saving>,
 }

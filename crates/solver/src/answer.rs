@@ -9,8 +9,8 @@ use std::borrow::Cow;
 use std::cmp::Ordering;
 use std::fmt;
 
-/// The outcome of a single motion, and how the planner came to it. [`solve`](super::solve) finds a path (`F`),
-/// [`plan`](super::plan()) the motion along it.
+/// The outcome of a single motion, and how the planner came to it. [`solve`](super::solve) finds a path (`F`);
+/// the crate `engine` puts the motion along it in its place.
 #[derive(Debug, Clone)]
 pub struct Answer<F = BoundedPath> {
     /// The planner that was asked.
@@ -62,7 +62,8 @@ impl BoundedPath {
     }
 
     /// Returns another path for the same problem, with the same lower bound.
-    pub(super) fn replaced_by(&self, certified: CertifiedPath) -> Self {
+    #[must_use]
+    pub fn replaced_by(&self, certified: CertifiedPath) -> Self {
         let bound = self.bound.map(|bound| Bound { upper: bound.metric.length(certified.path()), ..bound });
         Self { certified, bound }
     }

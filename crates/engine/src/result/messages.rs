@@ -4,12 +4,11 @@
 //! is named keeps the orientation of level payloads, against that of link 2; with an empty hand it goes back to its rest as far
 //! as its limits allow on the way.
 
-use super::answer::{Event, Leg};
-use super::sequence::Sequence;
 use cplan_core::model::JointType;
 use cplan_core::space::JointRange;
 use cplan_handling::{Driver, Drives, Holding, RobotJoint, RobotJoints, Task, ToolJoint, Wrist};
 use cplan_motion::{AccelerationJump, JointMotion, nanoseconds, seconds, single, whole_nanoseconds};
+use cplan_tasks::{Event, Leg, Sequence};
 use thiserror::Error;
 
 /// Why messages cannot name all joints as asked.

@@ -3,8 +3,6 @@
 use super::least_time::rest_to_rest;
 use super::state::{Candidate, Held, State};
 use super::stroke::{ToolStroke, stroke};
-use crate::settle::LARGE_PROOF;
-use crate::{Answer, BoundedPath, Options, Unknown, solve};
 use cplan_core::check::{CertifiedPath, CheckedProof, certify};
 use cplan_core::model::{Grip, MotionProblem, Outcome, Scene};
 use cplan_core::space::{Configuration, Path};
@@ -13,6 +11,7 @@ use cplan_handling::{Step, Task};
 use cplan_motion::recorded::{WristTurn, wrist_turn};
 use cplan_motion::{Timed, TorqueLimit, single};
 use cplan_proofs::{Connectivity, slab_connectivity};
+use cplan_solver::{Answer, BoundedPath, LARGE_PROOF, Options, Unknown, solve};
 use cplan_text::{counted, listed};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;

@@ -12,20 +12,19 @@ mod departures;
 mod refutation;
 mod schedule;
 
-pub(super) use blocked::Movers;
-pub use schedule::{Demand, Scheduled, Wait};
+pub use blocked::Movers;
+pub use schedule::{Demand, Wait};
 
-use super::options::Options;
-use super::solve;
 use cplan_core::check::{CertifiedPath, Nearest, certify};
 use cplan_core::model::{MotionProblem, Outcome, Scene};
 use cplan_core::space::{Configuration, GoalSet, Segment};
 use cplan_handling::{Interpolation, Recording};
 use cplan_motion::recorded::{CollisionCheck, certify_in_time, met_in_time};
 use cplan_motion::{Limits, Timed, TimingError, Trajectory};
+use cplan_solver::{Options, solve};
 use cplan_text::counted;
 use refutation::no_timing;
-use schedule::{Effort, schedule};
+use schedule::{Effort, Scheduled, schedule};
 use serde::Serialize;
 
 /// Ways that are tried: the planner's, and others around what is met on those before.

@@ -250,7 +250,7 @@ impl<'a> Movers<'a> {
     }
 
     /// All that can meet, at all times.
-    pub fn meetings(&self) -> &[Meeting] {
+    pub(crate) fn meetings(&self) -> &[Meeting] {
         &self.meetings
     }
 
@@ -259,7 +259,7 @@ impl<'a> Movers<'a> {
     ///
     /// A shape that slides past another one, grown by how far the arm's part moves, meets it for one interval of time, in closed form
     /// ([`sliding`]); where it turns, time is halved.
-    pub fn near(&self, around: &Around, meeting: Meeting, out: &mut Vec<Interval>) -> bool {
+    pub(crate) fn near(&self, around: &Around, meeting: Meeting, out: &mut Vec<Interval>) -> bool {
         let (stretch, before) = (&self.stretches[meeting.stretch], out.len());
         let Stretch { leg, piece, slide, .. } = stretch;
         let [earliest, latest] = meeting.within;
@@ -289,7 +289,7 @@ impl<'a> Movers<'a> {
     /// ends are known to so many seconds.
     ///
     /// The part is to be deeper than it moves.
-    pub fn met(&self, around: &Around, meeting: Meeting, shortest: f64, out: &mut Vec<Interval>) {
+    pub(crate) fn met(&self, around: &Around, meeting: Meeting, shortest: f64, out: &mut Vec<Interval>) {
         let stretch = &self.stretches[meeting.stretch];
         let Stretch { leg, piece, slide, .. } = stretch;
         if stretch.is_beyond(around.disc, self.clearance, meeting.within) {
@@ -329,7 +329,7 @@ impl<'a> Movers<'a> {
     }
 
     /// Whether nothing that moves is ever nearer to the arm at a posture than the clearance.
-    pub fn is_calm(&self, posture: &Posture) -> bool {
+    pub(crate) fn is_calm(&self, posture: &Posture) -> bool {
         let (mut near, mut known) = (Vec::new(), None);
         let mut meetings = self.meetings.iter();
         meetings.all(|&meeting| !self.near(Around::of(&mut known, self, posture, STILL, meeting), meeting, &mut near))
