@@ -1,4 +1,4 @@
-//! The lower bound of a result, with what a checker needs to see it.
+//! The lower bound of a result, with the evidence that a checker needs.
 
 use super::bound::{LeastLength, Potential, Ways};
 use super::contacts::Contacts;
@@ -12,10 +12,10 @@ use cplan_proofs::ClosedSegment;
 use cplan_world::Overrides;
 use serde_json::json;
 
-/// That no motion is shorter than a length, which is the bound of a result up to a hair.
+/// Evidence that no motion is shorter than a length. The length is the bound of a result, up to a small tolerance.
 ///
-/// It is about motions to one configuration, or to wherever the tip is at the place that was asked for. Then there are boxes about those of
-/// these configurations that are not free.
+/// The motions lead to one configuration, or to any configuration that puts the tip at the requested place. In the
+/// latter case, boxes cover the configurations that are not free.
 pub(super) struct LowerBound {
     least: LeastLength,
     metric: Metric,
@@ -24,7 +24,8 @@ pub(super) struct LowerBound {
 }
 
 impl LowerBound {
-    /// Finds the evidence anew. None if goals are a curve, or not told from what is beside them.
+    /// Computes the evidence again. `None` if the goals form a curve, or if a checker could not separate them from
+    /// neighbouring configurations.
     pub fn of(problem: &MotionProblem, stated: &Bound, asked: &Overrides, care: &Care) -> Option<Self> {
         let motions = motions(problem, stated.metric);
         let topology = problem.scene().arm().topology();
@@ -49,17 +50,17 @@ impl LowerBound {
         Some(Self { least, metric: stated.metric, to, boxes })
     }
 
-    /// The length.
+    /// Returns the length.
     pub fn length(&self) -> f64 {
         self.least.length
     }
 
-    /// The number of walls that bar shorter ways.
+    /// Returns the number of walls that bar shorter paths.
     pub fn walls(&self) -> usize {
         self.least.walls.len()
     }
 
-    /// The members of a certificate that show it.
+    /// Returns the members of a certificate that prove the bound.
     pub fn evidence(&self, contacts: &mut Contacts) -> Evidence {
         let wall = |wall: &ClosedSegment| {
             let (shape, part) = contacts.numbers(wall.pair);
@@ -86,34 +87,36 @@ impl LowerBound {
     }
 }
 
-/// How closely walls are looked at.
+/// How closely walls are examined.
 pub(super) struct Care {
-    /// Looks along a wall in either direction, where a checker is to look as well that takes longer: as many as do for most, and then more ...
+    /// Numbers of samples along a wall in either direction. The checker examines them as well, and takes longer. The
+    /// first number suffices for most walls; the next ones are used ...
     looks: &'static [usize],
-    /// ... if the bound loses more than this share. Where shapes come apart slowly, as in a slot, walls end too early.
+    /// ... if the bound loses more than this share. Where shapes separate slowly, as in a slot, walls end too early.
     loss: f64,
 }
 
 impl Care {
-    /// For certificates, which are to be small and soon checked.
+    /// For certificates, which must be small and quick to check.
     pub const USUAL: Self = Self { looks: &[60, 300], loss: 1e-3 };
 
-    /// For bounds that are to be seen whole.
+    /// For bounds that must be proven in full.
     pub const CLOSE: Self = Self { looks: &[60, 300, 2000], loss: 1e-7 };
 }
 
-/// Where a bound leads to.
+/// Where the motions of a bound lead.
 struct Ends {
-    /// One configuration, if it is about that; or else the goal, wherever the tip is at the place.
+    /// The goal configuration, if there is only one. `None` if the goal is a place of the tip.
     to: Option<Configuration>,
-    /// All that may count as goals.
+    /// All configurations that may count as goals.
     goals: Vec<Configuration>,
-    /// About those that are none.
+    /// Boxes around solutions that are not goals.
     boxes: Vec<StuckBox>,
 }
 
 impl Ends {
-    /// None where goals are a curve, or not told from what is beside them.
+    /// Collects the goals. `None` if they form a curve, or if a checker could not separate them from neighbouring
+    /// configurations.
     fn of(problem: &MotionProblem, asked: &Overrides) -> Option<Self> {
         let (arm, pieces) = (problem.scene().arm(), problem.goals().pieces());
         let topology = arm.topology();
@@ -125,7 +128,7 @@ impl Ends {
             return Some(Self { to: Some(*goal), goals, boxes: Vec::new() });
         }
         let solved = inverse(arm, arm.tip_at(*goals.first()?), problem.start());
-        // All of them share the parts that a checker looks at: those on other turns, too.
+        // All solutions share the parts that a checker examines, including solutions on other turns.
         let least = STRETCHED * solved.solutions(arm).len().max(1) as f64;
         if solved.free.is_some() || solved.branches.iter().any(|q| tells_apart(arm, *q) <= least) {
             return None;
@@ -135,16 +138,16 @@ impl Ends {
     }
 }
 
-/// What a checker leaves open of where the tip is at a place, as a share of the way: it looks for these configurations itself, down to a
-/// part in 10^12 of the joints' ranges.
+/// Tolerance of a checker for the place of the tip, as a share of the path length. The checker finds these
+/// configurations itself, down to 10^-12 of the joints' ranges.
 const ABOUT_A_GOAL: f64 = 1e-6;
 
-/// Where [`tells_apart`] is less, a checker does not tell configurations that put the tip at a place from those beside them, as it cuts both
-/// joints' ranges in equal shares.
+/// Below this value of [`tells_apart`], a checker cannot separate configurations that put the tip at a place from their
+/// neighbours, because it divides both joints' ranges into equal shares.
 const STRETCHED: f64 = 0.012;
 
-/// The area between the ways in which the joints move the tip, as a share of the square of both together: at most a quarter, and nothing where
-/// the arm is stretched or folded.
+/// Computes the area spanned by the two directions in which the joints move the tip, divided by the square of the sum
+/// of their lengths. At most a quarter; zero if the arm is stretched or folded.
 fn tells_apart(arm: &Arm, q: Configuration) -> f64 {
     const STEP: f64 = 1e-6;
     let ranges = arm.topology().ranges;
