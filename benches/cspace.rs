@@ -1,4 +1,4 @@
-//! Configuration space from slices beside the same by parry2d's collision tests.
+//! Configuration space from slices, compared with parry2d's collision tests.
 
 #[path = "../tests/common/mod.rs"]
 mod common;

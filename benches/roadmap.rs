@@ -21,7 +21,7 @@ const SIZES: [usize; 5] = [100, 1_000, 10_000, 20_000, 50_000];
 /// Largest number of corners for the naive graph.
 const NAIVE: usize = 1_000;
 
-/// Queries between free places all over the window.
+/// Number of queries between free places in the window.
 fn queries(regions: &Regions) -> Vec<Query> {
     let (mut random, planner) = (Dice::new(7), Trapezoid::default());
     let map = planner.build(regions);

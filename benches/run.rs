@@ -6,7 +6,7 @@ use cplan::{Options, Problem, Status, plan};
 use criterion::{Criterion, criterion_group, criterion_main};
 use std::path::Path;
 
-/// Does the same as `cplan URDF WORLD --output FILE`.
+/// Runs the same steps as `cplan URDF WORLD --output FILE`.
 fn run(urdf: &Path, world: &Path, output: &Path, options: &Options) {
     let problem = Problem::load(urdf, world).expect("a shipped workspace");
     let plan = plan(&problem, options).expect("options that make sense");

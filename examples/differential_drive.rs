@@ -1,11 +1,11 @@
-//! A robot with two driven wheels follows a plan by the controllers of the literature: from waypoint to waypoint, and along the cells of a
-//! wavefront and of A\*; and it goes without a plan.
+//! A robot with two driven wheels follows a plan by the controllers of the literature: from waypoint to waypoint, and
+//! along the cells of a wavefront and of A\*. It also drives without a plan.
 //!
 //! ```text
 //! cargo run --example differential_drive [-- FOLDER]
 //! ```
 //!
-//! With a folder it writes a picture of both ways there.
+//! With a folder, it writes a picture of both routes there.
 
 #[path = "mobile/mod.rs"]
 mod mobile;
@@ -25,16 +25,17 @@ use std::path::{Path, PathBuf};
 /// enters.
 const LAW: Tanh = Tanh { pull: 10.0, push: 1.0, range: 0.26 };
 
-/// The controller without a plan has to see obstacles sooner.
+/// The controller without a plan must detect obstacles sooner.
 const ALONE: Tanh = Tanh { pull: 1.0, push: 1.0, range: 1.0 };
 
-/// The controller that follows cells: its gain is the source's.
+/// The controller that follows cells uses the source's gain.
 const ALONG_CELLS: Tracking = Tracking { gain: 1.0, speed: 0.5 };
 
-/// A robot and its world, how many cells there are and how they are decided, start and goal.
+/// A robot and its world, the number of cells and their collision test, start and goal.
 type Gridded = (&'static str, &'static str, [usize; 2], GridSpace, [f64; 2], [f64; 2]);
 
-/// The rooms of the mission, whose partition is thinner than a cell, and the source's own map with its cells, start and goal.
+/// The rooms of the mission, whose partition is thinner than a cell, and the source's own map with its cells, start and
+/// goal.
 const GRIDS: [Gridded; 3] = [
     ("mobile_robot", "explore/hall.toml", [40, 20], GridSpace::Rows, START, TARGETS[0].1),
     ("mobile_robot", "explore/house.toml", [40, 20], GridSpace::Rows, START, TARGETS[0].1),
@@ -81,7 +82,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Follows the cells that a wave and A\* find.
+/// Follows the cells of a wave and of A\*.
 fn along_cells(
     (robot, world, cells, space, start, goal): Gridded,
     folder: Option<&Path>,

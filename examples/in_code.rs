@@ -14,7 +14,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     println!("shelf and table meet: {}, {:.2} m apart", polygon_test(&a, &b).meet, -penetration_depth(&a, &b));
     println!("their difference has {} corners", a.minkowski_difference(&b).core().len());
 
-    // Two bars of 1.0 and 0.8 m, 6 cm wide, whose joints turn without end.
+    // Two bars of 1.0 and 0.8 m, 6 cm wide, with continuous joints.
     let arm = Arm::rr([1.0, 0.8], 0.06)?;
     let workspace = Workspace::new([
         Obstacle::polygon("shelf", shelf)?,

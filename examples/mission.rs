@@ -4,7 +4,7 @@
 //! cargo run --example mission [-- FOLDER]
 //! ```
 //!
-//! With a folder it writes pictures of the ways there.
+//! With a folder, it writes pictures of the routes there.
 
 #[path = "mobile/mod.rs"]
 mod mobile;
@@ -31,7 +31,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         println!("{name}: S. F. dos Reis Alves, Trabalho 2. Targets: object 1, bin, object 2, bin");
         let (map, _) = followed(&floor, 300.0);
         let is_solid = |k: usize| fields::is_solid(&map, k);
-        // Along which each target is to be reached: rows downwards, columns.
+        // Direction in which the robot must arrive at each target: rows downwards, columns.
         let directions = [[0.0, -1.0], [0.0, -1.0], [1.0, 0.0], [0.0, -1.0]];
         let missions = [
             ("forces, unknown room, as printed", by_forces(&floor, None, false)),

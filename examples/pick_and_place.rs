@@ -1,4 +1,4 @@
-//! Plans a task of picks and places, and prints when what happens.
+//! Plans a task of picks and places, and prints its events with their times.
 //!
 //! ```text
 //! cargo run --release --example pick_and_place -- robots/scara.urdf workspaces/tasks/table_mission.toml
@@ -16,11 +16,11 @@ fn main() -> Result<(), Box<dyn Error>> {
     let world = args.next().unwrap_or_else(|| "workspaces/tasks/table_mission.toml".into());
     let problem = Problem::load(urdf, world)?;
 
-    // IK solutions, grips and turns of the wrist are chosen together, for the least time of the whole.
+    // IK solutions, grips and turns of the wrist are chosen together, for the least total time.
     let plan = plan(&problem, &Options::default())?;
     let (task, answer) = plan.task().ok_or("the world has no steps")?;
 
-    // Of a task that cannot be done: the steps before the one that fails.
+    // If the task is infeasible, prints the steps before the one that fails.
     for leg in &answer.legs {
         let step = &leg.step;
         let (number, what) = (step.number, step.action.describe(&task.objects));

@@ -1,12 +1,13 @@
-//! Published figures of convergence, computed again: figures 39 to 47 of L. E. Deicu (2012) and 6.1 to 6.4 of M. Oliveira
-//! da Silva (2011). Their curves are published only as pictures, so the statements of their text are printed beside ours.
+//! Published figures of convergence, computed again: figures 39 to 47 of L. E. Deicu (2012) and 6.1 to 6.4 of M.
+//! Oliveira da Silva (2011). Their curves are published only as pictures, so the statements of their text are printed
+//! beside our numbers.
 //!
 //! ```text
 //! cargo run --release --example published_figures
 //! ```
 //!
-//! Figures 39 to 47 are of map 1, which is `workspaces/maps/leon.toml`; the others are of a state of play of our own. Prints
-//! numbers, and writes figures 6.1 to 6.4 as `target/figure_6_1.svg`.
+//! Figures 39 to 47 show map 1, which is `workspaces/maps/leon.toml`. The others show a state of play of our own. The
+//! program prints numbers, and writes figures 6.1 to 6.4 as `target/figure_6_1.svg`.
 
 #[path = "published_tables/deicu.rs"]
 #[allow(dead_code, reason = "sweep counts are for published_tables")]

@@ -1,11 +1,13 @@
-//! Sweep counts from the literature, beside those that this library needs: match, close, or unmatched and why.
+//! Sweep counts from the literature beside the counts of this library: match, close, or unmatched and why.
 //!
 //! ```text
 //! cargo run --release --example published_tables [-- 100]
 //! ```
 //!
-//! With the argument 100 only the smaller scale of Tables 17 to 19 is measured, in seconds; both take some minutes of CPU.
-//! The maps printed in the source of Tables 17 to 19 are the worlds in `workspaces/maps`. The exit code is 1 if a count that is said to match, or to be close, is not.
+//! With the argument 100, the program measures only the smaller scale of Tables 17 to 19, which takes seconds. Both
+//! scales take some minutes of CPU time.
+//! The maps printed in the source of Tables 17 to 19 are the worlds in `workspaces/maps`. The exit code is 1 if a count
+//! stated as a match, or as close, is not.
 
 #[path = "published_tables/alves.rs"]
 mod alves;

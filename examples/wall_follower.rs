@@ -4,7 +4,7 @@
 //! cargo run --example wall_follower [-- FOLDER]
 //! ```
 //!
-//! With a folder it writes a picture of each room there.
+//! With a folder, it writes a picture of each room there.
 
 #[path = "mobile/mod.rs"]
 mod mobile;

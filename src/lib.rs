@@ -1,6 +1,6 @@
-//! cplan plans motions of planar two-joint arms in configuration space. It answers one of three things: a path whose
-//! whole continuous motion is *certified* free of collision, a *proof* that there is none, or "unknown" at the
-//! resolution tried; never a sampled maybe.
+//! cplan plans motions of planar two-joint arms in configuration space. Its answer is one of three: a path whose whole
+//! continuous motion is *certified* free of collision; a *proof* that there is no path; or "unknown" at the resolution
+//! tried. It never answers from samples alone.
 //!
 //! # The pipeline
 //!
@@ -38,8 +38,8 @@
 //! # Conventions
 //!
 //! Lengths are metres, angles radians, times seconds. A configuration is the pair of joint values, base to tip. Paths
-//! hold unwrapped values: a path that crosses the seam of a circle goes on counting. Touching is contact. The same
-//! input gives the same output, byte for byte, but for times taken, where they are asked for.
+//! hold unwrapped values: the values of a path that crosses the seam of a circle continue beyond it. Touching is
+//! contact. The same input gives the same output, byte for byte, except for optional computing times.
 #![forbid(unsafe_code)]
 
 #[cfg(feature = "program")]
@@ -100,7 +100,7 @@ pub mod check {
     pub use cplan_motion::{CertifiedCurve, Place, Rounding, Span, blend};
 }
 
-/// Files to problems: robots, worlds, maps and recordings, and errors with file, line and help.
+/// From files to problems: robots, worlds, maps and recordings, and errors with file, line and hint.
 pub mod input {
     pub use cplan_robot::{
         AngleOrLength, BodyEntry, Diagnostic, DiagnosticKind, FileIdentity, Frame, InputError, Inspection, JointEntry,
@@ -144,7 +144,7 @@ pub mod field {
     pub use cplan_multigrid as multigrid;
 }
 
-/// The README's example is compiled and run as a documentation test.
+/// This compiles and runs the README's example as a documentation test.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;

@@ -6,16 +6,17 @@ use std::alloc::System;
 use std::hint::black_box;
 use std::process::ExitCode;
 
-/// Counts what is allocated, for `cplan compare`.
+/// Counts allocated memory, for `cplan compare`.
 #[global_allocator]
 static ALLOCATOR: PeakMemAlloc<System> = PeakMemAlloc::system();
 
-/// Of what is freed the GNU C library keeps twice the size of the greatest block that was handed back to the system, at most twice 32 MiB;
-/// the rest goes back at once, page by page, and costs a fifth of a decision of `explore` to get again.
+/// Size of a block that is allocated and freed at the start, so that the GNU C library keeps more freed memory. It
+/// keeps twice the size of the largest block returned to the system, at most twice 32 MiB. It returns the rest at once,
+/// page by page, and getting it again costs a fifth of a decision of `explore`.
 const KEPT: usize = 31 << 20;
 
 fn main() -> ExitCode {
-    // Never touched: it takes no memory.
+    // The block is never touched, so it takes no memory.
     drop(black_box(Vec::<u8>::with_capacity(KEPT)));
     cplan::cli::run(Some(MemoryMeter {
         peak: || ALLOCATOR.get_peak_memory(),

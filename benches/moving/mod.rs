@@ -1,4 +1,4 @@
-//! Fields of a match of robots, each found from that of the frame before: sixty frames, a second of play.
+//! Fields of a match of robots, each started from that of the previous frame: sixty frames, a second of play.
 
 #[path = "../../examples/robot_football/play.rs"]
 #[allow(dead_code, reason = "pages and tables see more of a match")]

@@ -8,7 +8,7 @@ use criterion::{Criterion, Throughput};
 use std::collections::VecDeque;
 use std::hint::black_box;
 
-/// A generator whose numbers do not matter (xorshift, Marsaglia 2003): scenes are the same in every run.
+/// Random number generator whose quality does not matter (xorshift, Marsaglia 2003): scenes are the same in every run.
 struct Numbers(u64);
 
 impl Numbers {
@@ -25,7 +25,7 @@ fn square(n: usize, blocked: Vec<bool>) -> Grid {
     Grid { topology, proves: Proves::Sampled, cells: [n, n], blocked }
 }
 
-/// Rooms of `room x room` cells; three walls of four have a door.
+/// Builds rooms of `room x room` cells; three walls of four have a door.
 fn rooms(n: usize, room: usize, door: usize) -> Grid {
     let mut numbers = Numbers(987_654_321_987);
     let is_wall = |c: usize| (c / n).is_multiple_of(room) || (c % n).is_multiple_of(room);
@@ -43,7 +43,7 @@ fn rooms(n: usize, room: usize, door: usize) -> Grid {
     square(n, blocked)
 }
 
-/// Boxes of 8 to 32 cells, a fifth of the area.
+/// Builds boxes of 8 to 32 cells, a fifth of the area.
 fn clutter(n: usize) -> Grid {
     let mut numbers = Numbers(88_172_645_463_325_252);
     let mut blocked = vec![false; n * n];
@@ -87,8 +87,8 @@ fn maze(n: usize, width: usize) -> Grid {
     square(n, blocked)
 }
 
-/// Labels as a plain queue makes them, on a grid with a frame so that no step needs a test for a limit. Made ready
-/// beforehand, like the bits of the other: 0 blocked, [`UNREACHED`] free.
+/// Labels computed with a plain queue, on a grid with a frame so that no step needs a test for a limit. The labels are
+/// prepared beforehand, like the bits of the library's wave: 0 blocked, [`UNREACHED`] free.
 struct Plain {
     stride: usize,
     columns: usize,
@@ -96,7 +96,7 @@ struct Plain {
     is_torus: bool,
 }
 
-/// Labels of the plain queue begin above those of places that are not free, and that stand for another one.
+/// Labels of blocked cells, and of copies. The labels of the plain queue begin above them.
 const WALL: u32 = 0;
 const TWIN: u32 = 1;
 

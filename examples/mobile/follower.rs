@@ -5,8 +5,8 @@ use super::occupancy::Occupancy;
 use super::robot::{Pose, Robot};
 use cplan::nalgebra::{Rotation2, Vector2};
 
-/// The sonars of a Pioneer 3-DX: metres ahead of its middle and to its left, and where each looks, degrees to the left. (Its handbook;
-/// the source counts them from 0 and says no more than that there are 16.)
+/// The sonars of a Pioneer 3-DX: metres ahead of its middle and to its left, and the direction of each, degrees to the
+/// left. (From its handbook; the source counts them from 0 and states only that there are 16.)
 pub const SONARS: [(f64, f64, f64); 16] = [
     (0.069, 0.136, 90.0),
     (0.114, 0.119, 50.0),
@@ -37,7 +37,7 @@ pub fn sonar(robot: &Robot, k: usize) -> f64 {
     robot.floor.range(from, heading + degrees.to_radians(), RANGE)
 }
 
-/// Follows the wall to its right for so many seconds, and fills the map.
+/// Follows the wall to its right for this many seconds, and fills the map.
 pub fn follow(robot: &mut Robot, map: &mut Occupancy, seconds: f64) {
     let (speed, gain, most) = (0.5, 10.0, 10_f64.to_radians());
     let front = |robot: &Robot| sonar(robot, 3).min(sonar(robot, 4));
@@ -54,7 +54,7 @@ pub fn follow(robot: &mut Robot, map: &mut Occupancy, seconds: f64) {
                 map.scan(robot.floor, robot.pose);
             }
         } else if sonar(robot, 6) == RANGE {
-            // The wall has ended: round its end.
+            // The wall has ended, so the robot drives round its end.
             turn = -most;
         }
         robot.drive(speed, turn.clamp(-most, most), CYCLE);

@@ -6,13 +6,14 @@ use cplan::Point;
 use cplan::field::{Attraction, Repulsion};
 use cplan::nalgebra::Vector2;
 
-/// Seconds between two commands; the source has as many as its drawing allows, ten a second at the most (Player).
+/// Seconds between two commands. The source has as many commands as its drawing allows, at most ten per second
+/// (Player).
 pub const CYCLE: f64 = 0.1;
 
-/// Metres a second at the most. The source names no limit, and forces have none near obstacles.
+/// Greatest speed, metres per second. The source states no limit, and forces have none near obstacles.
 pub const TOP_SPEED: f64 = 1.0;
 
-/// A leg ends in a trap if the robot came no nearer to its target for so many seconds.
+/// Seconds without progress after which a leg counts as trapped.
 const PATIENCE: f64 = 60.0;
 
 /// Least decrease of the distance that counts as progress, metres.
@@ -23,9 +24,9 @@ const NEARER: f64 = 0.01;
 pub enum Ending {
     /// The robot is at the target.
     Reached,
-    /// No nearer to the target for a minute; the least distance to it, metres.
+    /// No progress towards the target for a minute; the least distance to it, metres.
     Trapped(f64),
-    /// The robot is in an obstacle cell, which has no force: the source's program ends with an error.
+    /// The robot is in an obstacle cell, which has no force. The source's program ends with an error.
     OnObstacle,
 }
 
@@ -41,7 +42,7 @@ pub struct Manner {
     pub mended: bool,
 }
 
-/// Watches whether a robot still comes nearer.
+/// Watches whether a robot still makes progress.
 pub struct Patience {
     best: f64,
     since: f64,

@@ -26,7 +26,7 @@ pub struct Leg {
     pub length: f64,
     /// Seconds.
     pub time: f64,
-    /// Steps that were refused because the body would have met an obstacle.
+    /// Number of steps that were refused because the body would have hit an obstacle.
     pub refused: usize,
     /// Positions of the robot.
     pub way: Vec<Point>,
@@ -96,7 +96,7 @@ pub fn planners() -> Vec<(&'static str, Planner)> {
         let field = FieldPlanner { field: choice, limits: Limits::High, escape: None, path: PathKind::Own };
         named.with(Setting::Field, |settings| settings.field = Some(field))
     };
-    // As the source: constant attraction, and 1/d^2 from every occupied cell.
+    // As in the source: constant attraction, and 1/d^2 from every occupied cell.
     let khatib = Khatib { attraction: Attraction::Constant(1.0), repulsion: Repulsion::Sum(1.0), saturated: false };
     let direction = Direction::of([0.0, 1.0]).expect("a direction");
     let oriented = FieldChoice::Relaxed {
@@ -116,8 +116,8 @@ pub fn planners() -> Vec<(&'static str, Planner)> {
     ]
 }
 
-/// The sensor that cplan's robot has. The robot as a gantry faces nowhere; the source's turns its scanner of 180 degrees, so this one looks
-/// all around. Cells as in the source.
+/// Returns the sensor of cplan's robot. The robot is a gantry without a heading. The source's robot turns its scanner
+/// of 180 degrees, so this one looks all around. The cells are the source's.
 pub const SENSOR: Sensor = Sensor {
     mount: Mount::Tip,
     turn: 0.0,
@@ -145,7 +145,7 @@ pub fn explored(floor: &Floor, planner: Planner) -> Result<Vec<(Scene, Explorati
         }
         let scene = Scene::new(floor.scene.arm().clone(), workspace)?;
         let usual = Settings::default();
-        // Of fields one grid a decision: finer ones would see no more.
+        // Fields use one grid per decision, because finer ones would show no more.
         let levels = if planner.method() == Method::Harmonic { 1 } else { usual.options.levels };
         let options = Options { planner, levels, ..usual.options };
         let settings = Settings { cells: [160, 80], decisions: 2_000, options, ..usual };

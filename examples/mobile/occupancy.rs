@@ -13,7 +13,7 @@ pub const SIDE: f64 = 0.5;
 /// Range of the scanner, metres.
 const RANGE: f64 = 8.0;
 
-/// 1 where something is, 0 where nothing is, 0.5 where nobody knows.
+/// Values of the cells: 1 if occupied, 0 if free, 0.5 if unknown.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Occupancy {
     cells: Vec<f64>,
@@ -62,9 +62,9 @@ impl Occupancy {
         [0.0, 1.0, 0.5].map(|value| self.cells.iter().filter(|&&cell| cell == value).count())
     }
 
-    /// Notes a scan of 180 rays, a degree apart, from the right to the left (algorithm 3): the cell at the end of a ray is occupied,
-    /// or free if the ray met nothing; cells before it that were unknown are free. (By its
-    /// printed indentation the source does the last for one ray alone; its text and figures say for all.)
+    /// Records a scan of 180 rays, a degree apart, from right to left (algorithm 3). The cell at the end of a ray is
+    /// occupied, or free if the ray met nothing. Unknown cells before it become free. (By its printed indentation, the
+    /// source does that for one ray only. Its text and figures do it for all.)
     pub fn scan(&mut self, floor: &Floor, pose: Pose) {
         for ray in 0..180 {
             let angle = pose.heading + f64::from(ray - 90).to_radians();

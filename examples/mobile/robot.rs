@@ -8,7 +8,7 @@ use std::f64::consts::{PI, TAU};
 /// Position and heading of a robot, counter-clockwise from x.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pose {
-    /// The middle between its wheels, metres.
+    /// Middle between the wheels, metres.
     pub at: Point,
     /// Radians.
     pub heading: f64,
@@ -37,14 +37,14 @@ pub fn wrapped(angle: f64) -> f64 {
     turned - PI
 }
 
-/// No piece of a motion between two checks takes longer, seconds.
+/// Longest piece of a motion between two checks, seconds.
 const STEP: f64 = 0.02;
 
 /// Distance that the body keeps from obstacles, metres: far above rounding, far below visibility.
 const TOUCHING: f64 = 1e-6;
 
-/// A robot that drives over a floor. Its body never gets into an obstacle: a motion that would lead there is refused, as bumpers do,
-/// and only turns it.
+/// A robot that drives over a floor. Its body never enters an obstacle. A motion that would lead into one is refused,
+/// as by bumpers, and only turns the robot.
 pub struct Robot<'a> {
     /// The floor.
     pub floor: &'a Floor,
@@ -67,7 +67,7 @@ impl<'a> Robot<'a> {
         Self { floor, pose, track: vec![pose], length: 0.0, time: 0.0, refused: Vec::new() }
     }
 
-    /// Drives at constant speeds for so many seconds.
+    /// Drives at constant speeds for this many seconds.
     pub fn drive(&mut self, speed: f64, turn: f64, seconds: f64) {
         let steps = (seconds / STEP).ceil();
         let step = seconds / steps;

@@ -1,4 +1,5 @@
-//! The controller of a differential drive of R. F. Gonçalves da Silva, *Trabalho Prático 1*, equations 1 to 4, and a plan for it to follow.
+//! The controller of a differential drive of R. F. Gonçalves da Silva, *Trabalho Prático 1*, equations 1 to 4, and a
+//! plan for it to follow.
 
 use super::robot::{Pose, Robot};
 use cplan::Point;
@@ -6,7 +7,7 @@ use cplan::field::Repulsion;
 use cplan::nalgebra::{Rotation2, Vector2};
 use std::f64::consts::TAU;
 
-/// The point that is controlled lies so far ahead of the wheels' middle, metres (the source's `d`).
+/// Distance of the controlled point ahead of the wheels' middle, metres (the source's `d`).
 pub const AHEAD: f64 = 0.1;
 
 /// Seconds between two commands.
@@ -16,7 +17,7 @@ pub const CYCLE: f64 = 0.01;
 const RANGE: f64 = 8.0;
 const RAYS: u32 = 360;
 
-/// Gains, and the distance within which obstacles count. The source states none of the values.
+/// Gains, and the distance within which obstacles count. The source states no values for them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tanh {
     /// Gain of the attraction, 1/m (`zeta`).
@@ -60,16 +61,16 @@ impl Tanh {
     }
 }
 
-/// Speeds ahead and about that move the controlled point at a velocity (equation 4).
+/// Returns the linear and angular speed that move the controlled point at a velocity (equation 4).
 pub fn speeds(velocity: Vector2<f64>, heading: f64) -> [f64; 2] {
     let own = Rotation2::new(-heading) * velocity;
     [own.x, own.y / AHEAD]
 }
 
-/// A line through waypoints no farther apart than this, metres.
+/// Greatest distance between consecutive waypoints, metres.
 pub const SPACING: f64 = 0.2;
 
-/// A waypoint is passed when the controlled point is so near to it, metres.
+/// Distance at which the controlled point has passed a waypoint, metres.
 pub const PASSED: f64 = 0.01;
 
 /// Greatest distance of the robot's middle from the line that it follows, metres, without repulsion.
@@ -96,13 +97,13 @@ pub fn waypoints(corners: &[[f64; 2]]) -> Vec<Point> {
 pub struct Drive {
     /// Number of waypoints passed.
     pub passed: usize,
-    /// Commands in which an obstacle repelled.
+    /// Number of commands with a repelling obstacle.
     pub repelled: usize,
-    /// The greatest speeds ahead and about, m/s and rad/s.
+    /// Greatest linear and angular speed, m/s and rad/s.
     pub fastest: [f64; 2],
 }
 
-/// Drives from waypoint to waypoint until the last is passed, or until so many seconds are over.
+/// Drives from waypoint to waypoint until the last is passed, or for at most this many seconds.
 pub fn follow(robot: &mut Robot, law: &Tanh, waypoints: &[Point], seconds: f64) -> Drive {
     let end = robot.time + seconds;
     let mut drive = Drive { passed: 0, repelled: 0, fastest: [0.0; 2] };

@@ -1,5 +1,5 @@
-//! The controller of a differential drive of R. F. Gonçalves da Silva, *Trabalho Prático 1*, equation 5: it follows a point that moves along
-//! a line, such as the cells of a wavefront or of A\*.
+//! The controller of a differential drive of R. F. Gonçalves da Silva, *Trabalho Prático 1*, equation 5. It follows a
+//! point that moves along a line, such as the cells of a wavefront or of A\*.
 
 use super::robot::Robot;
 use super::tanh::{AHEAD, CYCLE, PASSED, speeds};
@@ -56,7 +56,7 @@ pub struct Tracked {
     pub farthest: f64,
 }
 
-/// Follows a line to its end, or until so many seconds are over.
+/// Follows a line to its end, for at most this many seconds.
 pub fn track(robot: &mut Robot, law: &Tracking, corners: &[[f64; 2]], seconds: f64) -> Tracked {
     let begun = robot.time;
     let mut tracked = Tracked { arrived: false, farthest: 0.0 };

@@ -18,7 +18,7 @@ pub enum Subject {
     Task(&'static str, &'static str),
 }
 
-/// All pictures, with the names of their files.
+/// Pictures of the documentation with the names of their files.
 pub const PICTURES: [(&str, Subject); 17] = [
     ("shortest", Subject::Answer("planar_2r", "workbench", Method::Shortest)),
     ("visibility", Subject::Answer("planar_2r", "workbench", Method::Visibility)),
@@ -39,7 +39,8 @@ pub const PICTURES: [(&str, Subject); 17] = [
     ("board_and_gate", Subject::Task("gantry", "board_and_gate")),
 ];
 
-/// The picture that moves, which is the README's first one: the name of its file, and the still picture of the same.
+/// The animated picture, which is the README's first one: the name of its file, and the still picture of the same
+/// scene.
 pub const MOVING: (&str, &str) = ("thinking", "shortest");
 
 impl Subject {

@@ -1,5 +1,5 @@
-//! Redraws the pictures of the documentation: each planner on one workspace, one workspace without a path, the demo's cell,
-//! and two tasks; and the one that moves.
+//! Redraws the pictures of the documentation: each planner on one workspace, one workspace without a path, the demo's
+//! cell, two tasks, and the animated one.
 //!
 //! ```text
 //! cargo run --release --example pictures

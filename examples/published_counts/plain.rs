@@ -1,4 +1,5 @@
-//! A plain relaxation with every choice that the source of Tables 17 to 19 leaves open. It shares no code with the library's.
+//! A plain relaxation with every choice that the source of Tables 17 to 19 leaves open. It shares no code with the
+//! library's.
 
 use cplan::field::{Cell, Domain};
 use std::f64::consts::PI;
@@ -69,7 +70,7 @@ pub struct Plain<'a> {
     values: Vec<f64>,
 }
 
-/// Sweeps after which nothing is expected any more.
+/// Number of sweeps after which a relaxation is given up.
 const MOST: [usize; 2] = [30_000, 1_500];
 
 impl<'a> Plain<'a> {
@@ -88,7 +89,7 @@ impl<'a> Plain<'a> {
         let factor = if over { best_factor(n) } else { 1.0 };
         let mut before = f64::INFINITY;
         for sweep in 0..MOST[usize::from(over)] {
-            // From the corners in turn, or from the first alone.
+            // Sweeps begin at each corner in turn, or always at the first.
             let corner = if of.is_multiple_of(2) { 0 } else { sweep % 4 };
             let [mut sum, mut signed, mut squares, mut greatest] = [0.0_f64; 4];
             for a in 1..n - 1 {

@@ -1,4 +1,4 @@
-//! The choices that are tried, and how many published counts each explains.
+//! The interpretations to try, and the number of published counts that each explains.
 
 use super::deicu::{self, SCALES, TABLES, Table};
 use super::line_maps::Scene;
@@ -97,7 +97,7 @@ impl Maps {
     }
 }
 
-/// Gauss-Seidel: values never leave 0..1, so that only rule and precision are open.
+/// Gauss-Seidel: values never leave 0..1, so only the rule and the precision are open.
 pub fn gauss_seidel() -> Vec<Choice> {
     let mut choices = Vec::new();
     for single in [true, false] {

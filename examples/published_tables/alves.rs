@@ -1,5 +1,5 @@
-//! The counts of S. F. dos Reis Alves, *Trabalho 2 - Campos potenciais*: a robot in a room of 40 m x 20 m, cells of 0.5 m,
-//! harmonic and oriented fields for three goals.
+//! The counts of S. F. dos Reis Alves, *Trabalho 2 - Campos potenciais*: a robot in a room of 40 m x 20 m, cells of 0.5
+//! m, harmonic and oriented fields for three goals.
 
 use super::row::{Claim, Count};
 use cplan::field::{
@@ -10,7 +10,7 @@ use cplan::field::{
 /// Rows and columns: 20 m / 0.5 m, 40 m / 0.5 m; row 0 is the north wall.
 const CELLS: [usize; 2] = [40, 80];
 
-/// The sum of squared changes in a sweep must fall below this, within so many sweeps.
+/// Bound on the sum of squared changes in a sweep, and the greatest number of sweeps to reach it.
 pub const STOPPING: Stopping = Stopping { measure: Measure::SumOfSquares, below: 1e-8, max_sweeps: 1000 };
 
 /// A goal, the direction of arrival, and the published count.
@@ -24,7 +24,7 @@ struct Goal {
     oriented: usize,
 }
 
-/// In the order of the source's figures 7 and 8. Its `v` counts the first component upwards: (0, -1) and (-1, 0).
+/// Goals in the order of the source's figures 7 and 8. Its `v` counts the first component upwards: (0, -1) and (-1, 0).
 const GOALS: [Goal; 3] = [
     Goal { name: "bin (-19, 2)", at: [-19.0, 2.0], direction: [0.0, -1.0], harmonic: 114, oriented: 424 },
     Goal { name: "object 1 (2, 4)", at: [2.0, 4.0], direction: [0.0, -1.0], harmonic: 104, oriented: 419 },

@@ -1,5 +1,5 @@
-//! Tables 17, 18 and 19 of L. E. Deicu, *Planejadores de caminho baseados em campos potenciais* (UFRGS, Porto Alegre 2012):
-//! sweeps of twelve algorithms on three line maps, before preferences are switched on and in all.
+//! Tables 17, 18 and 19 of L. E. Deicu, *Planejadores de caminho baseados em campos potenciais* (UFRGS, Porto Alegre
+//! 2012): sweeps of twelve algorithms on three line maps, before preferences apply and in total.
 
 use super::line_maps::Scene;
 use super::row::{Claim, Count};
@@ -13,7 +13,7 @@ pub const SCALES: [usize; 2] = [100, 250];
 /// The counts of one map. In arrays of four the relaxations are those of [`RELAXATIONS`], in arrays of two the scales
 /// are those of [`SCALES`].
 pub struct Table {
-    /// Its number in the source, and the part of the map that was used.
+    /// Number in the source, and the part of the map that was used.
     pub title: &'static str,
     /// The world of the map, in `workspaces/maps`.
     world: &'static str,
@@ -29,9 +29,10 @@ pub struct Table {
 /// The names of the relaxations, the source's "simples" and "simultâneo".
 pub const RELAXATIONS: [&str; 4] = ["GS simple", "GS simultaneous", "SOR simple", "SOR simultaneous"];
 
-/// Lines are those of increasing `x`. Gauss-Seidel's values are kept as `float`s: in doubles the counts on 250 x 250 cells are
-/// 8928, 8931, 5572, 5575. Over-relaxed `float`s never settle among preferences, and over-relaxed values must be brought
-/// back into 0..1 (without that the first stage takes 230 sweeps on map 1 instead of 147).
+/// Returns the settings of a relaxation. Lines have increasing `x`. Gauss-Seidel's values are kept as `float`s: in
+/// doubles, the counts on 250 x 250 cells are 8928, 8931, 5572, 5575. Over-relaxed `float`s never settle among
+/// preferences. Over-relaxed values must be brought back into 0..1; otherwise the first stage takes 230 sweeps on map 1
+/// instead of 147.
 fn relaxation(of: usize) -> Relaxation {
     let order = if of.is_multiple_of(2) { Order::Lines(Scan::ROWS) } else { Order::Corners(Lines::Rows) };
     match of {
@@ -49,7 +50,7 @@ fn stopping(of: usize) -> Stopping {
 /// Sweeps of the harmonic stage and of both; `None` if one does not converge.
 pub type Sweeps = [Option<usize>; 2];
 
-/// Relaxes the fields behind one line of a table, `of` being one of [`RELAXATIONS`].
+/// Relaxes the fields behind one line of a table; `of` is one of [`RELAXATIONS`].
 pub fn measure(scene: &Scene, cells: usize, of: usize, altered: bool) -> Sweeps {
     let relaxation = relaxation(of);
     // Over-relaxation adds the preference without the factor. The sign of the altered form is that of the source's
@@ -86,7 +87,7 @@ pub fn scene(table: &Table) -> Result<Scene, Box<dyn Error>> {
     Scene::read(table.world, table.without)
 }
 
-/// One line: the algorithm, the scale, the counts before preferences and in total (if there are preferences).
+/// A line of a table: the algorithm, the scale, the counts before preferences and in total (if there are preferences).
 pub struct Line {
     algorithm: String,
     cells: usize,
@@ -110,7 +111,7 @@ impl std::fmt::Display for Line {
 
 /// Returns all lines of a table at these scales (0 and 1 for those of [`SCALES`]).
 pub fn lines(table: &Table, scene: &Scene, scales: &[usize]) -> Vec<Line> {
-    // Every algorithm is a task of its own; the harmonic stage is that of the preferences that follow it.
+    // Every algorithm is a separate task. Its harmonic stage is also that of the preferences that follow it.
     let tasks = scales.iter().flat_map(|&scale| (0..8).map(move |task| (scale, task % 4, task / 4)));
     let results: Vec<_> = std::thread::scope(|scope| {
         let threads: Vec<_> = tasks

@@ -1,4 +1,4 @@
-//! The worlds of published line maps as domains of cells, as the published counts ask for.
+//! The worlds of published line maps as domains of cells, as the published counts require.
 
 use cplan::field::{Boundary, Cell, Domain, Levels};
 use cplan::geometry::Point;
@@ -7,7 +7,7 @@ use cplan::model::{MotionProblem, Obstacle, Preference, Region, Shape};
 use std::error::Error;
 use std::path::Path;
 
-/// A line map with a goal and preferences, in millimetres as the source has it, ready to be cut into cells.
+/// A line map with a goal and preferences, in millimetres as in the source, ready to be cut into cells.
 pub struct Scene {
     /// Lower left and upper right corner.
     bounds: [Point; 2],
@@ -88,7 +88,7 @@ fn bounds(problem: &MotionProblem) -> [Point; 2] {
     [Point::new(x.0, y.0), Point::new(x.1, y.1)].map(millimetres)
 }
 
-/// Returns the segments of a wall, or none if it is not a polyline.
+/// Returns the segments of a wall; empty if it is not a polyline.
 fn segments(obstacle: &Obstacle) -> Vec<[Point; 2]> {
     match &obstacle.shape {
         Shape::Polyline(points) => points.windows(2).map(|ends| [ends[0], ends[1]].map(millimetres)).collect(),

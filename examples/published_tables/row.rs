@@ -7,9 +7,9 @@ use std::fmt;
 pub enum Claim {
     /// It is the published one.
     Match,
-    /// It differs by at most so many per cent.
+    /// It differs by at most this many per cent.
     Close(f64),
-    /// It differs, or nothing says that it should not: the reason stands below the table.
+    /// It differs, or equality is not expected. The reason is below the table.
     Unmatched,
 }
 
@@ -30,7 +30,7 @@ impl Count {
         Self { published: published as f64, measured: measured.map(|sweeps| sweeps as f64), claim }
     }
 
-    /// Returns the relative deviation of the measured number in per cent, or infinity if there is none.
+    /// Returns the relative deviation of the measured number in per cent; infinity if there is no measured number.
     fn deviation(&self) -> f64 {
         self.measured.map_or(f64::INFINITY, |measured| 100.0 * (measured / self.published - 1.0))
     }

@@ -1,9 +1,10 @@
 //! Tables 6.3 to 6.17 of M. Oliveira da Silva, *Campos potenciais modificados aplicados ao controle de múltiplos robôs*
-//! (ICMC-USP, São Carlos 2011): mean sweeps a state of robot soccer, each field relaxed from that of the state before.
+//! (ICMC-USP, São Carlos 2011): mean sweeps per state of robot soccer. Each field is relaxed from that of the previous
+//! state.
 //!
-//! The five minutes of play that were measured there are not published. The field is rebuilt (IEEE Very Small Size: 150 cm
-//! x 130 cm and goals 10 cm deep, which are 85 x 65 cells of 2 cm), and on it three robots a side and a ball move along
-//! curves of our own. So counts can be compared with one another, not with those of the source.
+//! The five minutes of play that were measured there are not published. The field is rebuilt here (IEEE Very Small
+//! Size: 150 cm x 130 cm and goals 10 cm deep, which are 85 x 65 cells of 2 cm). Three robots on each side and a ball
+//! move along curves of our own. So one can compare the counts with one another, but not with those of the source.
 
 use super::row::{Claim, Count};
 use cplan::field::{
@@ -12,15 +13,15 @@ use cplan::field::{
 };
 use std::f64::consts::TAU;
 
-/// Along the field, which the source's outer loop runs over, and across it.
+/// Cells along the field, over which the source's outer loop runs, and across it.
 const CELLS: [usize; 2] = [85, 65];
 /// Cells that a goal is deep.
 const DEPTH: usize = 5;
-/// Cells across the field that a goal takes (40 cm).
+/// Width of a goal in cells (40 cm).
 const MOUTH: std::ops::Range<usize> = 22..42;
 /// States of play in a second.
 const RATE: f64 = 30.0;
-/// States that are measured, after one that starts from nothing.
+/// Number of measured states, after one that starts from the initial field.
 const STATES: usize = 300;
 /// Strength of the drift, and the radius of its influence in cells if it is local.
 const EPSILON: f64 = 0.5;
@@ -43,7 +44,7 @@ const CURVES: [([f64; 2], [f64; 2], [f64; 2]); 7] = [
 /// Returns the position of the `k`-th of [`CURVES`], in cells.
 fn place(k: usize, seconds: f64) -> [f64; 2] {
     let (middle, reach, periods) = CURVES[k];
-    // Phases of their own, so that not all are in the middle at once.
+    // Each curve has its own phase, so that not all are in the middle at once.
     [0, 1].map(|axis| middle[axis] + reach[axis] * (TAU * (seconds / periods[axis] + 0.3 * k as f64)).sin())
 }
 
@@ -72,7 +73,7 @@ pub fn state(seconds: f64) -> Domain {
 pub enum Kind {
     /// Laplace's equation.
     Harmonic,
-    /// One drift in all cells.
+    /// The same drift in all cells.
     Oriented(Difference),
     /// A drift around each of our robots.
     LocallyOriented(Difference),
@@ -123,7 +124,7 @@ pub struct Table {
     published: [f64; 6],
 }
 
-/// The factor that the source gives for weighted Jacobi.
+/// The source's factor for weighted Jacobi.
 const WEIGHT: f64 = 1.8;
 
 /// Returns name and count of each published number.

@@ -6,7 +6,7 @@
 //! cargo run --release --example robot_football [-- --frames 600] [--seed 1] [--page match.html]
 //! ```
 //!
-//! Plays a match, prints published figures beside ours, and writes a page that plays it.
+//! The program plays a match, prints published figures beside ours, and writes a page that replays it.
 
 mod measure;
 mod page;

@@ -11,7 +11,7 @@ use std::time::Instant;
 
 /// The source's rule: sum of squared changes of a sweep.
 pub const PUBLISHED_BELOW: f64 = 1e-6;
-/// One in this many frames is also solved from the initial field.
+/// Interval between frames that are also solved from the initial field.
 const STANDING: usize = 30;
 
 /// The kinds of fields.
@@ -77,7 +77,8 @@ pub fn standing(difference: Difference) -> Result<MovingField, RelaxError> {
     MovingField::new(CELLS, walls(), [Boundary::High; 2], difference)
 }
 
-/// The time that this thread has had a core for, where the system tells; others on the machine do not count. Else the time of day.
+/// A clock of this thread's CPU time, if the system reports it, so that other load on the machine does not count.
+/// Otherwise it uses the time of day.
 struct Clock {
     day: Instant,
     core: Option<f64>,
@@ -88,7 +89,7 @@ impl Clock {
         Self { day: Instant::now(), core: Self::core() }
     }
 
-    /// Nanoseconds on a core, as Linux has it.
+    /// Reads nanoseconds on a core, as Linux reports them.
     fn core() -> Option<f64> {
         std::fs::read_to_string("/proc/thread-self/schedstat").ok()?.split(' ').next()?.parse().ok()
     }
@@ -199,8 +200,8 @@ pub fn asked(frames: &[Frame], times: usize, case: &Case) -> Result<Run, RelaxEr
     run(moments.into_iter(), case, PUBLISHED_BELOW, false)
 }
 
-/// Milliseconds that all blue robots' own fields take a frame, and the one that the red ones share: central differences, Gauss and
-/// Seidel's relaxation, from the last frame.
+/// Returns the milliseconds per frame of all blue robots' own fields, and of the field that the red ones share. The
+/// settings are central differences and Gauss-Seidel relaxation, from the previous frame.
 pub fn three_and_one(frames: &[Frame]) -> Result<[f64; 2], RelaxError> {
     let case = |kind| Case { kind, difference: Difference::Central, solver: sor(1.0), published: None };
     let mut three = 0.0;
@@ -212,19 +213,19 @@ pub fn three_and_one(frames: &[Frame]) -> Result<[f64; 2], RelaxError> {
     Ok([three, run(shared, &case(Kind::LocallyOriented), PUBLISHED_BELOW, false)?.milliseconds])
 }
 
-/// A direction by elimination: the number of its frame, and where the blue seeker is in it.
+/// A direction by elimination: the number of its frame, and the position of the blue seeker.
 pub struct Exact {
     frame: usize,
     at: [f64; 2],
     direction: [f64; 2],
 }
 
-/// One in this many frames is solved by elimination.
+/// Interval between frames that are also solved by elimination.
 const ELIMINATED: usize = 20;
-/// A field that is nearer to obstacles' values than this is one without a goal that can be reached.
+/// Difference from the obstacles' value below which a field counts as level: its goal is unreachable.
 const LEVEL: f64 = 1e-12;
 
-/// Directions in the blue seeker's field, where the goal can be reached.
+/// Returns the directions in the blue seeker's field, if the goal can be reached.
 pub fn exact(frames: &[Frame]) -> Result<Vec<Exact>, RelaxError> {
     let mut found = Vec::new();
     for (k, frame) in frames.iter().enumerate().step_by(ELIMINATED) {
@@ -253,7 +254,7 @@ pub fn astray(frames: &[Frame], exact: &[Exact], solver: &Solver, below: f64) ->
     for (k, frame) in frames.iter().enumerate() {
         field.next(&Kind::Oriented.moment(frame), solver, below, MOST)?;
         if let Some(Exact { at, direction: b, .. }) = sought.next_if(|exact| exact.frame == k) {
-            // No direction at all is as wrong as can be.
+            // No direction counts as the greatest error.
             let angle = |a: [f64; 2]| (a[0] * b[0] + a[1] * b[1]).clamp(-1.0, 1.0).acos().to_degrees();
             angles.push(field.direction(*at).map_or(180.0, angle));
         }

@@ -1,4 +1,4 @@
-//! The page that plays a match: one file, which loads nothing.
+//! The page that replays a match: one file, which loads nothing.
 
 use super::play::{BALL, BODY, CELLS, DEPTH, Frame, INFLUENCE, MOUTH, PER_CM, RATE};
 use cplan::field::{Cell, MovingField};
@@ -11,7 +11,8 @@ const APART: usize = 3;
 const SPARSE: usize = 6;
 /// Directions of arrows are stored in this many steps of a turn, as letters; a dot means none.
 const TURN: &[u8] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+-";
-/// Likewise values of a field, from 0 to 1, by the logarithm of their distance from 1, in so many steps a power of ten.
+/// Number of steps per power of ten in which values of a field, from 0 to 1, are stored, by the logarithm of their
+/// distance from 1.
 const A_POWER: f64 = 4.0;
 
 /// A recorded match.
@@ -22,7 +23,7 @@ pub struct Film {
 }
 
 impl Film {
-    /// Adds a frame; `fields` are those that lead the robots in it, `score` that after it.
+    /// Adds a frame. `fields` are those that lead the robots in it, `score` is the one after it.
     pub fn see(&mut self, frame: &Frame, fields: &[MovingField], score: [usize; 2]) {
         let places = frame.robots.iter().chain([&frame.ball]).flatten().map(|&x| rounded(x));
         self.frames.push(json!([places.collect::<Vec<_>>(), frame.seekers, score]));
@@ -45,7 +46,7 @@ impl Film {
     }
 }
 
-/// Directions as letters and values as letters, row by row of every third cell.
+/// Encodes directions as letters and values as letters, row by row of every third cell.
 fn picture(field: &MovingField) -> Value {
     let (mut arrows, mut values) = (String::new(), String::new());
     let shown = |n: usize| (1..n).step_by(APART);

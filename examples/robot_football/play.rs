@@ -1,7 +1,7 @@
-//! Three robots against three and a ball, which fields lead: a match of our own in the league of the source (IEEE Very Small Size:
-//! 150 cm x 130 cm, goals 10 cm deep, 85 x 65 cells of 2 cm, robots of 7.5 cm).
+//! Three robots against three with a ball, all guided by fields: a match of our own in the league of the source (IEEE
+//! Very Small Size: 150 cm x 130 cm, goals 10 cm deep, 85 x 65 cells of 2 cm, robots of 7.5 cm).
 //!
-//! Places are rows (along the field) and columns of cells. Robots roll without slip in the commanded direction, one
+//! Positions are rows (along the field) and columns of cells. Robots roll without slip in the commanded direction, one
 //! after the other in each frame. Each blue robot has its own oriented field with its own goal. The red robots share a
 //! locally oriented field, whose goal is the ball.
 
@@ -10,7 +10,7 @@ use cplan::field::{
     STEP, Scan, Solver,
 };
 
-/// Along the field, with the goals, and across it.
+/// Cells along the field, with the goals, and across it.
 pub const CELLS: [usize; 2] = [85, 65];
 /// Cells that a goal is deep.
 pub const DEPTH: f64 = 5.0;
@@ -18,17 +18,17 @@ pub const DEPTH: f64 = 5.0;
 pub const MOUTH: [f64; 2] = [22.0, 42.0];
 /// Cells in a centimetre.
 pub const PER_CM: f64 = 0.5;
-/// Radius of the disc about a robot of 7.5 cm x 7.5 cm, whichever way it looks: half a diagonal.
+/// Radius of the disc around a robot of 7.5 cm x 7.5 cm in any orientation: half a diagonal.
 pub const BODY: f64 = 7.5 * std::f64::consts::FRAC_1_SQRT_2 * PER_CM;
 /// Radius of a golf ball.
 pub const BALL: f64 = 2.135 * PER_CM;
 /// Frames in a second.
 pub const RATE: f64 = 60.0;
-/// Steps of the curve that a robot goes in a frame: 0.96 m/s.
+/// Number of curve steps that a robot moves per frame: 0.96 m/s.
 const STEPS: usize = 4;
 /// Greatest distance that a robot moves in a frame.
 pub const REACH: f64 = STEPS as f64 * STEP;
-/// The distance at which a robot pushes the ball, and that part of it that is the goal of who seeks the ball.
+/// Distance at which a robot pushes the ball, and the radius of the seeker's goal around the ball.
 const CONTACT: f64 = BODY + BALL + 0.6;
 const SOUGHT: f64 = CONTACT - 0.3;
 /// Speed of a pushed ball, and the factors by which it decreases per frame and per bounce.
@@ -38,9 +38,9 @@ const BOUNCES: f64 = 0.6;
 /// Strength of drifts, per cell, and their radius of influence if they are local: 20 cm.
 pub const EPSILON: f64 = 0.5;
 pub const INFLUENCE: f64 = 10.0;
-/// A robot seeks the ball instead of the one that does when it is nearer by so much.
+/// Lead in distance at which a robot takes over as the seeker.
 const TAKES_OVER: f64 = 6.0;
-/// Red ones that do not seek the ball go no nearer to it.
+/// Distance that red robots keep from the ball unless they seek it.
 const KEEPS_OFF: f64 = 14.0;
 /// Tolerance of the fields of the match, by SOR with the source's factor: a sum of squared changes at which directions
 /// are correct.
@@ -88,7 +88,7 @@ struct State {
     frame: usize,
 }
 
-/// Cells that the centre of a robot keeps out of: all but a rectangle.
+/// Cells that the centre of a robot keeps out of: all except a rectangle.
 pub fn walls() -> Vec<bool> {
     let [rows, columns] = CELLS;
     (0..rows * columns).map(|cell| !is_open([(cell / columns) as f64, (cell % columns) as f64])).collect()
@@ -152,7 +152,7 @@ impl Match {
                 self.lost[team] += usize::from(field.direction(at).is_none());
                 field.advance(at, STEPS)
             }
-            // Somebody has come so near that the cell is taken: half a step back.
+            // Another robot has come so near that this cell is blocked: half a step back.
             _ => {
                 let nearest = others.iter().min_by(|a, b| far(**a, at).total_cmp(&far(**b, at)));
                 let away = nearest.and_then(|nearest| Direction::of([0, 1].map(|k| at[k] - nearest[k])));
@@ -160,7 +160,8 @@ impl Match {
                 [0, 1].map(|k| at[k] + 0.5 * REACH * away[k])
             }
         };
-        // The field knows where the others were when the frame began, and nothing of mates that share it.
+        // The field has the positions of the others at the beginning of the frame, but not those of team mates that
+        // share it.
         let shorter = [1.0, 0.5, 0.25].map(|part| [0, 1].map(|k| at[k] + part * (to[k] - at[k])));
         let fits = |to: &[f64; 2]| {
             let apart = others.iter().all(|&other| far(*to, other) >= (2.0 * BODY + CLOSE).min(far(at, other)));
@@ -227,7 +228,8 @@ impl Match {
     }
 }
 
-/// Robots end their ways this far apart, in cells: while two go straight they come nearer to one another than at both ends, by less.
+/// Least distance between robots at the end of a step, in cells. On straight lines, two robots may come slightly nearer
+/// to each other in between.
 const CLOSE: f64 = 0.25;
 
 impl State {
@@ -248,7 +250,7 @@ impl State {
         }
     }
 
-    /// Discs that the centre of a robot keeps out of, wherever these go within the frame.
+    /// Returns discs that the centre of a robot keeps out of, wherever the others move within the frame.
     fn obstacles(&self, robots: impl Iterator<Item = usize>) -> Vec<Disc> {
         robots.map(|k| Disc { center: self.robots[k], radius: BODY + REACH + CLOSE }.grown_for(BODY)).collect()
     }

@@ -1,4 +1,5 @@
-//! A JSON schema as a page of tables. `tests/input/world_schema.rs` holds that the kept page is this one.
+//! Renders a JSON schema as a page of tables. `tests/input/world_schema.rs` checks that the committed page is up to
+//! date.
 
 use serde_json::{Map, Value};
 

@@ -1,4 +1,4 @@
-//! `cplan check`: why a configuration is, or is not, free.
+//! `cplan check`: reports if a configuration is free, and why.
 
 use super::exit::{DONE, REFUTED};
 use super::failure::Failure;
@@ -54,7 +54,7 @@ fn time(text: &str) -> Result<f64, String> {
 /// Checks and reports.
 ///
 /// # Errors
-/// Bad input and I/O. A configuration that is not free is no error: saying why is the job.
+/// Bad input and I/O. A configuration that is not free is no error, because reporting it is the job.
 pub fn run(args: &CheckArgs) -> Result<u8, Failure> {
     let sinks = sinks::sinks(&[], &args.picture)?;
     let mut loaded = input::load_scene(args.files.robot(), &args.files.world)?.keeping(args.clearance)?;

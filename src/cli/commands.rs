@@ -1,7 +1,8 @@
-//! From a list of subcommands to a grammar and a dispatch.
+//! Converts a list of subcommands to a grammar and a dispatch.
 
-/// Makes `Command`, the subcommands as clap reads them, of lines `Name(file::Args)`, and `Command::run`, which calls the file's `run`.
-/// A line `Name(file::Args, program)` is for a `run` that takes the [`Program`](super::program::Program), too.
+/// Defines `Command`, clap's enum of the subcommands, from lines `Name(file::Args)`, and `Command::run`, which calls
+/// the file's `run`. A line `Name(file::Args, program)` is for a `run` that also takes the
+/// [`Program`](super::program::Program).
 macro_rules! commands {
     ($program:ident: $($(#[$cfg:meta])? $name:ident($file:ident::$args:ident $(, $context:ident)?),)+) => {
         /// Jobs with a word of their own.

@@ -1,4 +1,4 @@
-//! `cplan completions`: what a shell needs to complete commands, options and their values.
+//! `cplan completions`: scripts with which a shell completes commands, options and their values.
 
 use super::exit::DONE;
 use super::failure::Failure;
@@ -34,15 +34,15 @@ pub fn run(args: &CompletionsArgs, program: &Program) -> Result<u8, Failure> {
     let mut script = Vec::new();
     clap_complete::generate(args.shell, &mut (program.grammar)(), "cplan", &mut script);
     let script = String::from_utf8_lossy(&script);
-    // What is generated leaves its grammar with a `help` of its own.
+    // The generator builds the grammar with a `help` of its own.
     let script = if args.shell == Shell::Fish { for_fish(&script, &(program.grammar)()) } else { script.into_owned() };
     sinks::print(&script)?;
     Ok(DONE)
 }
 
-/// The script for fish as it works here. The generated one takes the first file for a subcommand, so that the main job has options in front
-/// of its files only; it knows nothing behind an option whose value is not there yet, nor behind `help`, which it takes for a
-/// subcommand of itself; and it has no values of arguments without a name.
+/// Returns a corrected script for fish. The generated script takes the first file for a subcommand, so the main job
+/// would have options only before its files. It offers nothing after an option without its value, nor after `help`,
+/// which it takes for a subcommand of itself. It also lacks the values of arguments without a name.
 fn for_fish(script: &str, grammar: &Command) -> String {
     let rules = script.find("complete -c").map_or("", |at| &script[at..]);
     let is_known = |line: &&str| !line.contains("__fish_cplan_using_subcommand help");
@@ -66,7 +66,7 @@ fn values_rule(command: &str, value: &str) -> String {
     format!("complete -c cplan -n \"__fish_cplan_using_subcommand {command}\" -f -a \"{value}\"\n")
 }
 
-/// A subcommand is the first word or none.
+/// The subcommand is the first word, if there is one.
 const FISH: &str = "\
 function __fish_cplan_needs_command
     test (count (commandline -opc)) -eq 1

@@ -1,4 +1,4 @@
-//! `cplan converge`: how relaxations converge on a world's grid.
+//! `cplan converge`: convergence of relaxations on a world's grid.
 
 use super::exit::DONE;
 use super::failure::Failure;
@@ -71,7 +71,7 @@ pub struct ConvergeArgs {
     pub print: PrintArgs,
 }
 
-/// Measures, and says what came of it.
+/// Measures, and prints the result.
 ///
 /// # Errors
 /// Bad input and I/O.

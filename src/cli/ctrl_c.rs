@@ -1,11 +1,11 @@
-//! What a job still does when Ctrl-C ends it.
+//! Work that a job still does when Ctrl-C ends it.
 
 use std::process::exit;
 
-/// The exit code of what Ctrl-C ends, as shells have it.
+/// The exit code of a process that Ctrl-C ends, as in shells.
 const STOPPED: i32 = 130;
 
-/// Has `last` done before Ctrl-C ends the process. Where the system lets nobody wait for it, it ends the process as ever.
+/// Runs `last` before Ctrl-C ends the process. On systems without a handler for it, Ctrl-C ends the process as usual.
 pub fn before_it_ends(last: impl FnOnce() + Send + 'static) {
     let mut last = Some(last);
     let _ = ctrlc::set_handler(move || {

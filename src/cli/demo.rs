@@ -1,4 +1,4 @@
-//! `cplan demo`: a cell that is part of the program, for those who have no files yet.
+//! `cplan demo`: a built-in cell, for users without files.
 
 use super::exit::DONE;
 use super::failure::Failure;
@@ -41,10 +41,11 @@ pub struct DemoArgs {
     pub plan: PlanArgs,
 }
 
-/// Plans the built-in cell as the main job plans any, and says what to do next. The exit code is the main job's.
+/// Plans the built-in cell like any other in the main job, and prints the next commands. The exit code is the main
+/// job's.
 ///
 /// # Errors
-/// Files that are there already, I/O, and options that make no sense for the cell.
+/// Existing files, I/O, and options that make no sense for the cell.
 pub fn run(args: &mut DemoArgs) -> Result<u8, Failure> {
     let [result, picture] = [RESULT, PICTURE].map(|name| in_folder(&args.dir, name));
     spare(&[result.clone(), picture.clone()], args.force, "--dir DIR writes elsewhere")?;
@@ -63,7 +64,7 @@ pub fn run(args: &mut DemoArgs) -> Result<u8, Failure> {
     Ok(code)
 }
 
-/// The file in the folder, as people would write it.
+/// Returns the file in the folder, as people would write it.
 pub fn in_folder(folder: &Path, name: &str) -> PathBuf {
     if folder == Path::new(".") { name.into() } else { folder.join(name) }
 }

@@ -1,4 +1,4 @@
-//! Errors for scripts: with `--json` they are JSON on stdout, too.
+//! Errors for scripts: with `--json` they are JSON on stdout.
 
 use super::failure::Failure;
 use crate::input::{Diagnostic, DiagnosticKind};
@@ -7,9 +7,10 @@ use serde::Serialize;
 /// An error as an object. `file` to `help` are those of the first diagnostic; `diagnostics` has all.
 #[derive(Debug, Serialize)]
 pub struct ErrorJson {
-    /// Always `error`, so that scripts tell it from a result.
+    /// Always `error`, by which scripts distinguish it from a result.
     status: &'static str,
-    /// `usage` for a wrong command line, `start` or `goal` for one that is missing, out of range or not free, else `input`.
+    /// `usage` for a wrong command line, `start` or `goal` for one that is missing, out of range or not free, otherwise
+    /// `input`.
     kind: &'static str,
     #[serde(flatten)]
     first: DiagnosticJson,
@@ -18,10 +19,10 @@ pub struct ErrorJson {
     diagnostics: Vec<DiagnosticJson>,
 }
 
-/// One thing that is wrong.
+/// One defect.
 #[derive(Debug, Serialize)]
 struct DiagnosticJson {
-    /// None if it is in an option.
+    /// `None` for a defect of an option.
     file: Option<String>,
     line: Option<usize>,
     column: Option<usize>,
@@ -54,7 +55,7 @@ impl From<&Diagnostic> for DiagnosticJson {
 }
 
 impl ErrorJson {
-    /// What ended a job.
+    /// Describes the failure that ended a job.
     pub fn of_failure(failure: &Failure) -> Self {
         let diagnostics = match failure {
             Failure::Input(error) => error.diagnostics(),
@@ -73,7 +74,7 @@ impl ErrorJson {
         Self { status: "error", kind, first, diagnostics }
     }
 
-    /// A command line that cannot be read.
+    /// Returns a command line that cannot be read.
     pub fn of_usage(error: &clap::Error) -> Self {
         let text = error.to_string();
         let line_after =
@@ -84,7 +85,7 @@ impl ErrorJson {
         Self { status: "error", kind: "usage", first: DiagnosticJson::plain(message, help), diagnostics: Vec::new() }
     }
 
-    /// A JSON document and a line feed.
+    /// Returns a JSON document and a line feed.
     pub fn text(&self) -> String {
         serde_json::to_string_pretty(self).map_or_else(|error| error.to_string(), |json| json + "\n")
     }

@@ -1,4 +1,5 @@
-//! `cplan explain`: why there is no motion, and what opens a way; of one that there is, what shapes it.
+//! `cplan explain`: the reasons why there is no motion, and the changes that open a path; for a motion, the obstacles
+//! that make it longer.
 
 use super::exit::{DONE, INFEASIBLE, UNKNOWN};
 use super::failure::Failure;
@@ -58,7 +59,7 @@ pub struct ExplainArgs {
 /// Explains.
 ///
 /// # Errors
-/// Bad input and I/O. That there is no motion is no error: saying why is the job.
+/// Bad input and I/O. A missing motion is no error, because explaining it is the job.
 pub fn run(args: &ExplainArgs) -> Result<u8, Failure> {
     let sinks = sinks::sinks(&[], &args.picture)?;
     let loaded = input::load_scene(args.files.robot(), &args.files.world)?;
@@ -78,20 +79,21 @@ pub fn run(args: &ExplainArgs) -> Result<u8, Failure> {
     Ok(code)
 }
 
-/// What there is to say of what a world asks for.
+/// An explanation of a world's motion or task.
 #[derive(Debug)]
 pub enum Explained {
-    /// Of its motion, or that of the step that fails; with what is to be known of how it was read, line by line.
+    /// Explains the motion, or that of the failed step, with notes about its input, line by line.
     Motion(Box<Explanation>, Vec<String>),
-    /// Nothing: all its steps can be done.
+    /// All steps can be done, so there is nothing to explain.
     Done(Box<Plan>),
 }
 
 impl Explained {
-    /// Explains what the world asks for, or `overrides` in its place, within a time limit ([`Question::with_time_limit`]).
+    /// Explains the world's motion or task, or `overrides` instead, within a time limit
+    /// ([`Question::with_time_limit`]).
     ///
     /// # Errors
-    /// Overrides that do not go with the world; a task that is none.
+    /// Overrides that do not fit the world; an invalid task.
     pub fn of(loaded: LoadedScene, overrides: &Overrides, limit: Duration) -> Result<Self, Failure> {
         loaded.require_standing("what is in the way is told of what stands")?;
         let (question, notes) = if loaded.has_steps() {
@@ -118,7 +120,7 @@ impl Explained {
         Ok(Self::Motion(Box::new(explain(&question, &Options::default())), notes))
     }
 
-    /// Whether there is a motion.
+    /// Returns true if there is a motion.
     #[must_use]
     pub fn status(&self) -> Status {
         match self {
@@ -127,7 +129,7 @@ impl Explained {
         }
     }
 
-    /// As a JSON object.
+    /// Returns the explanation as a JSON object.
     #[must_use]
     pub fn to_json(&self) -> Value {
         match self {
@@ -136,7 +138,7 @@ impl Explained {
         }
     }
 
-    /// For people.
+    /// Returns the explanation as text.
     #[must_use]
     pub fn summary(&self) -> String {
         match self {
@@ -145,7 +147,7 @@ impl Explained {
         }
     }
 
-    /// What pictures and pages show.
+    /// Returns the content of pictures and pages.
     #[must_use]
     pub fn view(&self) -> View {
         match self {
@@ -155,7 +157,8 @@ impl Explained {
     }
 }
 
-/// The motion of the step that fails, among objects as they lie then and with what is carried; and which step it is.
+/// Returns the motion of the failed step, with the objects and the payload at that time, and the description of the
+/// step.
 fn failed_step(plan: &Plan) -> Option<(Question, String)> {
     let (task, answer) = plan.task()?;
     let FailedStep { step, scene, from, ik_solutions, .. } = answer.failed()?;

@@ -1,4 +1,4 @@
-//! `cplan explore`: planning in a world that is only seen bit by bit.
+//! `cplan explore`: planning in a world that is discovered step by step.
 
 use super::exit::{DONE, INFEASIBLE, UNKNOWN};
 use super::failure::Failure;
@@ -73,7 +73,7 @@ pub struct ExploreArgs {
     /// Say how long decisions took; without it the same input gives the same output.
     #[arg(long)]
     pub timings: bool,
-    // Last, because its headings are for all that follows.
+    // Last, because its headings apply to everything after them.
     #[command(flatten)]
     pub options: PlannerArgs,
 }
@@ -100,7 +100,7 @@ impl From<StrategyName> for Strategy {
     }
 }
 
-/// Explores, and says what came of it.
+/// Explores, and prints the result.
 ///
 /// # Errors
 /// Bad input and I/O.
@@ -164,7 +164,7 @@ pub fn run(args: &ExploreArgs) -> Result<u8, Failure> {
 }
 
 impl ExploreArgs {
-    /// Why there is no exploration, with what to do about it.
+    /// Returns the reason why there is no exploration, with a hint.
     fn refused(&self, error: &ExploreError) -> Failure {
         let (file, cure) = match error {
             ExploreError::Map(_) => (&self.files.world, "give its [sensor] a larger cell, or joint 1 narrower limits"),
@@ -196,12 +196,12 @@ impl ExploreArgs {
     }
 }
 
-/// Whether an exploration can be written so.
+/// Returns true if the format can hold an exploration.
 fn is_known(sink: &Sink) -> bool {
     matches!(sink, Sink::Result(Format::Json | Format::Csv | Format::Yaml, _) | Sink::Picture(..))
 }
 
-/// The description and the picture of a map.
+/// Returns the description and the picture of a map.
 fn map_files(description: &Path) -> Result<[PathBuf; 2], Failure> {
     if !matches!(description.extension().and_then(|e| e.to_str()), Some("yaml" | "yml")) {
         return Err(Failure::Usage(format!("{}: a map's name must end in .yaml", description.display())));
@@ -211,7 +211,7 @@ fn map_files(description: &Path) -> Result<[PathBuf; 2], Failure> {
     Ok(files)
 }
 
-/// The whole way, all legs one after the other.
+/// Returns the whole route, all legs one after the other.
 fn way(done: &Exploration, start: Configuration) -> JointPath {
     let legs = done.legs.iter().flat_map(|leg| leg.curve.curve().path().waypoints().iter().copied());
     JointPath::new(std::iter::once(start).chain(legs).collect())
@@ -241,7 +241,7 @@ fn view(world: &Explorable, done: &Exploration) -> View {
     })
 }
 
-/// What there is to say, by name.
+/// Returns the facts, by name.
 fn facts(done: &Exploration) -> Vec<Line> {
     let map = done.survey.map();
     let [free, occupied, unknown] = done.survey.counts();

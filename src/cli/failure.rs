@@ -1,4 +1,4 @@
-//! What ends a job before its result: exit code 1, or 2 for a wrong command line.
+//! Failures that end a job before its result: exit code 1, or 2 for a wrong command line.
 
 use super::exit::{BAD_INPUT, USAGE};
 use crate::draw::DrawError;
@@ -11,29 +11,29 @@ use thiserror::Error;
 /// Bad input or I/O, in the user's words.
 #[derive(Debug, Error)]
 pub enum Failure {
-    /// One of the input files or an override.
+    /// A defect in one of the input files or an override.
     #[error(transparent)]
     Input(#[from] InputError),
-    /// The motion cannot be planned as asked.
+    /// The options make no plan.
     #[error(transparent)]
     Plan(#[from] PlanError),
-    /// The trajectory cannot be made as asked.
+    /// The options make no trajectory.
     #[error(transparent)]
     Trajectory(#[from] TimingError),
-    /// An output file.
+    /// An output file cannot be written.
     #[error(transparent)]
     Write(#[from] WriteError),
-    /// Rows of a study that cannot be kept.
+    /// Rows of a study cannot be stored.
     #[cfg(feature = "study")]
     #[error(transparent)]
     Journal(#[from] crate::study::JournalError),
     /// A picture could not be drawn.
     #[error(transparent)]
     Draw(#[from] DrawError),
-    /// What an option asks for cannot be done.
+    /// The effect of an option is impossible.
     #[error("{0}")]
     Option(String),
-    /// The same as bad input, after a report in JSON that has it already.
+    /// Bad input that a report in JSON contains already.
     #[error(transparent)]
     Reported(InputError),
     /// A wrong command line.
@@ -42,12 +42,12 @@ pub enum Failure {
 }
 
 impl Failure {
-    /// Whether stdout has it already.
+    /// Returns true if the failure is already on stdout.
     pub fn is_reported(&self) -> bool {
         matches!(self, Self::Reported(_))
     }
 
-    /// The process's exit code.
+    /// Returns the process's exit code.
     pub fn exit_code(&self) -> u8 {
         if matches!(self, Self::Usage(_) | Self::Plan(PlanError::Options(_))) { USAGE } else { BAD_INPUT }
     }

@@ -20,7 +20,7 @@ pub struct Files {
 }
 
 impl Files {
-    /// The arm's file with its arguments.
+    /// Returns the arm's file with its arguments.
     pub fn robot(&self) -> RobotFile {
         RobotFile { path: self.urdf.clone(), xacro_args: self.xacro_args.clone() }
     }
@@ -35,13 +35,13 @@ pub struct XacroArgs {
 }
 
 impl XacroArgs {
-    /// A robot's file with the arguments.
+    /// Returns a robot's file with the arguments.
     pub fn robot(&self, path: &Path) -> RobotFile {
         RobotFile { path: path.to_owned(), xacro_args: self.xacro_args.clone() }
     }
 }
 
-/// `NAME=VALUE`, or `NAME:=VALUE` as ROS has it.
+/// Parses `NAME=VALUE`, or ROS's `NAME:=VALUE`.
 fn xacro_argument(text: &str) -> Result<(String, String), String> {
     let (name, value) = text.split_once('=').ok_or("an argument of xacro is written NAME=VALUE")?;
     Ok((name.strip_suffix(':').unwrap_or(name).to_owned(), value.to_owned()))

@@ -1,13 +1,13 @@
-//! Files that a command makes up itself, so that they may take the place of nobody's by accident.
+//! Files with default names, which must not replace any file of the user by accident.
 
 use super::failure::Failure;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Makes a folder and those above it, unless it is there.
+/// Creates a folder and its parents, unless it exists.
 ///
 /// # Errors
-/// When the system refuses.
+/// If the system refuses.
 pub fn folder(path: &Path) -> Result<(), Failure> {
     if path.as_os_str().is_empty() || path.is_dir() {
         return Ok(());
@@ -18,12 +18,12 @@ pub fn folder(path: &Path) -> Result<(), Failure> {
     })
 }
 
-/// Refuses to replace files that are there, unless that is what `force` says. `elsewhere` is the other way out.
+/// Refuses to replace existing files, unless `force` is set. `elsewhere` is the alternative for the message.
 ///
 /// # Errors
-/// When one is there; all of them are named.
+/// If a file exists; the message names all of them.
 pub fn spare(files: &[PathBuf], force: bool, elsewhere: &str) -> Result<(), Failure> {
-    // A symbolic link that leads nowhere is somebody's, too.
+    // A symbolic link without a target counts as an existing file, too.
     let there: Vec<String> =
         files.iter().filter(|f| f.symlink_metadata().is_ok()).map(|f| f.display().to_string()).collect();
     if force || there.is_empty() {
@@ -36,7 +36,7 @@ pub fn spare(files: &[PathBuf], force: bool, elsewhere: &str) -> Result<(), Fail
     )))
 }
 
-/// A path as a word for the shell: in quotes where it needs them.
+/// Returns a path as a word for the shell, in quotes if it needs them.
 pub fn word(path: &Path) -> String {
     let text = path.display().to_string();
     let plain = |c: char| c.is_alphanumeric() || "._-/\\:+~".contains(c);

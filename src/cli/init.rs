@@ -1,4 +1,4 @@
-//! `cplan init`: a robot and a world to start from, every key explained.
+//! `cplan init`: a robot and a world as a start, with every key explained.
 
 use super::demo::{self, in_folder};
 use super::exit::DONE;
@@ -15,7 +15,7 @@ const ROBOT: &str = "arm.urdf";
 const WORLD: &str = "world.toml";
 const SCHEMA: &str = "world.schema.json";
 
-/// The world with `{{marks}}` for what differs between the kinds of arms.
+/// The world, with `{{marks}}` where the kinds of arms differ.
 const TEMPLATE: &str = include_str!("starter/world.toml");
 
 /// Write a commented world and a robot to start from.
@@ -54,7 +54,7 @@ pub enum Kind {
     Scara,
 }
 
-/// What stands for the marks of the template.
+/// Values for the marks of the template.
 struct Marks {
     name: &'static str,
     joints: [&'static str; 2],
@@ -70,7 +70,7 @@ struct Marks {
     disc: [&'static str; 2],
     wall: &'static str,
     region: &'static str,
-    /// Whether what stands on the table needs a height, because a part of the arm is above all of it.
+    /// True if objects on the table need heights, because a part of the arm is above all of them.
     is_above: bool,
 }
 
@@ -135,7 +135,7 @@ const PP: Marks = Marks {
 };
 
 impl Marks {
-    /// The world of this arm.
+    /// Returns the world of this arm.
     fn world(&self) -> String {
         let [joint1, joint2] = self.joints;
         let [unit1, unit2] = self.units;
@@ -168,7 +168,7 @@ impl Marks {
 }
 
 impl Kind {
-    /// The robot's file.
+    /// Returns the robot's file.
     fn robot(self) -> &'static str {
         match self {
             Kind::Rr => include_str!("starter/rr.urdf"),
@@ -179,7 +179,7 @@ impl Kind {
         }
     }
 
-    /// The world's file.
+    /// Returns the world's file.
     fn world(self) -> String {
         match self {
             Kind::Rr => RR.world(),
@@ -187,7 +187,7 @@ impl Kind {
             Kind::Pr => PR.world(),
             Kind::Pp => PP.world(),
             Kind::Scara => {
-                // Lines that are for the tests of the shipped worlds say nothing here.
+                // Lines for the tests of the shipped worlds are of no use here.
                 let lines = demo::WORLD.lines().filter(|l| !l.starts_with("# robot:") && !l.starts_with("# expect:"));
                 lines.fold(format!("#:schema ./{SCHEMA}\n"), |text, line| text + line + "\n")
             }
@@ -195,10 +195,10 @@ impl Kind {
     }
 }
 
-/// Writes the files and says what to do with them.
+/// Writes the files and prints the next commands.
 ///
 /// # Errors
-/// Files that are there already, and I/O; nothing is written then.
+/// Existing files, and I/O; nothing is written then.
 pub fn run(args: &InitArgs) -> Result<u8, Failure> {
     let [robot, world, schema_file] = [ROBOT, WORLD, SCHEMA].map(|name| in_folder(&args.dir, name));
     spare(&[robot.clone(), world.clone(), schema_file.clone()], args.force, "`cplan init DIR` writes elsewhere")?;
@@ -213,7 +213,7 @@ pub fn run(args: &InitArgs) -> Result<u8, Failure> {
     Ok(DONE)
 }
 
-/// What was written, and what to do next.
+/// Returns the list of written files, and the next command.
 fn told(robot: &Path, world: &Path, schema: &Path) -> String {
     let both = format!("{} {}", word(robot), word(world));
     laid_out(&[

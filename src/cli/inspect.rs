@@ -1,4 +1,4 @@
-//! `cplan inspect`: what the planner makes of a robot, and what keeps it from planning.
+//! `cplan inspect`: the planner's model of a robot, and the defects that prevent planning.
 
 use super::exit::{DONE, REFUTED};
 use super::failure::Failure;
@@ -16,7 +16,7 @@ use std::path::{Path, PathBuf};
 /// The report as JSON.
 #[derive(Serialize)]
 struct Json<'a> {
-    /// Whether the robot can be planned with as it is.
+    /// True if planning with the robot is possible without changes.
     plannable: bool,
     #[serde(flatten)]
     inspection: &'a Inspection,
@@ -68,7 +68,7 @@ pub struct InspectArgs {
 /// Reports on stdout.
 ///
 /// # Errors
-/// I/O; and, after the report, the first diagnostic of a robot that cannot be planned with.
+/// I/O; and, after the report, the first diagnostic of a robot that cannot be planned.
 pub fn run(args: &InspectArgs) -> Result<u8, Failure> {
     let sinks = sinks::sinks(&[], &args.picture)?;
     let robot = args.xacro.robot(&args.urdf);
@@ -98,7 +98,7 @@ pub fn run(args: &InspectArgs) -> Result<u8, Failure> {
     }
 }
 
-/// Writes the URDF that a robot in xacro expands to, and warns of meshes that it does not find from there.
+/// Writes the URDF of a robot in xacro, and warns of meshes whose paths do not work from there.
 fn write_expanded(robot: &RobotFile, path: &Path) -> Result<(), Failure> {
     let source = robot.read()?;
     if !source.is_expanded() {
@@ -123,7 +123,7 @@ fn entry(diagnostic: &Diagnostic) -> DiagnosticEntry<'_> {
     }
 }
 
-/// The arm at zero, if there is one.
+/// Returns the arm at zero, if there is one.
 fn view(inspection: &Inspection) -> Option<View> {
     let scene = inspection.scene.as_ref()?;
     let arm = scene.arm();

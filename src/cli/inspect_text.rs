@@ -1,4 +1,4 @@
-//! The report on a robot for people.
+//! The report on a robot as text.
 
 use crate::input::{
     Inspection, JointEntry, LimitEntry, LimitSource, LinkEntry, OutlineEntry, PairEntry, RateEntry, RateSource, Role,
@@ -6,10 +6,10 @@ use crate::input::{
 };
 use crate::text::{Columns, counted};
 
-/// Pairs of joints that form no arm are named up to this number: the others are of a kind.
+/// Greatest number of pairs of joints that are named with the reason why they form no arm: the others are similar.
 const REFUSED_SHOWN: usize = 12;
 
-/// The whole report.
+/// Returns the whole report.
 pub fn text(report: &Inspection) -> String {
     let mut lines = Columns::default();
     let count: usize = report.errors.iter().map(|e| e.diagnostics().len()).sum();
@@ -62,7 +62,7 @@ pub fn text(report: &Inspection) -> String {
     lines.into_text()
 }
 
-/// A link and everything below it, indented by depth.
+/// Returns a link and everything below it, indented by depth.
 fn tree(lines: &mut Columns, report: &Inspection, link: &str, depth: usize) {
     if depth == 0 {
         lines.add("tree", &described(report, link));
@@ -79,7 +79,7 @@ fn branch(report: &Inspection, joint: &JointEntry) -> String {
     format!("{above}{name} ({kind}, line {line}) - {}", described(report, child))
 }
 
-/// A link with its shapes.
+/// Returns a link with its shapes.
 fn described(report: &Inspection, name: &str) -> String {
     let Some(LinkEntry { collision, visual, .. }) = report.links.iter().find(|l| l.name == name) else {
         return format!("\"{name}\" (not declared)");

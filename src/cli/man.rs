@@ -1,4 +1,4 @@
-//! `cplan man`: manual pages, from the same words as the help.
+//! `cplan man`: manual pages, from the texts of the help.
 
 use super::exit::DONE;
 use super::failure::Failure;
@@ -33,7 +33,7 @@ pub struct ManArgs {
 /// I/O.
 pub fn run(args: &ManArgs, program: &Program) -> Result<u8, Failure> {
     let mut command = (program.grammar)().disable_help_subcommand(true);
-    // Gives the subcommands their full names.
+    // This gives the subcommands their full names.
     command.build();
     let failed = |error: io::Error| Failure::Option(format!("manual page: {error}"));
     let Some(dir) = &args.dir else {
@@ -51,7 +51,7 @@ pub fn run(args: &ManArgs, program: &Program) -> Result<u8, Failure> {
     Ok(DONE)
 }
 
-/// The page of one command.
+/// Returns the page of one command.
 fn page(command: &Command) -> io::Result<Vec<u8>> {
     let man = Man::new(command.clone());
     let mut page = Vec::new();
@@ -70,7 +70,7 @@ fn page(command: &Command) -> io::Result<Vec<u8>> {
     Ok(page)
 }
 
-/// What stands below the options of a help text, in roff: examples, exit codes, and notes for all else.
+/// Returns the texts below the options of a help text, in roff: examples, exit codes, and notes for the rest.
 fn sections(text: &str) -> String {
     let mut found: [(&str, &str, Vec<&str>); 3] =
         [("", "NOTES", Vec::new()), ("Exit codes:", "EXIT STATUS", Vec::new()), ("Examples:", "EXAMPLES", Vec::new())];
@@ -83,7 +83,7 @@ fn sections(text: &str) -> String {
     found.iter().filter(|f| !f.2.is_empty()).map(|(_, title, paragraphs)| section(title, paragraphs)).collect()
 }
 
-/// A section. Indented lines stay lines, as examples have to.
+/// Returns a section. Indented lines stay separate lines, as examples need.
 fn section(title: &str, paragraphs: &[&str]) -> String {
     let mut roff = format!(".SH \"{title}\"\n");
     for (i, paragraph) in paragraphs.iter().enumerate() {
@@ -106,7 +106,7 @@ fn section(title: &str, paragraphs: &[&str]) -> String {
     roff
 }
 
-/// Text as roff takes it: no escapes, no requests, hyphens that can be copied.
+/// Returns text for roff: no escapes, no requests, hyphens that can be copied.
 fn escaped(line: &str) -> String {
     let text = line.replace('\\', "\\e").replace('-', "\\-").replace('\'', "\\(aq");
     if text.starts_with('.') { format!("\\&{text}") } else { text }

@@ -1,17 +1,18 @@
-//! How much memory a piece of work takes, where the program can tell.
+//! Measures the memory of a piece of work, if the program can.
 
-/// What counts the bytes that the process has allocated: the program's allocator, which a library cannot choose.
+/// A counter of the bytes that the process has allocated. It is part of the program's allocator, which a library cannot
+/// choose.
 #[derive(Debug, Clone, Copy)]
 pub struct MemoryMeter {
-    /// Bytes that were allocated at the same time, beyond those at the last restart, at the most.
+    /// Returns the peak of allocated bytes since the last restart, minus the bytes allocated then.
     pub peak: fn() -> usize,
-    /// Begins to count at what is allocated now.
+    /// Restarts the count at the present allocation.
     pub restart: fn(),
 }
 
 impl MemoryMeter {
-    /// Does the work, and tells how many bytes more than before it had allocated at the same time, at the most. Whatever
-    /// other threads allocate meanwhile counts, too.
+    /// Does the work, and returns its peak of additional allocated bytes. Allocations of other threads during that time
+    /// count, too.
     pub fn measure<T>(&self, work: impl FnOnce() -> T) -> (T, u64) {
         (self.restart)();
         let result = work();

@@ -1,4 +1,4 @@
-//! What tables and ROS 2 messages hold, on the command line.
+//! Command-line options for the content of tables and ROS 2 messages.
 
 use crate::engine::NamedJoints;
 use crate::grammar::word;

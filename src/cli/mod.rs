@@ -1,4 +1,4 @@
-//! The command line: arguments to library calls, results to files, summaries and exit codes.
+//! The command line: from arguments to library calls, and from results to files, summaries and exit codes.
 
 mod batch;
 mod check;
@@ -130,7 +130,8 @@ struct Cli {
 }
 
 impl Cli {
-    /// The grammar for reading. What planners can be told is left out of the main job's help, a line an option, which has no room for it.
+    /// Returns the grammar for parsing. The main job's help shows one line per option and has no room for the planners'
+    /// options, so they are left out.
     fn to_read() -> clap::Command {
         let planners: BTreeSet<String> =
             PlannerWords::command().get_opts().map(|option| option.get_id().to_string()).collect();
@@ -145,15 +146,15 @@ impl Cli {
     }
 }
 
-/// Runs the program with the process's arguments. A wrong command line ends it with exit code 2. With `--json` an error is
-/// a JSON object on stdout, besides the words on stderr. `meter` counts the
-/// process's memory, if anything does.
+/// Runs the program with the process's arguments. A wrong command line ends it with exit code 2. With `--json` an error
+/// is printed as a JSON object on stdout, in addition to the text on stderr. `meter` counts the process's memory, if
+/// available.
 #[must_use]
 pub fn run(meter: Option<MemoryMeter>) -> ExitCode {
     run_with(std::env::args_os().collect(), meter).into()
 }
 
-/// The same with these arguments, the program's name first; its exit code.
+/// Runs the program with these arguments, the program's name first, and returns its exit code.
 #[must_use]
 pub fn run_with(arguments: Vec<OsString>, meter: Option<MemoryMeter>) -> u8 {
     let in_json = arguments.iter().any(|argument| argument == "--json");
@@ -175,7 +176,7 @@ pub fn run_with(arguments: Vec<OsString>, meter: Option<MemoryMeter>) -> u8 {
     };
     done.unwrap_or_else(|failure: Failure| {
         if in_json && !failure.is_reported() {
-            // A stream that is closed cannot be told so.
+            // If stdout is closed, the error cannot be reported there.
             let _ = sinks::print(&ErrorJson::of_failure(&failure).text());
         }
         sinks::say(&format!("error: {failure}"));
@@ -183,7 +184,8 @@ pub fn run_with(arguments: Vec<OsString>, meter: Option<MemoryMeter>) -> u8 {
     })
 }
 
-/// That a first word is neither a command nor a file. Of more words than two the third would be the command then, in conflict with two files.
+/// Returns an error if the first word is neither a command nor a file. With more than two words, the third would be
+/// parsed as the command, in conflict with two files.
 fn misspelled(first: OsString) -> Option<clap::Error> {
     let word = first.to_string_lossy();
     let is_meant = Path::new(&first).extension().is_none() && !word.starts_with('-');
@@ -192,12 +194,12 @@ fn misspelled(first: OsString) -> Option<clap::Error> {
     (is_meant && !is_known).then(|| Cli::command().error(ErrorKind::InvalidSubcommand, message()))
 }
 
-/// Says what is wrong with the command line, or shows what it asks to be shown: a help or the version.
+/// Reports a wrong command line, or prints the requested help or version.
 fn unread(error: &clap::Error, in_json: bool) -> u8 {
     if in_json && error.use_stderr() {
         let _ = sinks::print(&ErrorJson::of_usage(error).text());
     }
-    // As `exit` has it: a stream that is closed is nobody's concern.
+    // Like clap's `exit`, this ignores a closed stream.
     let _ = error.print();
     u8::try_from(error.exit_code()).unwrap_or(USAGE)
 }
@@ -206,7 +208,7 @@ fn unread(error: &clap::Error, in_json: bool) -> u8 {
 mod tests {
     use super::*;
 
-    /// All examples of all helps are command lines; `tests/program/cli/help.rs` runs those that end soon.
+    /// Checks that all examples in the help are command lines; `tests/program/cli/help.rs` runs the short ones.
     #[test]
     fn examples_are_command_lines() {
         let mut command = Cli::command();
@@ -216,7 +218,7 @@ mod tests {
         let examples: Vec<&str> = text.lines().map(str::trim).filter(|line| line.starts_with("cplan ")).collect();
         assert!(examples.len() > 30, "{examples:?}");
         for example in examples {
-            // Words in quotes are one; what follows `>` is the shell's.
+            // Words in quotes are one; text after `>` is for the shell.
             let quoted = example.split('"').enumerate();
             let parts = quoted.flat_map(|(i, part)| match i % 2 {
                 1 => vec![part],

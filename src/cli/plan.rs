@@ -61,7 +61,7 @@ pub struct PlanArgs {
     /// Put the time that each stage took into the JSON; without it the same input gives the same bytes.
     #[arg(long)]
     pub timings: bool,
-    // Last, because its headings are for all that follows.
+    // Last, because its headings apply to everything after them.
     #[command(flatten)]
     pub options: PlannerArgs,
 }
@@ -87,7 +87,7 @@ impl From<FieldLinesName> for FieldLines {
     }
 }
 
-/// Plans, writes what was asked for, and returns the exit code.
+/// Plans, writes the requested files, and returns the exit code.
 ///
 /// # Errors
 /// Bad input and I/O.
@@ -95,7 +95,7 @@ pub fn run(files: &Files, args: &PlanArgs) -> Result<u8, Failure> {
     answer(args, Some(files), || input::load_scene(files.robot(), &files.world))
 }
 
-/// The same for a scene from anywhere, if need be from no files. Nothing is loaded if the command line is wrong.
+/// Plans for a scene from any source, possibly without files. Nothing is loaded if the command line is wrong.
 ///
 /// # Errors
 /// Bad input and I/O.
@@ -120,7 +120,7 @@ pub fn answer(
     }
     let asked = args.query.overrides();
     let said = loaded.said_ends();
-    // They may be why start or goal is refused.
+    // The warnings may explain why start or goal is refused.
     loaded.robot.warnings.iter().for_each(|w| args.print.say(&format!("warning: {w}")));
     let problem = Problem::of_scene(loaded, &asked)?.read_since(begun);
     if let Some(lack) = options.planner.lack(&problem.scene().workspace().preferences) {
@@ -130,7 +130,7 @@ pub fn answer(
     let files = ResultFiles::new(&sinks, args.per_step, steps)?;
     let plan = plan_with(&problem, &options, &mut |text| args.print.say(text))?;
     let begun = Instant::now();
-    // Where ends were found from a place of the tip, or put at a limit, the certificate says them.
+    // If ends come from a place of the tip, or were moved to a limit, the certificate states them.
     let start = problem.motion().map(MotionProblem::start).or(problem.task().map(|task| task.start));
     let goal = problem.motion().filter(|_| said[1].is_some()).map(|motion| motion.goals().pieces()[0].ends()[0]);
     let asked = with_ends(asked, said, [start, goal]);
@@ -145,7 +145,7 @@ pub fn answer(
     Ok(code)
 }
 
-/// What was asked, with the start and the goal that were found where the files do not say them as joint values.
+/// Returns the overrides, with the start and the goal that were found if the files do not state them as joint values.
 pub fn with_ends(
     asked: Overrides,
     said: [Option<Configuration>; 2],
@@ -159,7 +159,7 @@ pub fn with_ends(
     }
 }
 
-/// Refuses a matrix of a grid's values where the planner has no grid.
+/// Refuses a matrix of a grid's values if the planner has no grid.
 fn require_grid(sinks: &[Sink], planner: &Planner) -> Result<(), Failure> {
     let matrix = sinks.iter().find(|sink| matches!(sink, Sink::CSpace(CSpaceFormat::Csv, _)));
     match matrix {
@@ -171,10 +171,11 @@ fn require_grid(sinks: &[Sink], planner: &Planner) -> Result<(), Failure> {
     }
 }
 
-/// Writes results, then configuration spaces, pictures and the certificate. The names of the files that are written, for people.
+/// Writes results, then configuration spaces, pictures and the certificate. Returns the names of the written files, for
+/// display.
 ///
 /// # Errors
-/// I/O, or a picture that cannot be made of pixels.
+/// I/O, or a picture that cannot be rendered.
 fn written(
     plan: &Plan,
     sinks: &[Sink],
@@ -221,16 +222,16 @@ fn written(
     Ok(written)
 }
 
-/// What would be written of a certificate: a file, or a part of one.
+/// Returns the description of the output for a certificate: a file, or a part of one.
 fn shown(path: &Path, sinks: &[Sink]) -> String {
     let is_file = sinks.iter().any(|sink| matches!(sink, Sink::Certificate(own) if own == path));
     if is_file { path.display().to_string() } else { format!("the certificate in {}", path.display()) }
 }
 
-/// How to plan, from the command line.
+/// Returns the planning options from the command line.
 ///
 /// # Errors
-/// Options that contradict each other or the planner, and a GPU that is not there.
+/// Options that contradict each other or the planner, and a missing GPU.
 pub fn options(
     planner: Method,
     options: &PlannerArgs,

@@ -28,7 +28,7 @@ pub struct PlannersArgs {
     pub options: PlannerArgs,
 }
 
-/// Shows the options. Whatever else is on the command line is only held to the grammar.
+/// Prints the options. The rest of the command line is only checked against the grammar.
 ///
 /// # Errors
 /// I/O.

@@ -1,4 +1,4 @@
-//! What is printed, on the command line.
+//! Command-line options for printed output.
 
 use super::failure::Failure;
 use super::sinks;
@@ -16,17 +16,17 @@ pub struct PrintArgs {
 }
 
 impl PrintArgs {
-    /// Says on stderr how the work goes on, unless that is not asked for.
+    /// Prints progress on stderr, unless `--quiet` is set.
     pub fn say(&self, text: &str) {
         if !self.quiet {
             sinks::say(text);
         }
     }
 
-    /// Prints the result on stdout: as JSON, for people, or not at all. The verdict has the colour of the exit code.
+    /// Prints the result on stdout: as JSON, as text, or not at all. The verdict has the colour of the exit code.
     ///
     /// # Errors
-    /// I/O, and what `json` cannot say.
+    /// I/O, and results that `json` cannot represent.
     pub fn tell(
         &self,
         code: u8,

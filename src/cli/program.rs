@@ -1,13 +1,13 @@
-//! The program around a subcommand.
+//! Information about the program for its subcommands.
 
 use super::memory::MemoryMeter;
 use clap::Command;
 
-/// What a subcommand may want to know of the program.
+/// Information about the program for subcommands.
 #[derive(Debug)]
 pub struct Program {
-    /// Makes the grammar of the whole command line, for what is generated from it.
+    /// Builds the grammar of the whole command line, from which other files are generated.
     pub grammar: fn() -> Command,
-    /// Counts the process's memory, if anything does.
+    /// Counts the process's memory, if available.
     pub meter: Option<MemoryMeter>,
 }

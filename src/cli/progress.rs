@@ -7,7 +7,7 @@ use std::path::Path;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-/// Time between lines where nobody watches a terminal.
+/// Time between lines where stderr is no terminal.
 const INTERVAL: Duration = Duration::from_secs(10);
 
 /// Time between two drawings of the bar.
@@ -16,27 +16,27 @@ const REDRAWN: Duration = Duration::from_millis(50);
 /// Characters of the bar.
 const BAR: usize = 16;
 
-/// Characters of a line: narrower than any terminal, since a line that is broken cannot be taken back.
+/// Characters of a line: narrower than any terminal, since a wrapped line cannot be redrawn.
 const WIDTH: usize = 78;
 
-/// How progress is shown.
+/// The display of progress.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Manner {
-    /// Not at all.
+    /// Prints nothing.
     Silent,
-    /// What happens, line by line: of one problem.
+    /// Prints events line by line, for one problem.
     Told,
-    /// A bar that is drawn over and over.
+    /// Redraws a bar.
     Bar,
-    /// A line now and then.
+    /// Prints a line at intervals.
     Lines,
 }
 
-/// Counts runs and shows how many there are.
+/// Counts runs and shows their number.
 #[derive(Debug)]
 pub struct Progress {
     manner: Manner,
-    /// What is counted: runs, or layouts.
+    /// Name of the counted items: runs, or layouts.
     things: &'static str,
     total: usize,
     started: Instant,
@@ -47,13 +47,14 @@ pub struct Progress {
 struct State {
     done: usize,
     now: String,
-    /// When something was shown last.
+    /// Time of the last display.
     shown: Instant,
 }
 
 impl Progress {
-    /// For `total` runs, or other `things`. Those of a single problem are told line by line, with whatever the planners have to say; of
-    /// several there is a bar on a terminal, elsewhere a line every ten seconds.
+    /// Creates a display for `total` runs, or other `things`. For a single problem it prints line by line, with all
+    /// messages of the planners. For several problems it shows a bar on a terminal, and elsewhere a line every ten
+    /// seconds.
     pub fn new(total: usize, things: &'static str, single: bool, quiet: bool) -> Self {
         let manner = match (quiet, single) {
             (true, _) => Manner::Silent,
@@ -71,7 +72,7 @@ impl Progress {
         }
     }
 
-    /// A run begins.
+    /// Shows the beginning of a run.
     pub fn begin(&self, problem: &str, planner: &str) {
         match self.manner {
             Manner::Silent | Manner::Lines => {}
@@ -87,14 +88,14 @@ impl Progress {
         }
     }
 
-    /// What a planner has to say on its way.
+    /// Shows a planner's message.
     pub fn say(&self, text: &str) {
         if self.manner == Manner::Told {
             sinks::say(text);
         }
     }
 
-    /// A run has ended.
+    /// Counts the end of a run.
     pub fn done(&self) {
         let mut state = self.state();
         state.done += 1;
@@ -109,13 +110,13 @@ impl Progress {
         }
     }
 
-    /// All have ended: the bar goes, or a last line says so.
+    /// Ends the display: removes the bar, or prints a last line.
     pub fn end(&self) {
         match self.manner {
             Manner::Silent | Manner::Told => {}
             Manner::Bar => put(&format!("\r{:WIDTH$}\r", "")),
             Manner::Lines => {
-                // A search may have had less to do than it might.
+                // A search may end before all runs that were possible.
                 let done = self.state().done;
                 sinks::say(&line(done, done, self.things, self.started.elapsed()));
             }
@@ -131,19 +132,19 @@ impl Progress {
     }
 }
 
-/// Nobody may be listening; that stops no job.
+/// Prints on stderr. A closed stream stops no job.
 fn put(text: &str) {
     let mut stderr = std::io::stderr().lock();
     let _ = stderr.write_all(text.as_bytes()).and_then(|()| stderr.flush());
 }
 
-/// Runs a second, and the time that is left at that rate, if it can be told.
+/// Returns the number of runs per second, and the remaining time at that rate, if known.
 fn rate(done: usize, total: usize, elapsed: Duration) -> (f64, Option<String>) {
     let rate = done as f64 / elapsed.as_secs_f64().max(1e-3);
     (rate, (done > 0 && done < total).then(|| time((total - done) as f64 / rate)))
 }
 
-/// Whole seconds, in the two greatest units of them: `45 s`, `3 min 20 s`, `2 h 5 min`.
+/// Returns whole seconds in their two largest units: `45 s`, `3 min 20 s`, `2 h 5 min`.
 fn time(seconds: f64) -> String {
     let seconds = seconds.ceil() as u64;
     let (minutes, hours) = (seconds / 60, seconds / 3600);
@@ -154,14 +155,14 @@ fn time(seconds: f64) -> String {
     }
 }
 
-/// `37 of 1000 runs, 12.3 a second, 78 s left`.
+/// Returns a line such as `37 of 1000 runs, 12.3 a second, 78 s left`.
 fn line(done: usize, total: usize, things: &str, elapsed: Duration) -> String {
     let (rate, left) = rate(done, total, elapsed);
     let left = left.map_or_else(String::new, |left| format!(", {left} left"));
     format!("{done} of {total} {things}, {rate:.1} a second{left}")
 }
 
-/// A bar, the same numbers in short, and what runs now, as far as there is room; as wide each time.
+/// Returns a bar, the same numbers in short, and the present run, if there is room; always of the same width.
 fn bar(done: usize, total: usize, elapsed: Duration, now: &str) -> String {
     let full = (BAR * done).checked_div(total).unwrap_or(BAR).min(BAR);
     let (rate, left) = rate(done, total, elapsed);
@@ -171,7 +172,7 @@ fn bar(done: usize, total: usize, elapsed: Duration, now: &str) -> String {
     format!("{cut:WIDTH$}")
 }
 
-/// Says now and then how many pictures of a picture in motion are done, if that takes long.
+/// Returns a function that reports at intervals how many frames of an animation are done, if that takes long.
 pub fn pictures_done(path: &Path, print: &PrintArgs) -> impl FnMut(usize, usize) {
     const PICTURE_INTERVAL: Duration = Duration::from_secs(5);
     let begun = Instant::now();

@@ -1,4 +1,4 @@
-//! Start, goal and clearance instead of the world's.
+//! Options for start, goal and clearance, which replace the world's.
 
 use super::values::clearance;
 use crate::input::{JointValues, Overrides, TipPoint};
@@ -22,7 +22,7 @@ pub struct QueryArgs {
 }
 
 impl QueryArgs {
-    /// The same for the input layer.
+    /// Returns the options in the form of the input layer.
     #[must_use]
     pub fn overrides(&self) -> Overrides {
         Overrides { start: self.start, goal: self.goal, goal_tip: self.goal_tip, clearance: self.clearance }

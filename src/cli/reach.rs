@@ -1,4 +1,4 @@
-//! `cplan reach`: where the tip can get.
+//! `cplan reach`: the places that the tip can reach.
 
 use super::exit::DONE;
 use super::failure::Failure;
@@ -17,7 +17,7 @@ use clap::{Args, ValueHint};
 use serde_json::{Value, json};
 use std::path::PathBuf;
 
-/// Cells across the arm's reach, if nothing else is said.
+/// Default number of cells across the arm's reach.
 const CELLS: f64 = 60.0;
 
 /// Tell where the tip can get, with which IK solutions: certified, or proven out of reach.
@@ -54,7 +54,7 @@ pub struct ReachArgs {
     pub print: PrintArgs,
 }
 
-/// Tells where the tip can get.
+/// Reports the places that the tip can reach.
 ///
 /// # Errors
 /// Bad input and I/O.
@@ -105,7 +105,7 @@ fn object(world: &Explorable, reach: &Reach) -> Value {
     json!({ "joints": names(world), "cells": tally, "reachable_area": area_reachable, "reach": reach })
 }
 
-/// A line a solution: the cell's centre, joint values, whether it can be reached.
+/// Returns one line per solution: the cell's centre, joint values, and the kind of access.
 fn csv(world: &Explorable, reach: &Reach) -> String {
     let [a, b] = names(world).map(crate::report::quoted);
     let mut text = format!("x,y,{a},{b},access\n");
@@ -125,7 +125,7 @@ fn csv(world: &Explorable, reach: &Reach) -> String {
     text
 }
 
-/// What there is to say, by name.
+/// Returns the facts, by name.
 fn facts(world: &Explorable, reach: &Reach) -> Vec<(&'static str, String)> {
     let [joints, units] = [names(world), world.scene.arm().joints.each_ref().map(|joint| joint.unit())];
     let several = reach.best().filter(|(_, access, count)| *access == Access::Reachable && *count > 1).count();

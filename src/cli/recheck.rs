@@ -1,4 +1,4 @@
-//! `cplan recheck`: whether the checker of certificates accepts what a result proves, or a certificate.
+//! `cplan recheck`: runs the checker of certificates on a result's proof or bound, or on a certificate.
 
 use super::exit::DONE;
 use super::failure::Failure;
@@ -43,16 +43,17 @@ pub struct RecheckArgs {
     pub query: QueryArgs,
 }
 
-/// Checks what a result file proves against the two input files. That it was made for them is not taken on trust.
+/// Checks the claims of a result file against the two input files. It does not assume that the result was made from
+/// these files.
 ///
 /// # Errors
-/// Bad input, a file without anything to check, and what does not hold.
+/// Bad input, a file without claims, and claims that do not hold.
 pub fn run(args: &RecheckArgs) -> Result<u8, Failure> {
     let scene = input::load_scene(args.files.robot(), &args.files.world)?;
     scene.robot.warnings.iter().for_each(|w| sinks::say(&format!("warning: {w}")));
     let source = Source::read(&args.proof)?;
     let asked = args.query.overrides();
-    // A certificate says itself what was asked.
+    // A certificate contains its query.
     let said = if asked == Overrides::default() && holds_certificate(source.text()) {
         format!("the certificate holds: {}", judged(args, "certificate", source.text())?)
     } else {
@@ -61,7 +62,7 @@ pub fn run(args: &RecheckArgs) -> Result<u8, Failure> {
         match read_proof(source.text()) {
             Ok(claim) => proof_holds(args, &problem, claim.stuck(), &asked)?,
             Err(missing @ ProofFormatError::Missing) => {
-                // What holds neither need be no recording.
+                // A file without a proof and a bound may be no recording.
                 let stated = if source.text().contains("\"optimum\"") { stated(args, &scene)? } else { None };
                 let none = || failed(args, format!("{missing}, and it has no bound in \"optimum\""));
                 bound_holds(args, &problem, &stated.ok_or_else(none)?, &asked)?
@@ -73,12 +74,12 @@ pub fn run(args: &RecheckArgs) -> Result<u8, Failure> {
     Ok(DONE)
 }
 
-/// What is wrong with the file of the evidence.
+/// Returns a failure about the file with the evidence.
 fn failed(args: &RecheckArgs, why: impl Display) -> Failure {
     Failure::Option(format!("{}: {why}", args.proof.display()))
 }
 
-/// Whether a text is a certificate, or a result with one.
+/// Returns true if a text is a certificate, or a result with one.
 fn holds_certificate(text: &str) -> bool {
     #[derive(Deserialize)]
     struct Members {
@@ -88,7 +89,7 @@ fn holds_certificate(text: &str) -> bool {
     serde_json::from_str::<Members>(text).is_ok_and(|members| members.format.is_some() || members.certificate.is_some())
 }
 
-/// What a certificate proves, as the checker has it. `what` names the evidence in messages.
+/// Returns the checker's statement of a certificate's claim. `what` names the evidence in messages.
 ///
 /// # Errors
 /// Evidence that does not hold, and files that the checker does not understand.
@@ -109,14 +110,14 @@ fn judged(args: &RecheckArgs, what: &str, certificate: &str) -> Result<String, F
     })
 }
 
-/// What was asked, with ends that the world does not say as joint values.
+/// Returns the overrides, with the ends that the world does not state as joint values.
 fn in_full(problem: &MotionProblem, scene: &LoadedScene, asked: Overrides) -> Overrides {
     let said = scene.said_ends();
     let goal = said[1].map(|_| problem.goals().pieces()[0].ends()[0]);
     with_ends(asked, said, [Some(problem.start()), goal])
 }
 
-/// The bound in the result file.
+/// Returns the bound in the result file.
 fn stated(args: &RecheckArgs, scene: &LoadedScene) -> Result<Option<Bound>, Failure> {
     let claims = input::load_recording(&args.proof, scene)?.claims.unwrap_or_default();
     let speeds = scene.scene.arm().joints.each_ref().map(|joint| joint.velocity);
@@ -126,7 +127,7 @@ fn stated(args: &RecheckArgs, scene: &LoadedScene) -> Result<Option<Bound>, Fail
     }))
 }
 
-/// That boxes prove that there is no path, in words.
+/// Checks that boxes prove that there is no path, and returns this in words.
 fn proof_holds(
     args: &RecheckArgs,
     problem: &MotionProblem,
@@ -140,7 +141,7 @@ fn proof_holds(
     Ok(format!("the proof holds: collisions separate the start from every goal ({count})"))
 }
 
-/// That a bound holds, in words.
+/// Checks that a bound holds, and returns this in words.
 fn bound_holds(
     args: &RecheckArgs,
     problem: &MotionProblem,

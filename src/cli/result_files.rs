@@ -9,23 +9,23 @@ use crate::output::PlanOutput as _;
 use serde_json::value::RawValue;
 use std::path::{Path, PathBuf};
 
-/// Digits of a step's number in file names, at least: so that names sort as the steps follow.
+/// Least number of digits of a step's number in file names, so that names sort in the order of the steps.
 const DIGITS: usize = 3;
 
 /// The result files to write.
 pub struct ResultFiles {
     results: Vec<(Format, PathBuf)>,
-    /// Whether each step gets a file of its own.
+    /// True if each step gets a file of its own.
     per_step: bool,
-    /// Steps of the task; 1 of a single motion.
+    /// Number of steps of the task; 1 for a single motion.
     steps: usize,
 }
 
 impl ResultFiles {
-    /// What was asked for, for so many steps.
+    /// Creates the list of requested files, for this many steps.
     ///
     /// # Errors
-    /// Files of steps that no format asked for can hold, or that cannot be written.
+    /// Files per step without a suitable format, or files that cannot be written.
     pub fn new(sinks: &[Sink], per_step: bool, steps: usize) -> Result<Self, Failure> {
         let results = sinks.iter().filter_map(|sink| match sink {
             Sink::Result(format, path) => Some((*format, path.clone())),
@@ -47,8 +47,9 @@ impl ResultFiles {
         Ok(files)
     }
 
-    /// Writes all files or, as far as can be foreseen, none; says on stderr which have no room for a result without a trajectory. Into one
-    /// of them goes a certificate, if there is one to go there. The names of those that are written, for people.
+    /// Writes all files, or none if a problem is foreseeable. Reports on stderr the formats that cannot hold a result
+    /// without a trajectory. Puts the certificate into one of the files, if requested. Returns the names of the written
+    /// files, for display.
     ///
     /// # Errors
     /// I/O.
@@ -79,12 +80,12 @@ impl ResultFiles {
         Ok(names)
     }
 
-    /// Whether each step has a file of its own in that format.
+    /// Returns true if each step gets a file of its own in that format.
     fn parts(&self, format: Format) -> bool {
         self.per_step && matches!(format, Format::Csv | Format::Yaml)
     }
 
-    /// The file of one step, from 1: `plan-001.yaml` for `plan.yaml`.
+    /// Returns the file of one step, from 1: `plan-001.yaml` for `plan.yaml`.
     fn part(&self, path: &Path, number: usize) -> PathBuf {
         let digits = self.steps.to_string().len().max(DIGITS);
         let mut name = path.file_stem().unwrap_or_default().to_os_string();
@@ -96,13 +97,13 @@ impl ResultFiles {
         path.with_file_name(name)
     }
 
-    /// The files of all steps, for people.
+    /// Returns the files of all steps, for display.
     fn span(&self, path: &Path) -> String {
         let first = self.part(path, 1).display().to_string();
         if self.steps == 1 { first } else { format!("{first} to {}", self.part(path, self.steps).display()) }
     }
 
-    /// A longer task's files may lie there, and would be taken for this one's.
+    /// Warns about further files from a longer task, which could be mistaken for files of this one.
     fn warn_of_more(&self, path: &Path) {
         let next = self.part(path, self.steps + 1);
         if next.exists() {

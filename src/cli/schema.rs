@@ -1,4 +1,4 @@
-//! `cplan schema`: the JSON schemas of files.
+//! `cplan schema`: JSON schemas of the files.
 
 use super::exit::DONE;
 use super::failure::Failure;
@@ -52,7 +52,7 @@ pub fn run(args: &SchemaArgs) -> Result<u8, Failure> {
     Ok(DONE)
 }
 
-/// The schema of worlds as a file has it.
+/// Returns the schema of worlds as a file has it.
 pub fn text() -> String {
     format!("{:#}\n", world_schema())
 }

@@ -62,10 +62,10 @@ fn time_limit(text: &str) -> Result<Duration, String> {
     Ok(Duration::from_secs_f64(seconds))
 }
 
-/// Serves until it is told to stop.
+/// Serves until it is stopped.
 ///
 /// # Errors
-/// Bad input, and an address that is not to be had.
+/// Bad input, and an unavailable address.
 pub fn run(args: &ServeArgs) -> Result<u8, Failure> {
     Options::parse(&args.with).map_err(|error| Failure::Usage(format!("--with: {error}")))?;
     let (urdf, world) = match (&args.urdf, &args.world) {
@@ -101,10 +101,10 @@ pub fn run(args: &ServeArgs) -> Result<u8, Failure> {
     Ok(DONE)
 }
 
-/// What a file packed by gzip begins with.
+/// First bytes of a file packed by gzip.
 const GZIP: [u8; 2] = [0x1f, 0x8b];
 
-/// Writes the page with the program within it.
+/// Writes the page with the program inside it.
 fn export(args: &ServeArgs, [urdf, world]: [Source; 2], page: &Path, engine: &Path) -> Result<u8, Failure> {
     let cure = "\n  cure: .ci/page of cplan's sources builds it";
     let wrong = |what: String| Failure::Option(format!("{}: {what}{cure}", engine.display()));

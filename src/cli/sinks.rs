@@ -1,4 +1,4 @@
-//! Files and streams.
+//! Output files and streams.
 
 use super::failure::Failure;
 use super::terminal;
@@ -25,7 +25,7 @@ pub enum Sink {
 }
 
 impl Sink {
-    /// The file.
+    /// Returns the file.
     pub fn path(&self) -> &Path {
         match self {
             Sink::Result(_, path) | Sink::CSpace(_, path) | Sink::Picture(_, path) | Sink::Certificate(path) => path,
@@ -33,18 +33,18 @@ impl Sink {
     }
 }
 
-/// What the file names ask for, checked before any work is done.
+/// Returns the outputs for the file names, checked before any work is done.
 ///
 /// # Errors
-/// Extensions that are none of ours or not in this program, and files that cannot be written.
+/// Extensions that are unknown or not supported by this program, and files that cannot be written.
 pub fn sinks(results: &[PathBuf], pictures: &[PathBuf]) -> Result<Vec<Sink>, Failure> {
     sinks_with(results, pictures, None)
 }
 
-/// The same with a certificate.
+/// Returns the outputs together with a certificate.
 ///
 /// # Errors
-/// As [`sinks`].
+/// Same as for [`sinks`].
 pub fn sinks_with(results: &[PathBuf], pictures: &[PathBuf], certificate: Option<&Path>) -> Result<Vec<Sink>, Failure> {
     let mut sinks: Vec<Sink> = certificate.map(|path| Sink::Certificate(path.to_owned())).into_iter().collect();
     for path in results {
@@ -61,10 +61,11 @@ pub fn sinks_with(results: &[PathBuf], pictures: &[PathBuf], certificate: Option
     Ok(sinks)
 }
 
-/// What each file is to hold, by the end of its name; `told` says what ends there are. Checked before any work is done.
+/// Returns the content of each file by its extension; `told` is the message that lists the known extensions. Checked
+/// before any work is done.
 ///
 /// # Errors
-/// Ends that are none of these, and files that cannot be written.
+/// Unknown extensions, and files that cannot be written.
 pub fn outputs<T: Copy>(paths: &[PathBuf], ends: &[(&str, T)], told: &str) -> Result<Vec<(PathBuf, T)>, Failure> {
     let of = |path: &PathBuf| {
         let extension = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase()).unwrap_or_default();
@@ -78,17 +79,17 @@ pub fn outputs<T: Copy>(paths: &[PathBuf], ends: &[(&str, T)], told: &str) -> Re
     Ok(outputs)
 }
 
-/// Whether a file is a result in JSON that is written anyway: then a certificate has a place in it.
+/// Returns true if the file is also a JSON result, which then contains the certificate.
 #[must_use]
 pub fn is_json_among(path: &Path, results: &[PathBuf]) -> bool {
     let is_json = CSpaceFormat::from_path(path).is_none() && matches!(Format::from_path(path), Ok(Format::Json));
     is_json && results.iter().any(|result| result == path)
 }
 
-/// Refuses to write two outputs onto one file, however they are spelt.
+/// Refuses two outputs with the same file, in any spelling.
 ///
 /// # Errors
-/// When two are one; both are named.
+/// If two outputs are the same file; the message names both.
 pub fn distinct<'a>(outputs: impl Iterator<Item = &'a Path>) -> Result<(), Failure> {
     let mut known: Vec<(&Path, FileIdentity)> = Vec::new();
     for path in outputs {
@@ -103,7 +104,7 @@ pub fn distinct<'a>(outputs: impl Iterator<Item = &'a Path>) -> Result<(), Failu
     Ok(())
 }
 
-/// Refuses to overwrite what has been read, also through links: to be asked when all inputs have been.
+/// Refuses to overwrite input files, also through links. To be called after all inputs are read.
 ///
 /// # Errors
 /// When an output is an input; both are named.
@@ -116,7 +117,7 @@ pub fn spare_inputs<'a>(mut outputs: impl Iterator<Item = &'a Path>) -> Result<(
     })
 }
 
-/// Says on stderr that a format has no room for a result without its content: a trajectory, or a grid.
+/// Reports on stderr that a format cannot hold a result without its content: a trajectory, or a grid.
 pub fn warn_unwritten(path: &Path, content: &str) {
     let is_old = if path.exists() { "; what it has is from before" } else { "" };
     say(&format!("warning: {} is not written: there is no {content} to put into it{is_old}", path.display()));
@@ -125,17 +126,17 @@ pub fn warn_unwritten(path: &Path, content: &str) {
 /// Writes a picture.
 ///
 /// # Errors
-/// I/O, or a picture that cannot be made of pixels.
+/// I/O, or a picture that cannot be rendered.
 pub fn save_picture(format: PictureFormat, path: &Path, view: &View) -> Result<(), Failure> {
     Ok(write_whole(path, &format.bytes(view)?)?)
 }
 
-/// Prints a line on stderr: progress, warnings and errors. Nobody may be listening there; that stops no job.
+/// Prints a line on stderr: progress, warnings and errors. A closed stream stops no job.
 pub fn say(text: &str) {
     let _ = writeln!(anstream::stderr(), "{}", terminal::said(&plain(text)));
 }
 
-/// Prints for people on stdout: as [`print`], but what names hold that would act on a terminal is seen instead.
+/// Prints text on stdout like [`print`], but shows control characters in names instead of sending them to the terminal.
 ///
 /// # Errors
 /// I/O.
@@ -143,7 +144,7 @@ pub fn tell(text: &str) -> Result<(), Failure> {
     print(&plain(text))
 }
 
-/// The same of a summary, whose verdict has the colour of the exit code, and whose lines are as wide as the terminal at the most.
+/// Prints a summary. Its verdict has the colour of the exit code, and its lines are at most as wide as the terminal.
 ///
 /// # Errors
 /// I/O.
@@ -151,16 +152,16 @@ pub fn sum_up(text: &str, code: u8) -> Result<(), Failure> {
     printed(anstream::stdout().lock(), &terminal::summary(&plain(text), code))
 }
 
-/// JSON that people read, too, with a line feed at its end.
+/// Returns indented JSON with a line feed at its end.
 ///
 /// # Errors
-/// What has no form in JSON.
+/// A value without a form in JSON.
 pub fn pretty(value: &impl Serialize) -> Result<String, Failure> {
     let json = serde_json::to_string_pretty(value).map_err(|error| Failure::Option(error.to_string()))?;
     Ok(json + "\n")
 }
 
-/// Prints JSON on stdout, in which names do nothing to a terminal, either.
+/// Prints JSON on stdout, also without control characters from names.
 ///
 /// # Errors
 /// I/O.
@@ -168,7 +169,7 @@ pub fn print_json(json: &str) -> Result<(), Failure> {
     print(&plain_json(json))
 }
 
-/// Prints on stdout. A reader that has seen enough (`cplan ... | head`) is no error.
+/// Prints on stdout. It is no error if the reader closes the stream early (`cplan ... | head`).
 ///
 /// # Errors
 /// I/O.

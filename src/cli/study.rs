@@ -1,4 +1,4 @@
-//! `cplan study`: many layouts, a row each.
+//! `cplan study`: many layouts, one row each.
 
 use super::ctrl_c;
 use super::exit::DONE;
@@ -68,7 +68,7 @@ pub struct StudyArgs {
     pub print: PrintArgs,
 }
 
-/// What a file is to hold.
+/// The content of an output file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Content {
     Csv,
@@ -149,7 +149,7 @@ pub fn run(args: &StudyArgs) -> Result<u8, Failure> {
     Ok(DONE)
 }
 
-/// What the names of the outputs ask for, checked before any work is done.
+/// Returns the contents for the outputs' names, checked before any work is done.
 fn contents(outputs: &[PathBuf], is_layout: bool) -> Result<Vec<(PathBuf, Content)>, Failure> {
     let layout = [("toml", Content::World), ("urdf", Content::Robot)];
     let whole = [
@@ -172,7 +172,7 @@ fn contents(outputs: &[PathBuf], is_layout: bool) -> Result<Vec<(PathBuf, Conten
     Ok(contents)
 }
 
-/// Refuses names of Parquet files, which this program cannot write.
+/// Refuses names of Parquet files if this program cannot write them.
 #[cfg(not(feature = "parquet"))]
 fn refuse_parquet(outputs: &[PathBuf]) -> Result<(), Failure> {
     let is_parquet = |path: &&PathBuf| path.extension().is_some_and(|end| end.eq_ignore_ascii_case("parquet"));
@@ -182,7 +182,7 @@ fn refuse_parquet(outputs: &[PathBuf]) -> Result<(), Failure> {
     })
 }
 
-/// Where rows are kept while a study runs.
+/// Returns the file for rows while a study runs.
 fn part(path: &Path) -> PathBuf {
     let mut name = OsString::from(path);
     name.push(".part");
@@ -207,7 +207,7 @@ fn write_layout(study: &Study, layout: usize, files: &[(PathBuf, Content)]) -> R
     Ok(DONE)
 }
 
-/// Says that a layout's robot is another one, where its world alone is written.
+/// Prints a note if only the world of a layout is written, but its robot differs, too.
 fn note_robot(study: &Study, files: &[(PathBuf, Content)]) {
     let of = |wanted: Content| files.iter().find(|(_, content)| *content == wanted);
     if let (Some((world, _)), None, true) = (of(Content::World), of(Content::Robot), study.varies_robots()) {
@@ -216,7 +216,7 @@ fn note_robot(study: &Study, files: &[(PathBuf, Content)]) {
     }
 }
 
-/// What a file holds; none of the best layout where there is none.
+/// Returns the content of a file; `None` for a best layout that does not exist.
 fn bytes(
     study: &Study,
     rows: &[Row],
@@ -239,7 +239,7 @@ fn bytes(
     })
 }
 
-/// World and robot of a layout. The world begins with the command that plans it.
+/// Returns world and robot of a layout. The world begins with the command that plans in it.
 fn texts(study: &Study, layout: usize, values: &[f64], files: &[(PathBuf, Content)]) -> [String; 2] {
     let [world, urdf] = study.layout(values);
     let command = command(study, files).unwrap_or_else(|| command_of(study, "world.toml", files));
@@ -249,7 +249,7 @@ fn texts(study: &Study, layout: usize, values: &[f64], files: &[(PathBuf, Conten
     [head + world.text(), urdf.text().to_owned()]
 }
 
-/// What plans in the layout whose world is written; none where no world is.
+/// Returns the command that plans in the layout whose world is written; `None` if no world is written.
 fn command(study: &Study, files: &[(PathBuf, Content)]) -> Option<String> {
     let (world, _) = files.iter().find(|(_, content)| *content == Content::World)?;
     Some(command_of(study, &world.to_string_lossy(), files))
@@ -260,7 +260,7 @@ fn command_of(study: &Study, world: &str, files: &[(PathBuf, Content)]) -> Strin
     let written = files.iter().find(|(_, content)| *content == Content::Robot).map(|(path, _)| path.to_string_lossy());
     let robot = match written {
         Some(written) => written.into_owned(),
-        // That of the study would be another one.
+        // The study's own robot would be a different one.
         None if study.varies_robots() => Path::new(world).with_extension("urdf").to_string_lossy().into_owned(),
         None => short(&urdf.name()),
     };
@@ -268,7 +268,7 @@ fn command_of(study: &Study, world: &str, files: &[(PathBuf, Content)]) -> Strin
     words.map(for_a_shell).collect::<Vec<_>>().join(" ")
 }
 
-/// A path without steps into folders and out again, if it leads to the same file.
+/// Returns a path without steps into a folder and out again, if it still leads to the same file.
 fn short(name: &str) -> String {
     let mut short = PathBuf::new();
     for part in Path::new(name).components() {
@@ -283,7 +283,7 @@ fn short(name: &str) -> String {
     if same[0].is_some() && same[0] == same[1] { short.to_string_lossy().into_owned() } else { name.to_owned() }
 }
 
-/// A word as a shell takes it for one.
+/// Returns a word quoted for a shell, if it needs quotes.
 fn for_a_shell(word: &str) -> String {
     let is_plain = |c: char| c.is_alphanumeric() || "-_=,./:+%@".contains(c);
     if !word.is_empty() && word.chars().all(is_plain) {
@@ -293,7 +293,7 @@ fn for_a_shell(word: &str) -> String {
     }
 }
 
-/// Rows that are kept while a study runs, which Ctrl-C asks for, too.
+/// Rows of a running study, which the handler of Ctrl-C needs, too.
 #[derive(Debug, Clone)]
 struct Kept(Arc<Mutex<Rows>>);
 
@@ -314,12 +314,12 @@ impl Kept {
         rows.journal.as_mut().map_or(Ok(()), |journal| journal.add(row))
     }
 
-    /// The rows are where they belong: there is nothing to go on from.
+    /// Removes the journal: all rows are in their output files, so there is nothing to continue.
     fn remove(&self) -> Result<(), JournalError> {
         self.rows().journal.take().map_or(Ok(()), Journal::remove)
     }
 
-    /// Puts all rows on disk, and says how many of `total` there are.
+    /// Writes all rows to disk, and returns a message with their number out of `total`.
     fn stopped(&self, total: usize) -> String {
         let mut rows = self.rows();
         let count = rows.count;

@@ -1,5 +1,4 @@
-//! What a terminal shows: lines within its width, and in colour what a reader looks for. Elsewhere lines and letters stay as they are,
-//! for scripts.
+//! Formats text for a terminal: within its width, and with colours. Other outputs get the text unchanged, for scripts.
 
 use super::exit::{DONE, INFEASIBLE, UNKNOWN};
 use crate::text::{INDENT, wrapped};
@@ -7,10 +6,11 @@ use clap::builder::styling::{AnsiColor, Style};
 use std::io::IsTerminal;
 use terminal_size::{Width, terminal_size_of};
 
-/// A narrower terminal would show a word a line.
+/// Least width: a narrower terminal would show one word per line.
 const NARROWEST: usize = 40;
 
-/// Characters of a line on stdout: those that `COLUMNS` says, or the terminal has; none where it is no terminal.
+/// Returns the number of characters per line on stdout, from `COLUMNS` or the terminal; `None` if stdout is no
+/// terminal.
 fn width() -> Option<usize> {
     let stdout = std::io::stdout();
     let told = || std::env::var("COLUMNS").ok()?.parse().ok();
@@ -19,14 +19,14 @@ fn width() -> Option<usize> {
     width.map(|width| width.max(NARROWEST))
 }
 
-/// A summary within the terminal's width, with its verdict in the colour of the exit code: in escapes, which
-/// [`anstream`] takes off where they have no place.
+/// Returns a summary within the terminal's width, with its verdict in the colour of the exit code. Colours are escape
+/// sequences, which [`anstream`] removes for other outputs.
 pub fn summary(text: &str, code: u8) -> String {
     let text = width().map_or_else(|| text.to_owned(), |width| narrowed(text, width));
     painted(&text, code)
 }
 
-/// What is said on the way, with its label in colour.
+/// Returns a message with its label in colour.
 pub fn said(text: &str) -> String {
     for (label, color) in [("error:", AnsiColor::Red), ("warning:", AnsiColor::Yellow)] {
         if let Some(rest) = text.strip_prefix(label) {
@@ -36,7 +36,7 @@ pub fn said(text: &str) -> String {
     text.to_owned()
 }
 
-/// Each line within the width; what is too long goes on below its second column.
+/// Wraps lines to the width; continuation lines are indented to the second column.
 fn narrowed(text: &str, width: usize) -> String {
     let narrowed = |line: &str| {
         let blanks = line.chars().take_while(|c| *c == ' ').count();
@@ -46,7 +46,7 @@ fn narrowed(text: &str, width: usize) -> String {
     text.lines().map(narrowed).collect()
 }
 
-/// The verdict, as far as its first stop, in the colour of what it means.
+/// Returns the text with its verdict, up to the first full stop, in the colour for the exit code.
 fn painted(text: &str, code: u8) -> String {
     let color = match code {
         DONE => AnsiColor::Green,

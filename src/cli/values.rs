@@ -1,16 +1,16 @@
-//! Numbers on the command line.
+//! Parsers for numbers on the command line.
 
 use crate::grammar::number_in;
 
-/// The longest time that a job can be given, seconds: some thirty years.
+/// The longest time limit of a job, seconds: some thirty years.
 const LONGEST_JOB: f64 = 1e9;
 
-/// Least distance from obstacles, metres.
+/// Parses a least distance from obstacles, metres.
 pub fn clearance(text: &str) -> Result<f64, String> {
     number_in(text, |x| x.is_finite() && x >= 0.0, "of metres, finite and not negative")
 }
 
-/// Seconds that a job may take.
+/// Parses a time limit, seconds.
 pub fn time_limit(text: &str) -> Result<f64, String> {
     number_in(text, |x| x > 0.0 && x <= LONGEST_JOB, &format!("of seconds, more than 0 and at most {LONGEST_JOB:e}"))
 }

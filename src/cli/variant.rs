@@ -1,4 +1,4 @@
-//! A planner with options of its own, as one word of `compare`'s command line.
+//! A planner with its own options, as one word of `compare`'s command line.
 
 use crate::engine::Planner;
 use crate::grammar::{EffortArgs, PlannerArgs, PlannerWords};
@@ -7,17 +7,17 @@ use clap::Parser;
 /// A planner with options, in the grammar of the main job.
 #[derive(Debug, Clone)]
 pub struct Variant {
-    /// As the user wrote it, single blanks between the words.
+    /// The user's text, with single blanks between the words.
     pub label: String,
     planner: Planner,
     options: PlannerArgs,
 }
 
 impl Variant {
-    /// Reads one.
+    /// Parses a variant.
     ///
     /// # Errors
-    /// What is wrong with it, in one line.
+    /// The defect, in one line.
     pub fn parse(text: &str) -> Result<Self, String> {
         let words: Vec<&str> = text.split_whitespace().collect();
         if words.is_empty() {
@@ -25,7 +25,7 @@ impl Variant {
         }
         let PlannerWords { planner, options } = PlannerWords::try_parse_from(&words).map_err(|error| {
             let text = error.to_string();
-            // The first line says what is wrong, the next one, where it is so, what would be right.
+            // The first line states the defect; the next one may list the valid values.
             let mut lines = text.lines();
             let first = lines.next().unwrap_or_default();
             let values = lines.next().map(str::trim).filter(|line| line.starts_with('['));
@@ -35,14 +35,14 @@ impl Variant {
         Ok(Self { label: words.join(" "), planner: options.planner(planner)?, options })
     }
 
-    /// The planner, and how many attempts it has, where it says nothing of `base` itself.
+    /// Returns the planner and its number of attempts; settings that it leaves open come from `base`.
     pub fn over(&self, base: &EffortArgs) -> (Planner, usize) {
         let effort = self.options.effort.over(base);
         let planner = effort.put_into(self.planner);
         (planner, effort.levels(&planner))
     }
 
-    /// Why what its field is relaxed on cannot be had, if it cannot, with the cure.
+    /// Returns the reason if the device for its field is unavailable, with a hint.
     pub fn missing(&self) -> Option<String> {
         self.options.missing()
     }

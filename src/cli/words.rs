@@ -1,4 +1,4 @@
-//! What the main job can be told, for callers that are no shell.
+//! Options of the main job, for callers from a library.
 
 use super::failure::Failure;
 use super::files::Files;
@@ -27,7 +27,7 @@ struct Words {
     options: PlannerArgs,
 }
 
-/// What words ask for.
+/// Settings from words.
 #[derive(Debug, Clone)]
 pub(super) struct Asked {
     pub options: Options,
@@ -37,15 +37,15 @@ pub(super) struct Asked {
 /// Reads words such as `--planner=harmonic` and `--cells=80`.
 ///
 /// # Errors
-/// What is wrong with them, in a line or two.
+/// The defect, in a line or two.
 pub fn read_words(words: &[String]) -> Result<(Options, Overrides), String> {
     asked(words).map(|asked| (asked.options, asked.overrides)).map_err(|failure| failure.to_string())
 }
 
-/// The same with all that they ask for.
+/// Reads words, and returns all settings.
 ///
 /// # Errors
-/// What is wrong with them, in a line or two.
+/// The defect, in a line or two.
 pub(super) fn asked(words: &[String]) -> Result<Asked, Failure> {
     let refused = |error| Failure::Usage(misplaced(&error).unwrap_or_else(|| told(&error)));
     let words = Words::try_parse_from(words).map_err(refused)?;
@@ -54,7 +54,7 @@ pub(super) fn asked(words: &[String]) -> Result<Asked, Failure> {
     Ok(Asked { options, overrides: query.overrides() })
 }
 
-/// What is wrong with an option of the main job that says nothing of how to plan, but of files and printing.
+/// Returns a message for options of the main job that are about files and printing, not about planning.
 fn misplaced(error: &clap::Error) -> Option<String> {
     let Some(ContextValue::String(option)) = error.get(ContextKind::InvalidArg) else { return None };
     let main_job = PlanArgs::augment_args(Files::augment_args(Command::new("cplan")));
@@ -63,7 +63,7 @@ fn misplaced(error: &clap::Error) -> Option<String> {
     is_known.then(|| format!("{option} is about files or what is printed, and has no place here"))
 }
 
-/// What is wrong with words, without the usage of a program.
+/// Returns the error in words, without the usage of a program.
 pub(super) fn told(error: &clap::Error) -> String {
     let text = error.to_string();
     let said = text.split("\n\nUsage").next().unwrap_or_default();

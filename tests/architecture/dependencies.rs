@@ -1,4 +1,4 @@
-//! Holds the list of what comes twice: `deny.toml` names it all, and nothing that comes once by now.
+//! Checks that `deny.toml` lists exactly those packages that have several versions in `Cargo.lock`.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -35,7 +35,7 @@ struct Build {
 }
 
 impl Build {
-    /// Asks Cargo, for the system that the tables are about.
+    /// Asks Cargo, for the system of the tables.
     fn of_cargo() -> Self {
         let arguments =
             "tree --locked --package cplan --edges normal,build --prefix depth --target x86_64-unknown-linux-gnu";
@@ -58,24 +58,24 @@ impl Build {
         Self { uses }
     }
 
-    /// Whether a package is a crate of this repository.
+    /// Returns true if a package is a crate of this repository.
     fn is_ours(package: &str) -> bool {
         package.starts_with("cplan")
     }
 
-    /// The name of a package without its version.
+    /// Returns the name of a package without its version.
     fn name(package: &str) -> &str {
         package.split(' ').next().unwrap_or_default()
     }
 
-    /// Names of packages from outside that crates of ours use.
+    /// Returns the names of external packages that our crates use.
     fn direct(&self) -> BTreeSet<&str> {
         let ours = self.uses.iter().filter(|(package, _)| Self::is_ours(package));
         let used = ours.flat_map(|(_, used)| used).filter(|package| !Self::is_ours(package));
         used.map(|package| Self::name(package)).collect()
     }
 
-    /// Packages that are left if no crate of ours uses these.
+    /// Returns the packages that remain if no crate of ours uses these.
     fn without(&self, names: &[&str]) -> BTreeSet<&str> {
         let root = self.uses.keys().find(|package| Self::name(package) == "cplan").expect("the program");
         let (mut left, mut next) = (BTreeSet::from([root.as_str()]), vec![root]);

@@ -1,9 +1,9 @@
-//! Holds that the checker of certificates shares no code with the planner. All other boundaries are Cargo's: a crate can use only
-//! what its manifest names.
+//! Checks that the checker of certificates shares no code with the planner. Cargo guards all other boundaries: a crate
+//! can use only the dependencies in its manifest.
 
 use std::path::Path;
 
-/// The dependencies of this repository that a crate names.
+/// Returns the dependencies of a crate that are crates of this repository.
 fn ours(folder: &str, table: &str) -> Vec<String> {
     let manifest = Path::new(env!("CARGO_MANIFEST_DIR")).join(folder).join("Cargo.toml");
     let manifest: toml::Table = toml::from_str(&std::fs::read_to_string(manifest).unwrap()).unwrap();

@@ -1,4 +1,5 @@
-//! The source text itself: who imports whom, what comes from outside, and that no test is left to chance or left out.
+//! Tests of the source text itself: imports between crates, external dependencies, reproducible random tests, and no
+//! test left out.
 
 mod dependencies;
 mod imports;
@@ -7,7 +8,7 @@ mod targets;
 
 use std::path::{Path, PathBuf};
 
-/// All files of Rust in a folder and the folders in it, in order.
+/// Returns all Rust files in a folder and its subfolders, in order.
 fn rust_files(folder: &Path) -> Vec<PathBuf> {
     let mut files = Vec::new();
     for entry in std::fs::read_dir(folder).unwrap() {

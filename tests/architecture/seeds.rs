@@ -1,4 +1,5 @@
-//! Holds that random tests are the same in every run: every `proptest!` takes its configuration from the crate `cplan_cases`.
+//! Checks that random tests are the same in every run: every `proptest!` takes its configuration from the crate
+//! `cplan_cases`.
 
 use crate::rust_files;
 use std::path::{Path, PathBuf};
@@ -6,15 +7,15 @@ use std::path::{Path, PathBuf};
 /// The crate that makes seeds and numbers of cases, and this file.
 const HERE: [&str; 2] = ["crates/cases/src/lib.rs", "tests/architecture/seeds.rs"];
 
-/// Where tests are.
+/// Folders with tests.
 const FOLDERS: [&str; 3] = ["crates", "src", "tests"];
 
-/// What makes a seed of its own, or none.
+/// Code that chooses a seed of its own, or leaves the seed to chance.
 const ELSEWHERE: [&str; 7] =
     ["ProptestConfig", "with_cases", "test_runner::Config", "TestRunner::", "RngSeed", "from_entropy", "rand::"];
 
-/// Variables of long campaigns, which are another run altogether (`tests/planning/random_worlds`), of published data, and of
-/// a folder for pictures. All else is asked for through the two variables of `cplan_cases`.
+/// Environment variables of long campaigns, which are separate runs (`tests/planning/random_worlds`), of published
+/// data, and of a folder for pictures. All other tests use the two variables of `cplan_cases`.
 const VARIABLES: [&str; 8] = [
     "CPLAN_WORLDS",
     "CPLAN_FIRST",
@@ -30,7 +31,7 @@ fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-/// Lines of code that leave the choice of random cases to chance, by number.
+/// Returns the numbers of lines of code that leave the choice of random cases to chance.
 fn left_to_chance(text: &str) -> Vec<usize> {
     let code: Vec<&str> = text.lines().map(|line| line.split("//").next().unwrap_or_default()).collect();
     let wrong = |at: usize| {

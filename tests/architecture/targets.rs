@@ -1,16 +1,17 @@
-//! Holds that nothing is left out of the tests: a library without test targets has neither tests nor examples in its documentation.
+//! Checks that every test runs: a library without test targets must have neither tests nor examples in its
+//! documentation.
 
 use crate::rust_files;
 use std::path::Path;
 
-/// The documentation on a line, if it is a comment of documentation.
+/// Returns the documentation text of a line, or `None` if it is not a doc comment.
 fn documentation(line: &str) -> Option<&str> {
     let line = line.trim_start();
     line.strip_prefix("///").or(line.strip_prefix("//!")).map(str::trim_start)
 }
 
-/// Whether a text has an example in its documentation that rustdoc would run: a fence opens without a language, or with Rust. One that
-/// closes has no language, either, so that there is one for each that opens with another.
+/// Returns true if the documentation has an example that rustdoc would run: a fence that opens without a language, or
+/// with Rust. A closing fence has no language either, so each fence with another language accounts for one plain fence.
 fn has_example(text: &str) -> bool {
     let fences = text.lines().filter_map(|line| documentation(line)?.strip_prefix("```"));
     let (plain, of_rust): (Vec<&str>, Vec<&str>) =

@@ -35,7 +35,7 @@ pub fn recheck(
     Disconnection::new(stuck.to_vec()).checked(scene, start, goals, clearance).map(drop)
 }
 
-/// The rectangle `[x0, x1] x [y0, y1]`.
+/// Returns the rectangle `[x0, x1] x [y0, y1]`.
 pub fn rectangle(x0: f64, x1: f64, y0: f64, y1: f64) -> Convex {
     convex(vec![Point::new(x0, y0), Point::new(x1, y0), Point::new(x1, y1), Point::new(x0, y1)], 0.0)
 }
@@ -151,7 +151,7 @@ pub enum Benchmark {
     A,
     /// Passage of 0.022 rad; optimum 6.4281.
     B,
-    /// Start and goal are proven not to be connected.
+    /// Start and goal are proven to be disconnected.
     Inf,
     /// No path: two walls of link 1, 0.0066 rad wide.
     T,

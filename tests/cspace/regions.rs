@@ -56,8 +56,8 @@ fn bar(length: f64, half: f64) -> Convex {
     polygon(&[(0.0, -half), (length, -half), (length, half), (0.0, half)])
 }
 
-/// Returns two continuous joints, bars of 1.0 and 0.8 m by 0.1 m, and four convex obstacles, of which the lower one is
-/// moved by `shift`.
+/// Returns a scene with two continuous joints, bars of 1.0 and 0.8 m by 0.1 m, and four convex obstacles. The lower
+/// obstacle is moved by `shift`.
 fn torus(shift: f64) -> Scene {
     let turning = |name| joint(name, JointType::Revolute { sign: 1.0 }, JointRange::Circle);
     let below = [(-0.21, -0.85), (-0.03, -1.20), (0.22, -1.21), (0.44, -0.93), (0.27, -0.62), (-0.09, -0.65)];

@@ -3,7 +3,8 @@
 use serde_json::Value;
 use std::process::Command;
 
-/// Where Vulkan's loader looks for drivers, by both its names, and a place that has none.
+/// Both environment variables that tell Vulkan's loader where to look for drivers. The tests set them to a place
+/// without drivers.
 const DRIVERS: [&str; 2] = ["VK_DRIVER_FILES", "VK_ICD_FILENAMES"];
 const NOWHERE: &str = "/nowhere/driver.json";
 

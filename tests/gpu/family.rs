@@ -6,11 +6,11 @@ use cplan::field::{
 };
 use proptest::prelude::*;
 
-/// Sweeps before fields are compared: of each stage, as no rule is met.
+/// Sweeps before fields are compared, per stage; no stopping rule is met before.
 const SWEEPS: usize = 25;
 
-/// Single precision: a sweep's updates are each off by some units in the last place of the greatest value, 1. The direction of a drift
-/// that follows a field is off by more where that is nearly level.
+/// Tolerance in single precision: each update of a sweep is off by some units in the last place of the greatest value,
+/// 1. The direction of a drift that follows a field is less exact where that field is nearly level.
 const ROUNDING: f64 = 4.0 / (1 << 24) as f64;
 
 fn domain() -> impl Strategy<Value = Domain> {
@@ -84,7 +84,8 @@ proptest! {
         };
         let stopping = Stopping { measure: Measure::GreatestChange, below: 1e-7, max_sweeps: 10_000 };
         let relaxation = Relaxation::gauss_seidel(Order::RedBlack);
-        // Where the harmonic field is nearly level its direction is a matter of rounding; values hardly depend on it there.
+        // Where the harmonic field is nearly level, rounding decides its direction. The values hardly depend on it
+        // there.
         let off = apart(&domain, &equation, &relaxation, &stopping);
         prop_assert!(off <= 5e-3, "off by {off:e}");
     }

@@ -1,4 +1,4 @@
-//! Fields relaxed on a GPU, against the same on the CPU. All need a driver of Vulkan, in software if need be: `.ci/gpu`.
+//! Fields relaxed on a GPU, compared with the CPU. All tests need a Vulkan driver, possibly in software: `.ci/gpu`.
 
 mod command;
 mod family;

@@ -1,4 +1,5 @@
-//! Files with a slip of the pen, by the hundred: read or refused with place and help, never a panic, never far more than was written.
+//! Files with a typing error, by the hundred. They are read, or refused with place and help. There is never a panic,
+//! and the result is never far larger than the file.
 
 use crate::common::dice;
 use crate::common::random::times;
@@ -33,10 +34,10 @@ epsilon = 0.1
 polygon = [[0.2, 0.3], [0.5, 0.3], [0.5, 0.6]]
 "#;
 
-/// Convex pieces that obstacles of a few corners have at most.
+/// Greatest number of convex pieces of obstacles with a few corners.
 const MOST_PIECES: usize = 100;
 
-/// Bytes of the plain URDF that a few macros make at most.
+/// Greatest number of bytes of the plain URDF that a few macros make.
 const LONGEST: usize = 1 << 16;
 
 fn is_helpful(error: &InputError, text: &str) {

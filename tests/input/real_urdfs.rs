@@ -20,7 +20,7 @@ use Outcome::{Loads, Refused};
 const UNSET: &str = "limits = { joint1 = [-3.0, 3.0], joint2 = [-2.5, 2.5] }
                      velocity = { joint1 = 2.0, joint2 = 2.0 }";
 
-/// File, `[robot]` table, outcome.
+/// Returns file, `[robot]` table and expected outcome of each case.
 fn table() -> Vec<(&'static str, String, Outcome)> {
     let row = |file, robot: &str, outcome| (file, robot.to_owned(), outcome);
     vec![

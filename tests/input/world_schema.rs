@@ -1,5 +1,5 @@
-//! The JSON schema of world files in an independent validator. It accepts what the program reads, and refuses files
-//! that the program refuses for their form.
+//! Checks the JSON schema of world files with an independent validator. It accepts files that the program reads, and
+//! refuses files that the program refuses for their form.
 
 #[path = "../../examples/world_reference/page.rs"]
 mod page;

@@ -98,7 +98,7 @@ fn around_furniture_the_published_tolerance_is_too_coarse() {
     }
 }
 
-/// cplan's own method, with two of its planners. Each leg is checked every centimetre.
+/// cplan's own method with two of its planners. Each leg is checked at every centimetre.
 #[test]
 fn the_explorer_reaches_every_target_of_both_rooms() {
     for name in ["hall", "house"] {

@@ -15,7 +15,7 @@ use cplan::{Options, Point, Problem, plan};
 
 const LAW: Tracking = Tracking { gain: 1.0, speed: 0.5 };
 
-/// `e' = -k e`, wherever the desired point goes.
+/// The error follows `e' = -k e`, however the desired point moves.
 #[test]
 fn the_distance_to_the_desired_point_falls_exponentially() {
     let hall = Floor::load("explore/hall.toml").unwrap_or_else(|e| panic!("{e}"));

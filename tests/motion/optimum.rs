@@ -124,8 +124,8 @@ const MOST: f64 = 1.03;
 /// Waypoints, limits of velocity and of acceleration, radius.
 type Case = (&'static [[f64; 2]], [f64; 2], [f64; 2], f64);
 
-/// Paths with the joints' limits: right angles, gentle turns, hairpins, short legs between long ones, one joint far slower
-/// than the other.
+/// Returns paths with the joints' limits: right angles, gentle turns, hairpins, short legs between long ones, one joint
+/// far slower than the other.
 const PATHS: [Case; 12] = [
     (&[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]], [2.0, 3.0], [8.0, 12.0], 0.3),
     (&[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]], [2.0, 3.0], [8.0, 12.0], 0.01),
@@ -171,7 +171,7 @@ fn straight_motions_are_bang_bang() {
     assert!(duration(&scene, certified(&scene, &[[0.0, 0.0], [0.4, 0.0], [1.0, 0.0]])) > 2.49);
 }
 
-/// The tip's speed is bounded part by part, which loses a little on straight pieces.
+/// The tip's speed is bounded separately for each part of the curve, which loses a little on straight pieces.
 #[test]
 fn a_slow_tip_is_as_fast_as_it_may() {
     for (kind, arm) in crate::common::all_kinds().into_iter().enumerate() {

@@ -182,7 +182,7 @@ fn frames_follow_the_states_and_surfaces_are_closed() {
     assert!(shown.points["workspace"].len() > 100 && shown.points["workspace"].iter().all(on_rim));
 }
 
-/// A cart that comes and stops: its frame follows the straight line between its stops.
+/// A cart arrives and stops. Its frame follows the straight line between its stops.
 #[test]
 fn what_moves_has_a_frame_that_follows_its_course() {
     let stop = |time: f64, x: f64| Stop { time, at: Point::new(x, 0.2), angle: time / 2.0 };

@@ -78,7 +78,7 @@ fn driven(waypoints: &[[f64; 2]]) -> Timed {
     time(curve, &Limits::from(&scene.arm().joints), 0.01).expect("an ordinary motion")
 }
 
-/// The plan from the first of [`WAYPOINTS`] to the last.
+/// Plans from the first of [`WAYPOINTS`] to the last.
 fn planned(obstacle: bool) -> Plan {
     let [start, _, goal] = WAYPOINTS.map(Configuration::from);
     let problem = MotionProblem::new(scene(obstacle), start, goal).expect("both are free");
@@ -127,7 +127,7 @@ fn json_holds_the_contract() {
     assert_eq!(json["duration"].as_f64(), Some(trajectory.duration()));
     let length = (goal[0] - start[0]).hypot(goal[1] - start[1]);
     assert!((json["length"].as_f64().expect("a number") - length).abs() < 1e-12);
-    // The layout: a line a field, in the order of the list.
+    // Layout: one line per field, in the order of the list.
     let keys: Vec<_> = text.lines().filter_map(|l| l.strip_prefix("  \"")?.split('"').next()).collect();
     let order = "status name planner joints units path_kind path length optimum certified clearance closest size timings \
                  blends duration interpolation trajectory";
@@ -149,7 +149,8 @@ fn infinite_clearance_is_null() {
 
 #[test]
 fn without_a_path_there_is_a_reason() {
-    // A post in the way of a link that turns within limits. The way past it is not looked for with a single box.
+    // A post blocks a link that turns within limits. With a budget of one box, the planner does not search for a path
+    // past it.
     let answer = |at: f64, boxes: usize| {
         let mut arm = Arm::rr([1.0, 0.8], 0.06).expect("an ordinary arm");
         arm.joints[0] = Joint::turning("shoulder", -2.0, 2.0);

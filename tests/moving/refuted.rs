@@ -22,7 +22,7 @@ fn where_no_timing_helps_a_flood_in_place_and_time_does_not_get_through() {
     assert!(!usual() || refuted > 0, "nothing was refuted");
 }
 
-/// Some obstacles cross the workspace in hundredths of a second, which checks at regular intervals miss.
+/// Some obstacles cross the workspace in hundredths of a second. Checks at regular intervals miss them.
 #[test]
 fn where_no_timing_helps_among_what_is_fast_a_flood_does_not_get_through_either() {
     let (refuted, unknown) = flooded(Moving::all(seeds(8)).map(|world| world.hurried(100.0)));

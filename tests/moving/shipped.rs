@@ -28,7 +28,7 @@ fn shipped_worlds_come_out_as_they_say() {
     assert!(files.len() >= 5);
 }
 
-/// If the motion is optimised for time, the duration that is printed beside its bound includes the waits.
+/// If the motion is optimised for time, the duration printed beside its bound includes the waits.
 #[test]
 fn the_duration_beside_its_bound_is_that_of_the_motion() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));

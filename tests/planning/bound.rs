@@ -9,7 +9,7 @@ use cplan::search::{Motions, least_length};
 use cplan::space::{Configuration, GoalSet, JointRange, Metric, Path};
 use std::f64::consts::TAU;
 
-/// Those that are after the optimum.
+/// Planners that look for the optimum.
 const PLANNERS: [Method; 2] = [Method::Shortest, Method::Visibility];
 
 const CRITERIA: [Criterion; 3] = [Criterion::Euclidean, Criterion::Weighted([1.0, 0.3]), Criterion::Time];
@@ -47,7 +47,7 @@ fn a_gap_of_a_thousandth_is_reached_on_every_feasible_workspace() {
     }
 }
 
-/// By default, in every metric; and a hundred times closer where it is asked for.
+/// The gap is below the default in every metric, and a hundred times smaller on request.
 #[test]
 fn the_shortest_path_is_within_a_ten_thousandth_on_every_feasible_workspace() {
     for (name, problem) in shipped_feasible() {
@@ -58,14 +58,14 @@ fn the_shortest_path_is_within_a_ten_thousandth_on_every_feasible_workspace() {
             let bound = bounded(&answer);
             assert_eq!(bound.upper, metric.length(path(&answer)), "{name}");
             assert!(bound.gap() <= gap.unwrap_or(1e-4), "{name}, {metric:?}: {} of {gap:?}", bound.gap());
-            // No graph was needed but for gantries, whose C-obstacles are polygons.
+            // The planner needs a graph only for gantries, whose C-obstacles are polygons.
             let is_gantry = problem.scene().arm().kind() == "PP";
             assert_eq!(matches!(answer.space, Space::Regions(_)), is_gantry, "{name}, {metric:?}");
         }
     }
 }
 
-/// A lower bound above the length of a path that is certified would be a lie.
+/// A lower bound above the length of a certified path would be false.
 #[test]
 fn no_planner_finds_a_path_below_the_bound() {
     for (name, problem) in shipped_feasible() {
@@ -113,7 +113,7 @@ fn without_obstacles_the_bound_is_the_straight_way_the_short_way_round() {
     assert!((time.lower - slower).abs() < 1e-8 && (time.upper - slower).abs() < 1e-8, "{time:?}");
 }
 
-/// Of several goals the nearest counts.
+/// If there are several goals, the nearest one counts.
 #[test]
 fn the_bound_covers_all_goals() {
     let interval = JointRange::Interval { lower: -3.0, upper: 3.0 };
@@ -123,7 +123,7 @@ fn the_bound_covers_all_goals() {
     assert!((found.lower - 1.0).abs() < 1e-8, "{found:?}");
 }
 
-/// A bar of a gantry's tool passes a block: around its corner in two straight pieces, of known length.
+/// A gantry's tool passes a block: around its corner on two straight pieces of known length.
 #[test]
 fn around_a_block_the_bound_is_the_shortest_path() {
     let tool = disc(Point::origin(), 0.0);
@@ -140,7 +140,8 @@ fn around_a_block_the_bound_is_the_shortest_path() {
     assert!(found.lower <= string && string <= found.upper && found.gap() <= 1e-5, "{found:?} {string}");
 }
 
-/// Into a square spiral of walls, to its middle: proven within the default gap, and not beyond what strips prove.
+/// The path leads to the middle of a square spiral of walls. It is proven within the default gap, and its bound is not
+/// above that of the strips.
 #[test]
 fn gantries_find_their_way_into_spirals() {
     let slide =
@@ -165,7 +166,7 @@ fn gantries_find_their_way_into_spirals() {
         let answer = answer_by(Method::Shortest, &problem, Criterion::Euclidean, None);
         let found = bounded(&answer);
         assert!(found.gap() <= 1e-4 && matches!(answer.space, Space::Regions(_)), "{turns}: {found:?}");
-        // The same by what shares no code with it, as far as that gets.
+        // The strips share no code with the bound. They confirm it as far as they reach.
         let (scene, start, goals) = (problem.scene(), problem.start(), problem.goals());
         let motions = Motions { scene, start, goals, clearance: 0.0, metric: Metric::Euclidean };
         let strips = least_length(&motions, found.upper, 1e-3, &[]);
@@ -173,7 +174,7 @@ fn gantries_find_their_way_into_spirals() {
     }
 }
 
-/// The bound speaks of the path it is given, whoever planned it.
+/// The bound is about the given path, whichever planner found it.
 #[test]
 fn a_detour_has_a_gap() {
     let problem = common::problem(Benchmark::A);

@@ -19,7 +19,7 @@ fn inside(scene: &Scene, u: f64, v: f64) -> Configuration {
     q(at(0, u), at(1, v))
 }
 
-/// Least distance at `n` evenly spaced configurations of each segment.
+/// Returns the least distance at `n` evenly spaced configurations of each segment.
 fn sampled(scene: &Scene, path: &Path, n: u32) -> f64 {
     path.segments()
         .flat_map(|(a, b)| (0..=n).map(move |i| a + (b - a) * (f64::from(i) / f64::from(n))))
@@ -75,7 +75,7 @@ proptest! {
             for &(u, v) in &deviations {
                 let there = |d: Configuration| scene.separations(middle + d).nth(i).unwrap().separation.distance;
                 let distance = there(q(u * half.0, v * half.1));
-                // While the shapes overlap, the directional bounds speak of the distance along one direction only.
+                // While the shapes overlap, the directional bounds cover the distance along one direction only.
                 prop_assert!(distance.max(0.0) >= least);
                 prop_assert!(distance <= greatest);
                 prop_assert!(there(along * u).max(0.0) >= least_along);
@@ -123,7 +123,7 @@ fn thin_walls_between_samples_are_found() {
 fn clearance_asked_for_is_kept_or_refused() {
     let scene = scene(rr([JointRange::Circle, JointRange::Circle]), vec![rectangle(1.9, 2.0, -1.0, 1.0)]);
     let path = || Path::new(vec![q(-0.3, 0.0), q(0.3, 0.0)]);
-    // At q = 0 the tip is 0.1 m from the wall, its corners a little less later on.
+    // At q = 0, the tip is 0.1 m from the wall, and later its corners are slightly nearer.
     let reach = (1.8_f64 * 1.8 + 0.05 * 0.05).sqrt();
     let truth = 1.9 - reach;
     let certified = certify(&scene, path(), 0.0985).unwrap();
@@ -163,7 +163,7 @@ fn benchmark_problems_are_decided() {
 
 #[test]
 fn limits_and_clearance_can_close_the_way() {
-    // Nothing but a pole: free to go round it on the torus, not within limits that end before it.
+    // The only obstacle is a pole: the arm can pass it on the torus, but not within limits that end before it.
     let pole = || vec![disc(Point::new(0.0, 1.4), 0.05)];
     let decide =
         |axes, clearance| connectivity(&scene(rr(axes), pole()), q(0.5, 0.0), &q(2.6, 0.0).into(), clearance, 100_000);
@@ -177,7 +177,7 @@ fn limits_and_clearance_can_close_the_way() {
     assert!(matches!(decide([half, folding], 0.4), Connectivity::Disconnected(_)));
 }
 
-/// The stuck boxes of a problem without a path.
+/// Returns the stuck boxes of a problem without a path.
 fn proof(scene: &Scene, start: Configuration, goal: Configuration, clearance: f64) -> Vec<StuckBox> {
     match connectivity(scene, start, &goal.into(), clearance, 200_000) {
         Connectivity::Disconnected(proof) => proof.stuck().to_vec(),
@@ -210,7 +210,7 @@ fn false_proofs_are_refused() {
     assert_eq!(judge(&[]), Err(ProofError::NotSeparated(0)));
     assert_eq!(recheck(&boxes, &scene, start, &start.into(), 0.0), Err(ProofError::NotSeparated(0)));
 
-    // Taking boxes away one after another must open a way, and once open it stays open.
+    // Removing boxes one after another must open a path, and further removals must not close it.
     let fewer: Vec<bool> = (0..=20).map(|k| judge(&boxes[boxes.len() * k / 20..]).is_ok()).collect();
     assert!(fewer[0] && !fewer[20]);
     assert!(fewer.windows(2).all(|w| w[0] || !w[1]));
@@ -227,7 +227,8 @@ fn false_proofs_are_refused() {
     assert_eq!(wrong(|b| b.pair.obstacle = 17), Err(ProofError::UnknownPair(7)));
 }
 
-/// Whether boxes leave a way from `start` to `goal` on the torus: flood fill over the grid of all their coordinates.
+/// Returns true if the boxes leave a path from `start` to `goal` on the torus: flood fill over the grid of all their
+/// coordinates.
 fn flooded(boxes: &[StuckBox], start: Configuration, goal: Configuration) -> bool {
     let ends: [Vec<f64>; 2] = [0, 1].map(|k| {
         let sides = boxes.iter().flat_map(|b| [b.cell.lower[k], b.cell.upper[k]]);
@@ -277,7 +278,7 @@ fn what_separates_is_decided_as_by_flood_fill() {
     }
 }
 
-/// The arm of [`rr`] as two segments without thickness.
+/// Returns the arm of [`rr`] as two segments without thickness.
 fn skeleton(axes: [JointRange; 2]) -> cplan::model::Arm {
     let mut arm = rr(axes);
     arm.links[0].parts[0].shape = wall(Point::origin(), Point::new(1.0, 0.0));
@@ -291,7 +292,7 @@ fn thin_links_are_stopped_by_thin_walls() {
     let front = wall(Point::new(0.5, -0.2), Point::new(0.7, 0.3));
     let back = wall(Point::new(-0.6, -0.3), Point::new(-0.7, 0.1));
     let (start, goal) = (q(-1.2, 0.4), q(1.3, -0.4));
-    // Slanted walls across the upper arm's way; one leaves the other way round.
+    // Slanted walls block the upper arm; without one of them, the other direction is free.
     let one_wall = scene(skeleton(circles), vec![front.clone()]);
     assert!(matches!(connectivity(&one_wall, start, &goal.into(), 0.0, 100_000), Connectivity::Connected(_)));
     let closed = scene(skeleton(circles), vec![front, back]);
@@ -345,8 +346,8 @@ fn the_boxes_cover_the_domain_and_are_what_they_say() {
     }
 }
 
-/// The bridge of a gantry slides along a wall that it touches all the way: no column of it can be told free or stuck, and
-/// halving them to the last would fill the memory.
+/// The bridge of a gantry slides along a wall that it touches all along. No column is known to be free or stuck, and
+/// halving the columns to the limit would fill the memory.
 #[test]
 fn link_1_sliding_along_a_wall_leaves_few_boxes() {
     let slide = |x: f64, y: f64| JointType::Prismatic { direction: Vector::new(x, y) };

@@ -1,4 +1,5 @@
-//! Lower bounds and their evidence, which is found anew: bounds that hold are seen to hold, and false ones are not.
+//! Lower bounds and their evidence, which is computed again: evidence confirms true bounds, and none confirms a false
+//! one.
 
 use crate::common::random::{seeds, usual};
 use crate::common::shipped_feasible;
@@ -11,14 +12,15 @@ use cplan::model::MotionProblem;
 /// Share of a bound that its evidence may miss, because walls are found at finitely many points: that of `cplan recheck`.
 const MISSED: f64 = 1e-3;
 
-/// A bound on a path that is about the shortest.
+/// Returns the bound that accompanies a path close to the shortest.
 fn stated(problem: &MotionProblem, criterion: Criterion) -> Option<Bound> {
     let planner = Planner::named(Method::Shortest).with_criterion(criterion);
     let answer = solve(problem, &planner.into(), &mut |_| {});
     answer.bound().filter(|_| matches!(answer.outcome, Outcome::Found(_)))
 }
 
-/// Which of these bounds evidence shows less of, in words. Panics where it shows more than is true.
+/// Returns the number of bounds, and a description of each bound for which the evidence shows less. Panics if evidence
+/// shows more than is true.
 fn unseen(problems: impl IntoIterator<Item = (String, MotionProblem, Criterion)>) -> (usize, Vec<String>) {
     let (mut count, mut unseen) = (0, Vec::new());
     for (name, problem, criterion) in problems {

@@ -1,7 +1,7 @@
-//! One contract for all planners: what each of them promises on scenes of its own choosing of representation.
+//! One contract for all planners: their promises, on scenes in the representation that each works on.
 //!
-//! A scene is turned into the space that a planner works on by the library's own builders, so arms of all kinds,
-//! intervals and circles take part; whether a path is free is judged by distances on the scene alone.
+//! The library's own builders turn a scene into the space that a planner works on, so arms of all kinds, intervals and
+//! circles take part. Distances on the scene alone decide whether a path is free.
 
 use crate::common::{all_kinds, arm, disc, joint, link, q, rectangle, rr, scene, wall};
 use cplan::cspace::{Grid, Proves, Regions, ZonedGrid, outer_grid, regions, sampled_grid};
@@ -18,7 +18,7 @@ use cplan::planner::{
 use cplan::space::{Configuration, JointRange, Metric, Path};
 use std::f64::consts::TAU;
 
-/// Plans in a scene, in the representation that it takes.
+/// Plans in a scene, in the planner's representation.
 type Plan = fn(&Spaces, &Query) -> Run;
 
 /// The representations of a scene, which all planners share.
@@ -27,7 +27,8 @@ struct Spaces {
     polygons: Regions,
     /// Cells whose slabs are narrower than the passages in the scenes here.
     cells: Grid,
-    /// As many cells by collision checks at their centres, among obstacles that are grown by what the arm moves within a cell.
+    /// The same number of cells, by collision checks at their centres. The obstacles are grown by the arm's motion
+    /// within a cell.
     sampled: Grid,
     /// The same cells with the scene's preferences.
     zoned: ZonedGrid,
@@ -46,7 +47,7 @@ impl Spaces {
     }
 }
 
-/// Every planner, with every setting that changes what its paths look like.
+/// Every planner, with every setting that changes its paths.
 const PLANNERS: [(&str, Plan); 26] = [
     (Visibility::NAME, |spaces, query| answered(&Visibility::default(), &spaces.polygons, query)),
     ("visibility, weighted", |spaces, query| {
@@ -122,10 +123,11 @@ const PLANNERS: [(&str, Plan); 26] = [
     }),
 ];
 
-/// A search for a shortest path that is none of the usual ones.
+/// Search for a shortest path with settings that differ from all defaults.
 const BACKWARD: RoadmapSearch = RoadmapSearch { order: SearchOrder::Dijkstra, backward: true };
 
-/// Whether a run says that there is no path: samples that find none prove nothing, and a planner that draws them says so.
+/// Returns true if a run reports that there is no path. Samples that find none prove nothing, and a planner that draws
+/// samples says so.
 fn is_no_path(name: &str, run: &Run) -> bool {
     match &run.outcome {
         Proposal::NoPath => !name.starts_with(Prm::NAME),
@@ -134,7 +136,7 @@ fn is_no_path(name: &str, run: &Run) -> bool {
     }
 }
 
-/// A field relaxed so far that it leads to the goal.
+/// Returns a field that is relaxed until it leads to the goal.
 fn relaxed(equation: EquationChoice) -> FieldPlanner {
     let field = FieldChoice::Relaxed {
         equation,
@@ -148,7 +150,7 @@ fn relaxed(equation: EquationChoice) -> FieldPlanner {
     FieldPlanner { field, limits: Limits::High, escape: None, path: PathKind::Taut }
 }
 
-/// The run, which must not depend on anything but the input.
+/// Returns the run, which must depend only on the input.
 fn answered<P: Planner>(planner: &P, space: &P::Space, query: &Query) -> Run {
     let map = planner.build(space);
     let run = planner.query(space, &map, query);
@@ -157,7 +159,7 @@ fn answered<P: Planner>(planner: &P, space: &P::Space, query: &Query) -> Run {
     run
 }
 
-/// The path of a run that must have one, after the checks that hold for every path.
+/// Returns the path of a run that must have one, after the checks that hold for every path.
 fn path(name: &str, scene: &Scene, query: &Query, run: &Run) -> Path {
     let Proposal::Found(path) = &run.outcome else { panic!("{name}: {:?}", run.outcome) };
     let topology = scene.arm().topology();
@@ -187,7 +189,7 @@ fn range(lower: f64, upper: f64) -> JointRange {
     JointRange::Interval { lower, upper }
 }
 
-/// A gantry that carries a disc of radius 0.05 m over `[-1, 1]^2`: configurations are the disc's centres.
+/// Returns a gantry that carries a disc of radius 0.05 m over `[-1, 1]^2`: configurations are the disc's centres.
 fn gantry(obstacles: Vec<Convex>) -> Scene {
     let slide = |name, x, y| joint(name, JointType::Prismatic { direction: Vector::new(x, y) }, range(-1.0, 1.0));
     let tool = link("tool", vec![disc(Point::origin(), 0.05)]);
@@ -195,8 +197,8 @@ fn gantry(obstacles: Vec<Convex>) -> Scene {
     scene(arm(joints, [link("carriage", vec![]), tool], Vector::zeros(), Point::origin()), obstacles)
 }
 
-/// A turning arm with a disc of radius 0.05 m at its end, 0.5 to 1.5 m from the joint, and a wall beyond 1 m in one
-/// direction.
+/// Returns a polar arm with a disc of radius 0.05 m at its end, 0.5 to 1.5 m from the joint, and a wall beyond 1 m in
+/// one direction.
 fn polar(turn: JointRange) -> Scene {
     let joints = [
         joint("turn", JointType::Revolute { sign: 1.0 }, turn),
@@ -328,7 +330,7 @@ fn goals_that_cannot_be_reached_are_passed_over_for_one_that_can() {
 fn the_nearer_of_two_goals_is_taken() {
     let scene = gantry(vec![]);
     let query = query(q(-0.8, 0.0), &[q(0.8, 0.0), q(-0.5, 0.2), q(0.3, -0.6)]);
-    // All but one: along the Voronoi diagram the widest way comes before the shortest.
+    // All except one: along the Voronoi diagram, a wider passage is preferred to a shorter path.
     let spaces = Spaces::new(&scene, &query);
     for (name, plan) in PLANNERS.iter().filter(|(name, _)| !name.starts_with(Voronoi::NAME)) {
         assert_eq!(path(name, &scene, &query, &plan(&spaces, &query)).goal(), q(-0.5, 0.2), "{name}");
@@ -360,10 +362,10 @@ fn queries_without_a_free_end_are_given_up_with_the_reason() {
 
 #[test]
 fn a_circle_is_gone_round_through_its_seam_and_an_interval_is_not() {
-    // From one side of the wall at 0 to the other, past pi.
+    // The goal is on the other side of the wall at 0, beyond pi.
     let (start, goal) = (q(2.5, 1.0), q(-2.5, 0.8));
     let query = query(start, &[goal]);
-    // Limits at pi shut that way, the wall the other one.
+    // Limits at pi close one direction, the wall the other one.
     let scenes = [polar(JointRange::Circle), polar(range(-3.1, 3.1))];
     let [circle, interval] = scenes.each_ref().map(|scene| Spaces::new(scene, &query));
     for (name, plan) in PLANNERS {

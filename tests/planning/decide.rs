@@ -1,4 +1,4 @@
-//! Whether there is a path at all, among thousands of pieces and where nothing can tell.
+//! Decisions whether there is a path at all, among thousands of pieces and in cases that no box decides.
 
 use crate::common::{asked, placed, q, recheck, rr, wall};
 use cplan::Options;
@@ -12,8 +12,8 @@ use cplan::space::JointRange;
 use std::f64::consts::TAU;
 use std::path::Path;
 
-/// So many short walls on a circle through which the outstretched arm reaches in two places, and is to go from one to the
-/// other: which it can if it can fold.
+/// Returns a problem with `count` short walls on a circle. The outstretched arm reaches through the circle in two
+/// places, and must go from one to the other. It can do so if it can fold.
 fn ring(count: usize, folding: f64) -> MotionProblem {
     let at = |k: usize| {
         let angle = TAU * k as f64 / count as f64;
@@ -65,8 +65,8 @@ fn a_way_closed_by_20_000_pieces_is_proven_closed_by_boxes_of_true_pairs() {
     }
 }
 
-/// A slot just narrower than the arm takes tens of thousands of boxes to prove closed. Slabs see that it is, and so these are
-/// looked at, whatever number is allowed where nobody knows.
+/// A slot just narrower than the arm takes tens of thousands of boxes to prove closed. Slabs show that it is closed, so
+/// the search examines these boxes even beyond the budget for unclear cases.
 #[test]
 fn what_slabs_see_closed_is_proven_closed() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -80,7 +80,7 @@ fn what_slabs_see_closed_is_proven_closed() {
     }
 }
 
-/// A slot exactly as wide as the arm is closed by touch alone, which no box proves: the search ends with its budget.
+/// Only contact closes a slot exactly as wide as the arm, and no box proves that. The search ends with its budget.
 #[test]
 fn what_takes_more_boxes_than_allowed_is_left_open() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -92,7 +92,7 @@ fn what_takes_more_boxes_than_allowed_is_left_open() {
     for allowed in [5_000, 20_000] {
         let Outcome::Unknown(reason) = decide(&problem, allowed) else { panic!("{allowed} boxes do not tell") };
         let boxes: usize = reason.split(' ').next().and_then(|word| word.parse().ok()).expect(&reason);
-        // The last boxes are halved all at once.
+        // The last boxes are all halved at once.
         assert!(boxes <= 2 * allowed + 100, "{reason}");
     }
 }

@@ -1,7 +1,7 @@
-//! Why there is no motion: sets of blockers, held to planning in worlds that the test itself makes of them; changes, held to closed forms
-//! and to a flood fill.
+//! Explanations of infeasible problems. Sets of blockers are compared with planning in worlds that the test builds from
+//! them. Changes are compared with closed forms and with a flood fill.
 //!
-//! `CPLAN_WORLDS` says how many random worlds without a motion of each kind of arm are looked at; the long run prints times:
+//! `CPLAN_WORLDS` is the number of random infeasible worlds of each kind of arm; the long run prints times:
 //!
 //! ```sh
 //! CPLAN_WORLDS=250 cargo test --profile quick --test planning explaining -- --nocapture
@@ -23,13 +23,13 @@ use std::time::{Duration, Instant};
 /// Boxes for decisions.
 const BOXES: usize = 20_000;
 
-/// And for what `explain` would else not know.
+/// Boxes for cases that `explain` would otherwise leave unknown.
 const BOXES_AT_LAST: usize = 1_000_000;
 
-/// Farther than any slide of the random worlds needs to go.
+/// Range that exceeds the needs of all slides in the random worlds.
 const FAR: f64 = 20.0;
 
-/// The problem with nothing but some of what is in the way, made from scratch.
+/// Returns the problem with only some of the blocking elements, made from scratch.
 fn among(problem: &MotionProblem, there: &[Element]) -> MotionProblem {
     let (mut arm, mut workspace) = problem.scene().clone().into_parts();
     let mut number = 0;
@@ -40,7 +40,7 @@ fn among(problem: &MotionProblem, there: &[Element]) -> MotionProblem {
     if !there.contains(&Element::Clearance) {
         workspace.clearance = 0.0;
     }
-    // Beside each other two slides get nowhere but by long ways; along one line they get nowhere beside it.
+    // Two nearly parallel slides need long motions to get anywhere; two slides on one line never leave it.
     let between = match arm.joints.each_ref().map(|joint| joint.joint_type) {
         [JointType::Prismatic { direction: a }, JointType::Prismatic { direction: b }] => a.angle(&b).sin(),
         _ => 1.0,
@@ -57,7 +57,7 @@ fn among(problem: &MotionProblem, there: &[Element]) -> MotionProblem {
             }
         }
     }
-    // A micrometre is kept, by small arms a millionth of their reach, unless an end does not.
+    // Requires a clearance of a micrometre (for small arms, a millionth of the reach), unless an end has less.
     let asked = |clearance: f64| {
         let workspace = Workspace { clearance: workspace.clearance.max(clearance), ..workspace.clone() };
         let scene = Scene::new(arm.clone(), workspace).expect("less of what is valid");
@@ -66,7 +66,7 @@ fn among(problem: &MotionProblem, there: &[Element]) -> MotionProblem {
     asked(1e-6 * problem.scene().arm().reach().min(1.0)).unwrap_or_else(|_| asked(0.0).expect("ends stay free"))
 }
 
-/// What is wrong with a set.
+/// Returns the faults of a set.
 fn faults(problem: &MotionProblem, set: &BlockingSet) -> Vec<String> {
     let mut faults = Vec::new();
     let elements = set.elements();
@@ -127,7 +127,8 @@ fn blocking_sets_are_irreducible() {
     assert!(unknown.len() * 20 <= count, "of {count} are not shown to be irreducible: {unknown:#?}");
 }
 
-/// Slides that are nearly parallel, and walls and points without area, which cannot be passed nor be shown not to be at no clearance at all.
+/// The slides are nearly parallel, or walls and points have no area. With zero clearance, such a wall neither lets the
+/// arm pass nor proves that it cannot.
 #[test]
 fn blocking_sets_of_degenerate_worlds() {
     let long_ways = [722, 931, 1095, 1154, 1393, 1580].map(|seed| ("PP", seed));
@@ -144,7 +145,7 @@ fn blocking_sets_of_degenerate_worlds() {
 /// Half the side of the block that the gantry carries.
 const HALF: f64 = 0.1;
 
-/// A square block that slides within 1 m of the origin along x and y, from the left to the right.
+/// Returns a square block that slides within 1 m of the origin along x and y, from the left to the right.
 fn gantry(obstacles: Vec<Obstacle>, clearance: f64) -> Question {
     let slide = |name, direction| Joint::sliding(name, direction, -1.0, 1.0);
     let square = cplan::geometry::Convex::new(
@@ -170,12 +171,13 @@ fn bar(name: &str, lower: f64, upper: f64) -> Obstacle {
     Obstacle::polygon(name, [[-0.05, lower], [0.05, lower], [0.05, upper], [-0.05, upper]]).expect("a rectangle")
 }
 
-/// A wall with a gap that is `gap` wide; beyond its ends the slides do not go.
+/// Returns a wall with a gap that is `gap` wide. The slides do not reach beyond its ends.
 fn wall(gap: f64) -> Vec<Obstacle> {
     vec![bar("above", gap / 2.0, 3.0), bar("below", -3.0, -gap / 2.0)]
 }
 
-/// The closed forms of a gap that is too narrow by 0.03 m: one half is moved or made smaller by so much, both by half of it.
+/// The changes have closed forms if a gap is too narrow by 0.03 m: one half is moved or made smaller by 0.03 m, or both
+/// by half of it.
 #[test]
 fn a_gap_is_too_narrow_by_what_it_lacks() {
     let lacking = 0.03;
@@ -199,7 +201,7 @@ fn a_gap_is_too_narrow_by_what_it_lacks() {
     assert!(stuck.at[1].abs() < lacking && stuck.at[0].abs() < HALF + 0.06, "{stuck:?}");
 }
 
-/// Of a gap that is wide enough but for the clearance of 0.05 m on either side.
+/// The gap is wide enough except for the clearance of 0.05 m on either side.
 #[test]
 fn clearance_is_lowered_to_half_of_what_a_gap_leaves() {
     let explanation = explain(&gantry(wall(2.0 * HALF + 0.06), 0.05), &Options::default());
@@ -211,7 +213,7 @@ fn clearance_is_lowered_to_half_of_what_a_gap_leaves() {
     assert!(lowered.by.opens - lowered.by.closed <= 1e-3, "{lowered:?}");
 }
 
-/// A wall that leaves room at its upper end alone, where the slide stops short of it by a hundredth.
+/// A wall leaves room only at its upper end, where the slide stops a hundredth too early.
 #[test]
 fn a_limit_is_widened_by_what_it_lacks() {
     let end = 1.0 - HALF + 0.01;
@@ -223,7 +225,7 @@ fn a_limit_is_widened_by_what_it_lacks() {
     assert!(widened.by.closed <= 0.01 && 0.01 < widened.by.opens && widened.by.opens < 0.0111, "{widened:?}");
 }
 
-/// Two walls, each of which is enough: no single change opens a way through both, and both are told.
+/// Each of two walls closes the space by itself. No single change opens a path through both, and the result lists both.
 #[test]
 fn walls_behind_one_another_are_sets_of_their_own() {
     let behind = |obstacle: Obstacle, name: &str| {
@@ -240,21 +242,21 @@ fn walls_behind_one_another_are_sets_of_their_own() {
     }
 }
 
-/// A start in an obstacle is explained by it alone.
+/// A start in an obstacle is explained by that obstacle alone.
 #[test]
 fn a_blocked_start_is_opened_by_what_it_hits() {
     let block = Obstacle::polygon("block", [[-0.75, -0.3], [-0.6, -0.3], [-0.6, 0.3], [-0.75, 0.3]]).expect("a block");
     let explanation = explain(&gantry(vec![bar("post", 0.5, 0.6), block], 0.0), &Options::default());
     let Outcome::Infeasible(closed) = &explanation.outcome else { panic!("{}", explanation.status()) };
     assert_eq!(closed.blocking(explanation.question.scene()), ["block"]);
-    // The block's left side is at -0.75, the arm's right one at -0.7: what lacks is 0.05.
+    // The block's left side is at -0.75, the arm's right one at -0.7: 0.05 are missing.
     for change in closed.changes() {
         assert!(change.by.closed <= 0.05 && 0.05 < change.by.opens && change.by.opens < 0.0511, "{change:?}");
     }
     assert_eq!(closed.changes().count(), 2);
 }
 
-/// One bar in the way: without it the path is straight.
+/// Without the only bar the path is straight.
 #[test]
 fn what_shapes_the_shortest_path_is_told_with_what_it_costs() {
     let (across, corner) = (0.15, [0.15_f64, 0.3]);
@@ -269,7 +271,8 @@ fn what_shapes_the_shortest_path_is_told_with_what_it_costs() {
     assert!(saving.at_most - saving.at_least < 1e-2 * truth, "{saving:?}");
 }
 
-/// The same arm and world in another unit of length, with the start some turns of the continuous joints away, or as many goals.
+/// Returns the same arm and world in another unit of length, with the start some turns of the continuous joints away,
+/// or the goals by that many.
 fn rescaled(problem: &MotionProblem, scale: f64, turns: [f64; 2]) -> MotionProblem {
     let (mut arm, mut workspace) = problem.scene().clone().into_parts();
     let point = |p: Point| p * scale;
@@ -302,8 +305,8 @@ fn rescaled(problem: &MotionProblem, scale: f64, turns: [f64; 2]) -> MotionProbl
     MotionProblem::new(Scene::new(arm, workspace).expect("a scene"), start, goals).expect("as free as before")
 }
 
-/// Arms of metres, of millimetres and of hundreds of metres, with starts up to twenty turns away: what is said of lengths without something holds for
-/// paths of another planner in the world without it, made from scratch.
+/// Arms of metres, millimetres and hundreds of metres start up to twenty turns away. The reported lengths without an
+/// element hold for paths of another planner, in a world built from scratch without that element.
 #[test]
 fn what_is_said_of_lengths_holds_for_paths_of_another_planner() {
     let (by_graph, mut seen) = (Options { planner: Planner::named(Method::Visibility), ..Options::default() }, 0);
@@ -333,7 +336,7 @@ fn what_is_said_of_lengths_holds_for_paths_of_another_planner() {
                 let gone = |element: &Element| *element != saving.element;
                 let there: Vec<Element> = Element::all(problem.scene()).into_iter().filter(gone).collect();
                 let (mut arm, mut workspace) = among(&problem, &there).into_scene().into_parts();
-                // The limits that are left out go farther the smaller the arm is; no clearance is added here.
+                // The omitted limits reach farther the smaller the arm is. No clearance is added here.
                 if scale != 1.0 && matches!(saving.element, Element::Limit { .. }) {
                     continue;
                 }
@@ -353,7 +356,8 @@ fn what_is_said_of_lengths_holds_for_paths_of_another_planner() {
     assert!(!usual() || seen > 2, "{seen}");
 }
 
-/// Of an arm of a millimetre a micrometre is much: a bound for paths that keep it is none for those that need not.
+/// For an arm of a millimetre, a micrometre is large: a bound for paths with that clearance does not hold for paths
+/// without it.
 #[test]
 fn lengths_without_an_obstacle_are_those_at_the_worlds_own_clearance() {
     let small = |obstacle: Obstacle| {
@@ -381,7 +385,7 @@ fn lengths_without_an_obstacle_are_those_at_the_worlds_own_clearance() {
     assert!(saving.at_most - saving.at_least < 1e-2 * truth, "{saving:?}");
 }
 
-/// When the time is up what is known is said: that there is no motion, and what may be in the way.
+/// When the time is up, the explanation has the known part: the problem is infeasible, with possible blockers.
 #[test]
 fn an_explanation_that_is_stopped_has_the_verdict_and_no_set_that_is_said_to_be_irreducible() {
     let question = gantry(wall(2.0 * HALF - 0.03), 0.0).with_time_limit(Duration::from_nanos(1));

@@ -1,4 +1,5 @@
-//! Motions with limits on jerks, and the fastest ones, in random worlds: as they are played, against brute force.
+//! Motions with limits on jerks, and the fastest ones, in random worlds. The trajectories are compared with brute
+//! force.
 //!
 //! ```sh
 //! CPLAN_TIMES=50 cargo test --profile quick --test planning fastest -- --nocapture
@@ -14,14 +15,14 @@ use cplan::motion::{Blends, Drive, Objective, Trajectory};
 use cplan::space::{Configuration, Path};
 use cplan::{Options, Plan, Planner, Problem, plan};
 
-/// Distances that two ways of reckoning them may differ by, metres.
+/// Tolerance between two computations of a distance, metres.
 const ROUNDING: f64 = 1e-9;
 
-/// Parts of each interval between samples in which a motion is looked at.
+/// Number of parts of each interval between samples in which a motion is checked.
 const PARTS: u32 = 8;
 
-/// Position, velocity, acceleration and jerk of both joints between two samples: the cubic through positions and velocities, as
-/// controllers have it.
+/// Returns position, velocity, acceleration and jerk of both joints between two samples: the cubic through positions
+/// and velocities, as controllers interpolate.
 fn between(trajectory: &Trajectory, i: usize, u: f64) -> [[f64; 2]; 4] {
     let h = trajectory.time[i + 1] - trajectory.time[i];
     let t = u * h;
@@ -36,7 +37,7 @@ fn between(trajectory: &Trajectory, i: usize, u: f64) -> [[f64; 2]; 4] {
     [0, 1, 2, 3].map(|order| [first[order], second[order]])
 }
 
-/// The motion keeps its limits and its distance as it is played, and starts and ends at rest.
+/// Checks that the trajectory keeps its limits and its distance, and starts and ends at rest.
 fn judge(problem: &Problem, plan: &Plan, jerk: [Option<f64>; 2], what: &str) {
     let trajectory = plan.trajectory().expect("a motion");
     let motion = problem.motion().expect("a single motion");
@@ -59,7 +60,7 @@ fn judge(problem: &Problem, plan: &Plan, jerk: [Option<f64>; 2], what: &str) {
         for part in 0..=PARTS {
             let u = f64::from(part) / f64::from(PARTS);
             let [place, speed, pull, rate] = between(trajectory, i, u);
-            // What rounding of positions makes of derivatives over the interval.
+            // Errors of derivatives over the interval, caused by rounding of positions.
             let noise = 64.0 * f64::EPSILON * (1.0 + place[0].abs().max(place[1].abs()));
             for (k, joint) in joints.iter().enumerate() {
                 assert!(speed[k].abs() <= joint.velocity * (1.0 + 1e-6) + noise / h, "{what}: speed {speed:?} at {i}");
@@ -99,7 +100,7 @@ fn motions_of_random_worlds() {
         let kind = KINDS[(seed % 4) as usize];
         let Some(problem) = world(kind, 7000 + seed).map(Problem::from) else { continue };
         let plain = plan(&problem, &Options { planner: Planner::named(Method::First), ..Options::default() }).unwrap();
-        // Straight ways are as fast as can be.
+        // Straight paths are already as fast as possible.
         if plain.status() != Status::Found || plain.waypoints().is_some_and(|path| path.len() < 3) {
             continue;
         }
@@ -118,7 +119,7 @@ fn motions_of_random_worlds() {
 
         let duration = |plan: &Plan| plan.duration().unwrap();
         let bound = |plan: &Plan| motion(plan).fastest.unwrap().lower_bound;
-        // What no motion undercuts, none of these does; limits on jerks make nothing faster.
+        // No motion is faster than the lower bound, and limits on jerks never make a motion faster.
         assert!(bound(&fastest) <= duration(&fastest) * (1.0 + 1e-9), "{what}");
         assert!(bound(&fastest) <= duration(&plain).min(duration(&along)).min(duration(&gentle)), "{what}");
         assert!(bound(&gentle) <= duration(&gentle).min(duration(&along)), "{what}");

@@ -1,4 +1,4 @@
-//! Groups in free order of which not every order can be done: what is placed, or not yet picked, is in the way of others.
+//! Groups in free order with some infeasible orders: objects that are placed, or not yet picked, block others.
 
 use crate::common::dice::Dice;
 use crate::common::random::{seeds, usual};
@@ -17,7 +17,7 @@ use serde_json::Value;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
-/// Arm, start and seven posts, all as high as each other: whatever lies somewhere is in the way.
+/// Arm, start and seven posts. All have the same height, so each object blocks the arm.
 const CELL: &str = r#"name = "tray"
 [robot]
 payload = "level"
@@ -39,13 +39,13 @@ fn robot() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("robots/planar_2r.urdf")
 }
 
-/// A place of a tray that lies round the arm: in rows, the innermost first, and columns, that nearest to the x axis first.
+/// Returns a place of a tray around the arm. Rows begin with the innermost, columns with the one nearest to the x axis.
 fn spot(index: usize) -> [f64; 2] {
     let (angle, radius) = (25.0 + 11.0 * (index / ROWS) as f64, 0.95 + 0.16 * (index % ROWS) as f64);
     [radius * angle.to_radians().cos(), radius * angle.to_radians().sin()]
 }
 
-/// The cell with parts of two kinds and this size, each at a point and to be placed at another.
+/// Returns the cell with parts of two kinds and this size, each with its place and its target.
 fn sized_world(order: &str, size: f64, parts: &[[[f64; 2]; 2]]) -> String {
     let mut world = format!("{CELL}[task]\norder = \"{order}\"\ndwell = 0.1\n");
     for (x, y, radius) in POSTS {
@@ -68,8 +68,8 @@ fn world(order: &str, parts: &[[[f64; 2]; 2]]) -> String {
     sized_world(order, 0.028, parts)
 }
 
-/// Parts from a store to its mirror image, in an order that can be done: the innermost and nearest are picked first, the
-/// outermost and farthest places are filled first.
+/// Returns a world with parts to move from a store to its mirror image, in a feasible order. The innermost and nearest
+/// parts are picked first, the outermost and farthest places are filled first.
 fn tray(count: usize) -> Vec<[[f64; 2]; 2]> {
     let mut picks: Vec<usize> = (0..count).collect();
     picks.sort_by_key(|index| (index % ROWS, index / ROWS));
@@ -79,7 +79,7 @@ fn tray(count: usize) -> Vec<[[f64; 2]; 2]> {
     picks.into_iter().zip(places).map(|(pick, place)| [spot(pick), mirrored(spot(place))]).collect()
 }
 
-/// The result of the main job in a world. A plan is judged free.
+/// Returns the result of the main job in a world, after a check that a found plan is free.
 fn asked(world: &str) -> Value {
     let folder = tempfile::tempdir().unwrap();
     let (file, result) = (folder.path().join("world.toml"), folder.path().join("result.json"));
@@ -135,7 +135,7 @@ fn a_free_order_is_found_where_that_of_the_file_cannot_be_done() {
 
 #[test]
 fn what_no_order_can_do_is_proven_of_large_groups_too() {
-    // Two parts that change places without room to put one aside.
+    // Two parts change places without room to put one aside.
     let mut swapped = tray(14);
     let [first, second] = [swapped[0][0], swapped[4][0]];
     (swapped[0][1], swapped[4][1]) = (second, first);
@@ -150,7 +150,7 @@ fn what_no_order_can_do_is_proven_of_large_groups_too() {
     }
 }
 
-/// The task of a world, if the arm is free at first.
+/// Returns the task of a world, or `None` if the arm is not free initially.
 fn task(world: &str) -> Option<Task> {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("world.toml");
@@ -166,8 +166,8 @@ fn planned(task: &Task) -> TaskAnswer {
 /// All orders of three things.
 const ORDERS: [[usize; 3]; 6] = [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]];
 
-/// The task with a group of nine pairs more, of things that nothing hits and that lie where the tip is at first: it can be
-/// done if and only if the task can, and is too large to try all orders.
+/// Returns the task with nine more pairs in its group. Their objects collide with nothing, and lie at the initial
+/// position of the tip. The new task is feasible if and only if the task is, and is too large to try all orders.
 fn among_many(task: &Task, pairs: &[[Step; 2]]) -> Task {
     let mut many = task.clone();
     let mut group = pairs.to_vec();
@@ -188,7 +188,7 @@ fn among_many(task: &Task, pairs: &[[Step; 2]]) -> Task {
     many
 }
 
-/// Three parts in each other's way, by themselves and among many, against each of all orders.
+/// Compares three parts that block each other, alone and among many, with a trial of all orders.
 #[test]
 fn free_orders_agree_with_trying_all() {
     let (mut some, mut file_fails, mut none, mut proven) = (0, 0, 0, 0);
@@ -197,7 +197,7 @@ fn free_orders_agree_with_trying_all() {
         let mut free: Vec<usize> = (0..2 * ROWS).collect();
         let mut draw = || free.swap_remove(dice.below(free.len()));
         let mut parts: Vec<[usize; 2]> = (0..3).map(|_| [draw(), draw()]).collect();
-        // Often a place where another part lies at first.
+        // The target is often the initial place of another part.
         for part in 0..3 {
             if dice.chance(0.4) {
                 parts[part][1] = parts[(part + 1) % 3][0];
@@ -242,6 +242,6 @@ fn free_orders_agree_with_trying_all() {
     println!(
         "{some} with orders that fail, {file_fails} with the file's; {none} without any, {proven} of these proven"
     );
-    // Orders that fail, and tasks without any, a part of them proven.
+    // There are orders that fail, and tasks without any feasible order, some of them proven.
     assert!(!usual() || some >= 3 && file_fails >= 2 && none >= 3 && 2 * proven >= none);
 }

@@ -1,4 +1,4 @@
-//! The visibility graph by definition, against the definition in integers.
+//! The visibility graph, compared with its definition in integers.
 
 use cplan::cspace::{Polygon, Proves, Regions};
 use cplan::geometry::Point;
@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 
 type Place = (i64, i64);
 
-/// Rectangles in some of the 6 x 4 fields of the window: of their corners many lie on one line.
+/// Returns rectangles in some of the 6 x 4 fields of the window. Many of their corners lie on one line.
 fn rectangles(seed: u64) -> Vec<[Place; 4]> {
     let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
     let mut draw = |n: u64| {
@@ -42,7 +42,7 @@ fn regions(rectangles: &[[Place; 4]]) -> Regions {
     }
 }
 
-/// Corners in halves, so that start and goal lie beside the window's sides.
+/// Corners of the window in halves of a unit, so that start and goal can lie beside its sides.
 const WINDOW: [Place; 4] = [(0, 0), (120, 0), (120, 80), (0, 80)];
 
 fn halves((x, y): Place) -> Configuration {
@@ -58,7 +58,8 @@ fn between(a: Place, b: Place, p: Place) -> bool {
     turn(a, b, p) == 0 && within(a.0, b.0, p.0) && within(a.1, b.1, p.1)
 }
 
-/// Whether two nodes are joined: by a side, or by a segment that meets no rectangle but at its ends, where it leaves them.
+/// Returns true if two nodes are joined: by a side, or by a segment that meets rectangles only at its ends, from which
+/// it leads away.
 fn joined(rectangles: &[[Place; 4]], a: Place, b: Place) -> bool {
     let all = || rectangles.iter().chain([&WINDOW]);
     let is_side = |ring: &[Place; 4]| {
@@ -67,7 +68,7 @@ fn joined(rectangles: &[[Place; 4]], a: Place, b: Place) -> bool {
     if all().any(is_side) {
         return true;
     }
-    // Corners between the ends, and sides that are crossed.
+    // Finds corners between the ends, and sides that are crossed.
     let meets = |ring: &[Place; 4]| {
         (0..4).any(|k| {
             let (p, q) = (ring[k], ring[(k + 1) % 4]);
@@ -77,7 +78,7 @@ fn joined(rectangles: &[[Place; 4]], a: Place, b: Place) -> bool {
             touches(p) || crosses || ends_on(a) || ends_on(b)
         })
     };
-    // A diagonal of a rectangle crosses none of its sides.
+    // A diagonal of a rectangle does not cross its sides.
     let inside = |ring: &[Place; 4]| {
         let (x, y) = (a.0 + b.0, a.1 + b.1);
         2 * ring[0].0 < x && x < 2 * ring[2].0 && 2 * ring[0].1 < y && y < 2 * ring[2].1
@@ -107,7 +108,7 @@ fn the_full_visibility_graph_is_that_of_the_definition() {
             pairs.filter(|&(a, b)| joined(&rectangles, a, b)).map(|(a, b)| ordered(a, b)).collect();
         assert_eq!(found, expected, "seed {seed}");
         arcs += found.len();
-        // The shortest path is that of the reduced graph.
+        // The shortest path equals that of the reduced graph.
         let reduced = Visibility::default();
         let shorter = reduced.query(&regions, &reduced.build(&regions), &query);
         let length = |outcome: &Proposal| if let Proposal::Found(path) = outcome { path.length() } else { panic!() };

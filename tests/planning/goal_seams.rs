@@ -1,5 +1,5 @@
-//! Sets of goals that end at the seam of a circle, lie on it or go across: the seam is nowhere, so written another way round
-//! they are the same set, for every planner.
+//! Sets of goals that end at the seam of a circle, lie on it or cross it. The seam has no meaning, so the same set in
+//! another notation has the same result, for every planner.
 
 use crate::common::dice::Dice;
 use crate::common::random::{seeds, usual};
@@ -11,13 +11,13 @@ use cplan::model::{MotionProblem, Scene};
 use cplan::space::{Configuration, GoalSet, JointRange, Path, Segment};
 use std::f64::consts::PI;
 
-/// Goals of a set that are asked for one by one.
+/// Number of goals of a set that are planned one by one.
 const TRIED: u32 = 12;
 
-/// Of goals with less room, metres, a representation may not know.
+/// A representation may miss goals with less room than this, metres.
 const ROOMY: f64 = 0.01;
 
-/// A value at a seam, beside it, or anywhere.
+/// Draws a value at a seam, beside it, or anywhere.
 fn at_seam(dice: &mut Dice) -> f64 {
     let seam = if dice.below(2) == 0 { PI } else { -PI };
     match dice.below(4) {
@@ -27,7 +27,7 @@ fn at_seam(dice: &mut Dice) -> f64 {
     }
 }
 
-/// A segment along one joint, or slanted, that has to do with the seam of a circle.
+/// Draws a segment along one joint, or slanted, near the seam of a circle.
 fn segment(dice: &mut Dice, scene: &Scene) -> Segment {
     let axes = scene.arm().topology().ranges;
     let mut from = Configuration::from_fn(|k, _| match axes[k].domain() {
@@ -47,12 +47,12 @@ fn segment(dice: &mut Dice, scene: &Scene) -> Segment {
     if dice.below(2) == 0 { Segment::new(from, to) } else { Segment::new(to, from) }
 }
 
-/// The same set in other words: the other way along, some turns on, and in pieces that end at each seam.
+/// Returns the same set written differently: reversed, some turns away, and in pieces that end at each seam.
 fn in_other_words(problem: &MotionProblem, goals: Segment) -> Vec<GoalSet> {
     let axes = problem.scene().arm().topology().ranges;
     let [from, to] = goals.ends();
     let turns = [0, 1].map(|k| if axes[k].is_circle() { 1.0 - 3.0 * k as f64 } else { 0.0 });
-    // Shares of the segment at which it goes across a seam, an odd number of half turns.
+    // Fractions of the segment at which it crosses a seam, an odd number of half turns.
     let mut cuts = vec![0.0, 1.0];
     for k in (0..2).filter(|&k| axes[k].is_circle() && from[k] != to[k]) {
         let seams = [-3.0, -1.0, 1.0, 3.0, 5.0].map(|half| (half * PI - from[k]) / (to[k] - from[k]));
@@ -121,8 +121,9 @@ fn a_seam_makes_no_difference_to_any_planner() {
                 })
                 .collect();
             let least = lengths.iter().flatten().copied().fold(f64::INFINITY, f64::min);
-            // Only visibility is after the shortest. Rounding decides which cells or boxes hold an end, or a goal, that lies on
-            // their sides, and so which of several goals that seem as near is gone to: the farthest is less than half as far again.
+            // Only visibility looks for the shortest path. Rounding decides which cells or boxes hold an end or a goal
+            // on their sides. It thus decides which of several equally near goals is chosen: the farthest is less than
+            // half as far again.
             let same = if method == Method::Visibility { 1e-6 } else { 0.5 };
             let alike = |length: &Option<f64>| length.map_or(least.is_infinite(), |l| l <= least * (1.0 + same) + same);
             assert!(lengths.iter().all(alike), "seed {seed}, {method}: {lengths:?} of {sets:?} from {start}");

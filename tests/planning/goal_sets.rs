@@ -15,10 +15,10 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 /// Values of the free joint that are tried one by one.
 const TRIED: usize = 13;
 
-/// So many levels are tried once more where the path may be more than 5 % longer than the shortest.
+/// Greatest number of levels of an answer whose path must be within 5 % of the shortest. Later levels may miss that.
 const LOOKED_AT: usize = 2;
 
-/// An arm whose tip goal leaves a joint free, and where the tip is to go.
+/// Draws an arm whose tip goal leaves a joint free, and the target of the tip.
 fn drawn(dice: &mut Dice) -> (Arm, Point) {
     let turn = |dice: &mut Dice| JointType::Revolute { sign: if dice.below(3) == 0 { -1.0 } else { 1.0 } };
     let slide = |angle: f64| JointType::Prismatic { direction: Vector::new(angle.cos(), angle.sin()) };
@@ -35,7 +35,7 @@ fn drawn(dice: &mut Dice) -> (Arm, Point) {
         ]
     };
     match dice.below(5) {
-        // The tip on the axis of a turning joint 2.
+        // The tip is on the axis of a revolute joint 2.
         0 | 1 => {
             let joints = [joint("a", turn(dice), turns(dice)), joint("b", turn(dice), turns(dice))];
             let arm = arm(joints, links(1.0), Vector::new(1.0, 0.0), Point::origin());
@@ -47,7 +47,7 @@ fn drawn(dice: &mut Dice) -> (Arm, Point) {
             let arm = arm(joints, links(0.4), Vector::new(0.4, 0.0), Point::origin());
             (arm, Point::new(0.4, dice.within(-0.3, 0.3)))
         }
-        // The goal on the axis of joint 1: an arm folded back, and one drawn in.
+        // The goal is on the axis of joint 1: an arm folded back, and one drawn in.
         3 => {
             let joints = [
                 joint("a", turn(dice), turns(dice)),
@@ -62,7 +62,7 @@ fn drawn(dice: &mut Dice) -> (Arm, Point) {
     }
 }
 
-/// A random world with a free start and the tip's goals; none if no start is free, or all goals are blocked.
+/// Returns a random world with a free start and the tip's goals; `None` if no start is free, or all goals are blocked.
 fn world(seed: u64) -> Option<MotionProblem> {
     let mut dice = Dice::new(seed.wrapping_mul(0x2545_F491_4F6C_DD1D));
     let (arm, tip) = drawn(&mut dice);
@@ -93,7 +93,7 @@ fn anywhere(dice: &mut Dice, scene: &Scene) -> Configuration {
     })
 }
 
-/// Free goals at several values of the free joint.
+/// Returns free goals at several values of the free joint.
 fn tried(problem: &MotionProblem) -> Vec<Configuration> {
     let along = |goals: &Segment| (0..TRIED).map(|k| goals.at((k as f64 + 0.5) / TRIED as f64)).collect::<Vec<_>>();
     let mut tried: Vec<Configuration> = problem.goals().pieces().iter().flat_map(along).collect();
@@ -165,7 +165,8 @@ fn a_set_of_goals_is_reached_if_any_of_it_is() {
                     let motions = Motions { scene, start, goals: problem.goals(), clearance: 0.0, metric };
                     let least = least_length(&motions, length, 1e-3, &[]);
                     assert!(least <= length, "seed {seed}");
-                    // A shorter way that only the finest levels show is looked for where there is no other, or with a gap.
+                    // The planner looks for a shorter path that only the finest levels show in two cases: there is no
+                    // other path, or a gap is requested.
                     let most = if other.history.len() <= LOOKED_AT { 1.05 * length } else { f64::INFINITY };
                     assert!(bound.upper <= most, "seed {seed}: {} beside {length} to {goal}", bound.upper);
                 }
@@ -177,8 +178,9 @@ fn a_set_of_goals_is_reached_if_any_of_it_is() {
     assert!(!usual() || worlds >= 20 && slid > worlds / 4, "{worlds} worlds, {slid} with paths, {infeasible} proofs");
 }
 
-/// The tip is to return to the base, an arm folded back: the first level's polygons leave no way to the left, where an obstacle is
-/// passed at a millimetre, but one of 5.89 all around. The bound (0.89) knows better, so a finer level is looked at.
+/// The tip must return to the base, and the arm is folded back. The path to the left passes an obstacle at a
+/// millimetre. The first level's polygons close it, so only a path of length 5.89 all around is left. The bound (0.89)
+/// shows that a shorter path may exist, so the planner tries a finer level.
 #[test]
 fn a_short_way_through_a_narrow_passage_is_preferred_to_a_long_way_round() {
     let problem = world(9_083_322_546_425_692_186).expect("a world");
@@ -186,13 +188,13 @@ fn a_short_way_through_a_narrow_passage_is_preferred_to_a_long_way_round() {
     let bound = answer.bound().expect("visibility bounds what it finds");
     assert!(bound.gap() < 0.05, "{bound:?}");
     assert!(0.85 < bound.lower && bound.upper < 0.95, "{bound:?}");
-    // The first level by itself knows the long way only, and says so.
+    // The first level alone has only the long path, and its bound shows that.
     let hasty = solve(&problem, &Options { levels: 1, ..Method::Visibility.into() }, &mut |_| {});
     let bound = hasty.bound().expect("visibility bounds what it finds");
     assert!(bound.lower < 0.95 && bound.upper > 5.0, "{bound:?}");
 }
 
-/// No planner says that there is no way where there is one.
+/// No planner reports a problem as infeasible if there is a path.
 #[test]
 fn planners_agree_about_sets_of_goals() {
     for seed in seeds(15).map(|seed| seed + 1_000) {
@@ -212,7 +214,8 @@ fn planners_agree_about_sets_of_goals() {
     }
 }
 
-/// A tip on the common axis of both joints, and one beside it: everything is a goal, or all ways to share an angle.
+/// A tip on the common axis of both joints, and one beside it. In the first case every configuration is a goal, in the
+/// second all pairs of angles with the same sum.
 #[test]
 fn joints_about_one_axis_share_the_angle() {
     let turning = |lower, upper| joint("t", JointType::Revolute { sign: 1.0 }, JointRange::Interval { lower, upper });

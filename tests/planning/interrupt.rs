@@ -1,4 +1,4 @@
-//! Plans that are stopped: nothing comes of them but that they were, and nothing is left of them.
+//! Plans that are stopped: the only result is the interruption, and no state remains.
 
 use cplan::Outcome;
 use cplan::engine::task::plan;
@@ -21,7 +21,7 @@ fn options(method: Method) -> Options {
     Options { levels: 2, ..Planner::named(method).with_cells(64).into() }
 }
 
-/// What an answer says, without the times it took.
+/// Returns the content of an answer without the times.
 fn said(answer: &Answer) -> (Proposal, String) {
     let verdict = match &answer.outcome {
         Outcome::Found(path) => format!("{:?}", path.path().waypoints()),
@@ -42,7 +42,8 @@ fn every_planner_comes_by_a_checkpoint() {
     }
 }
 
-/// At whatever checkpoint a plan is stopped, it is stopped or it is the plan; and the next one is not disturbed.
+/// At each checkpoint a stopped plan either reports the stop or equals the full plan, and the next plan is not
+/// disturbed.
 #[test]
 fn a_stopped_plan_says_nothing_and_leaves_nothing() {
     for world in ["shelf.toml", "crowd.toml", "singular_closed.toml"] {
@@ -67,7 +68,7 @@ fn a_stopped_plan_says_nothing_and_leaves_nothing() {
     }
 }
 
-/// A search for a proof that would take minutes ends when another thread says so.
+/// A search for a proof that would take minutes ends when another thread stops it.
 #[test]
 fn proofs_and_tasks_stop_too() {
     let problem = problem("thin_wall_closed.toml");

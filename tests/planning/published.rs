@@ -22,7 +22,7 @@ use search::{Maps, OF_GAUSS_SEIDEL, OF_SOR, Tally};
 
 #[test]
 fn line_maps_of_100_x_100_cells_take_the_published_sweeps() {
-    // Map 3 is not printed as it was measured.
+    // The printed map 3 is not the measured one.
     for table in &deicu::TABLES[..2] {
         let scene = deicu::scene(table).unwrap_or_else(|e| panic!("{e}"));
         let lines = deicu::lines(table, &scene, &[0]);
@@ -42,7 +42,7 @@ fn the_unfurnished_room_takes_the_same_multiple_of_the_published_sweeps_for_ever
     assert!(ratios[3..].iter().all(|ratio| (1.21..1.24).contains(ratio)), "{ratios:?}");
 }
 
-/// The tally of docs/convergence.md, on 100 x 100 cells.
+/// Checks the tally of docs/convergence.md on 100 x 100 cells.
 #[test]
 fn the_tally_of_the_published_counts_holds() {
     let maps = Maps::read().unwrap_or_else(|e| panic!("{e}"));
@@ -52,14 +52,14 @@ fn the_tally_of_the_published_counts_holds() {
     };
     assert_eq!(counts([0, 1], &OF_GAUSS_SEIDEL), [[3, 4, 6], [4, 4, 4], [0, 1, 2]]);
     assert_eq!(counts([2, 3], &OF_SOR), [[2, 2, 3], [4, 4, 4], [0, 0, 4]]);
-    // What is special about 0.999999: its neighbours explain less.
+    // The value 0.999999 is special: its neighbours explain less.
     for beyond in [Beyond::Kept, Beyond::Clamped, Beyond::Reset(0.999_998), Beyond::Reset(0.999_999_9)] {
         let other = search::together(maps.harmonic([2, 3], &Choice { beyond, ..OF_SOR }, 0));
         assert!(other.exact() <= 1, "{beyond:?}: {other}");
     }
 }
 
-/// The search's own relaxation and the library's share no code, and count the same.
+/// The search's own relaxation and the library's share no code, and report the same counts.
 #[test]
 fn the_plain_relaxation_counts_what_the_library_counts() {
     use cplan::field::{

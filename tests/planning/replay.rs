@@ -1,4 +1,4 @@
-//! How planners came to their answers: what is told of it is what happened.
+//! Traces of planners: the account of how a planner came to its answer is true.
 
 use crate::common::shipped_feasible;
 use cplan::engine::{Method, Phase, Replay, Setting, Shows, SlabBoxes};
@@ -24,7 +24,7 @@ fn replayed(plan: &Plan) -> Vec<Phase> {
     phases
 }
 
-/// How many things the trace has for a phase to show.
+/// Returns the number of things that the trace has for a phase to show.
 fn there(shows: &Shows, trace: &Trace) -> Option<usize> {
     Some(match (shows, trace) {
         (Shows::Nodes | Shows::Edges, Trace::Roadmap { edges, .. } | Trace::Roads { edges, .. }) => edges.len(),

@@ -28,7 +28,7 @@ fn run<P: Planner<Space = Regions>>(planner: &P, regions: &Regions, query: &Quer
     run
 }
 
-/// The path of a run, if any, after checks that hold for every path.
+/// Returns the path of a run, if any, after checks that hold for every path.
 fn checked_path<P: Planner<Space = Regions>>(planner: &P, regions: &Regions, query: &Query) -> Option<Path> {
     match run(planner, regions, query).outcome {
         Proposal::Found(path) => {
@@ -43,7 +43,7 @@ fn checked_path<P: Planner<Space = Regions>>(planner: &P, regions: &Regions, que
     }
 }
 
-/// Lengths by visibility, taut trapezoids and untaut ones, after checks of their order.
+/// Returns the lengths by visibility, taut trapezoids and untaut ones, after checks of their order.
 fn lengths(regions: &Regions, query: &Query) -> Option<[f64; 3]> {
     let shortest = checked_path(&VISIBILITY, regions, query);
     let taut = checked_path(&TAUT, regions, query);
@@ -55,8 +55,8 @@ fn lengths(regions: &Regions, query: &Query) -> Option<[f64; 3]> {
     Some(lengths)
 }
 
-/// What other searches and roadmaps find, beside the shortest path: that there is one, all of it free, none shorter, and as
-/// short where the search is after that.
+/// Checks the paths of other searches and roadmaps against the shortest one. Each finds a path if there is one, and all
+/// of it is free. No path is shorter, and searches for shortest paths find one as short.
 fn assert_searched(regions: &Regions, query: &Query, shortest: Option<f64>) {
     let ways = SearchOrder::ALL.into_iter().flat_map(|order| [false, true].map(|backward| (order, backward)));
     for search in ways.map(|(order, backward)| RoadmapSearch { order, backward }) {
@@ -71,7 +71,7 @@ fn assert_searched(regions: &Regions, query: &Query, shortest: Option<f64>) {
             assert!(length < shortest + 1e-9, "{search}: {length} {shortest}");
         }
         let [own, taut] = PathKind::ALL.map(|path| same(checked_path(&Triangles { path, search }, regions, query)));
-        // Where a search wanders about within its channel the string may turn where it need not.
+        // If a search makes detours within its channel, the taut path may turn where it need not.
         assert!(!search.order.is_optimal() || taut <= own.map(|own| own + 1e-9), "{search}: {taut:?} {own:?}");
         same(checked_path(&Trapezoid { path: PathKind::Taut, search }, regions, query));
         for path in PathKind::ALL {
@@ -79,7 +79,7 @@ fn assert_searched(regions: &Regions, query: &Query, shortest: Option<f64>) {
         }
     }
     for path in PathKind::ALL {
-        // Few samples find what they find; they never say that there is nothing.
+        // Few samples may find a path, but never prove infeasibility.
         let prm = Prm { samples: 60, nearest: 6, path, ..Prm::default() };
         match run(&prm, regions, query).outcome {
             Proposal::Found(path) => {
@@ -138,7 +138,7 @@ proptest! {
         let mut random = Dice::new(seed);
         let crowd = convex_crowd(&mut random, side, corners);
         let regions = crowd_regions(side, &crowd);
-        // Between the crowd's cells, where no polygon reaches.
+        // The places are between the crowd's cells, where no polygon reaches.
         let ends = [0, 1].map(|_| (random.within(-0.2, -0.01), random.within(-0.2, side as f64 + 0.2)));
         let (start, goal) = (ends[0], (side as f64 - ends[1].0, ends[1].1));
         let window = (-0.25, side as f64 + 0.25);
@@ -166,8 +166,8 @@ proptest! {
         }
     }
 
-    /// Squares of one and two units that touch along sides and in corners: in place or mirrored exactly, or turned so that
-    /// rounding puts corners a hair to either side of the sides that they lie on, and leaves gaps a hair wide.
+    /// The squares of one and two units touch along sides and in corners. They are in place or mirrored exactly, or
+    /// turned. Then rounding puts corners slightly to either side of the sides that they lie on, and leaves tiny gaps.
     #[test]
     fn touching_obstacles_equal_brute_force(
         seed: u64, size in 2usize..6, density in 0.1..0.5, turn in prop_oneof![Just(None), (0.0..1.6_f64).prop_map(Some)],
@@ -182,7 +182,7 @@ proptest! {
         };
         let sized = |growth: f64| -> Vec<_> { blocks.iter().map(|b| block(b, growth)).collect() };
         let window = (-2.0 * size as f64, 2.0 * size as f64);
-        // A gap of a hair may be a way or none.
+        // A tiny gap may or may not be passable.
         let growth = 1e-6;
         let least = if turn.is_some() { -growth } else { growth };
         let (grown, shrunk) = (sized(growth), sized(least));
@@ -211,7 +211,7 @@ proptest! {
         }
     }
 
-    /// Against the definition: pairs of convex corners, tangent at both ends, that no side separates.
+    /// Compares the graph with the definition: pairs of convex corners, tangent at both ends, that no side separates.
     #[test]
     fn the_whole_graph_is_that_of_the_definition(seed: u64, count in 1usize..9) {
         let regions = star_crowd(&mut Dice::new(seed), count);
@@ -234,7 +234,7 @@ proptest! {
         let map = MAPS[(random.bits() % 5) as usize];
         let regions = board.regions(map, || random.bits().is_multiple_of(2));
         assert_decomposed(&regions);
-        // Squares grown a little, so that those that touch in a corner are shut.
+        // The squares are grown a little, so that gaps between touching corners are closed.
         let growth = 1e-5;
         let blocked = (0..board.free.len()).filter(|&k| !board.free[k]).map(|k| {
             let range = |k: usize| (k as f64 - growth, (k + 1) as f64 + growth);
@@ -285,12 +285,12 @@ proptest! {
     }
 }
 
-/// One metric of each kind.
+/// Returns one metric of each kind.
 fn metrics(ratio: f64) -> [Metric; 3] {
     [Metric::Euclidean, Metric::Weighted { weights: [1.0, ratio] }, Metric::Time { speeds: [1.0, ratio] }]
 }
 
-/// Lower left corners and sizes of squares on a board, apart or touching.
+/// Draws lower left corners and sizes of squares on a board, apart or touching.
 fn blocks(random: &mut Dice, size: usize, density: f64) -> Vec<(usize, usize, usize)> {
     let mut taken = vec![false; size * size];
     let mut blocks = Vec::new();
@@ -374,7 +374,7 @@ mod contract {
 
     #[test]
     fn copies_of_the_goal_on_a_circle_are_goals() {
-        // Two turns; a band at the seam-side of the start leaves only the way through the seam.
+        // The window has two turns. A band on the seam's side of the start leaves only the path through the seam.
         let band = |x: f64| rectangle((x - 0.1, x + 0.1), (-1.0, 1.0));
         let free = |from: f64, to: f64| Polygon { outer: rectangle((from, to), (-1.0, 1.0)), holes: vec![] };
         let bands = [band(1.0 - TAU), band(1.0)];
@@ -441,7 +441,7 @@ fn between_squares_that_touch_in_a_corner_there_is_no_way() {
 
 #[test]
 fn of_motions_that_take_equally_long_the_shortest_is_taken() {
-    // The first joint takes 4 s whichever way the obstacle is passed; below it the way is shorter.
+    // The first joint takes 4 s on either side of the obstacle; the path below is shorter.
     let regions = window_with_holes((0.0, 4.0), (-2.0, 2.0), vec![rectangle((1.5, 2.5), (-0.5, 0.6))]);
     let planner = Visibility { metric: Metric::Time { speeds: [1.0, 1.0] }, ..VISIBILITY };
     let path = checked_path(&planner, &regions, &query((0.0, 0.0), (4.0, 0.0))).unwrap();

@@ -1,4 +1,4 @@
-//! Waves and searches over grids against textbook code that shares none with them, petgraph, and published tables.
+//! Waves and searches over grids against textbook code that shares nothing with them, petgraph, and published tables.
 
 use crate::common::reference::published;
 use cplan::cspace::{Grid, Proves};
@@ -18,7 +18,7 @@ fn grid(cells: [usize; 2], circles: [bool; 2], blocked: Vec<bool>) -> Grid {
     Grid { topology: Topology { ranges: axes }, proves: Proves::Sampled, cells, blocked }
 }
 
-/// The cell `by` away from `cell`, if there is one: by coordinates.
+/// Returns the cell `by` away from `cell`, if there is one, by coordinates.
 fn beside(grid: &Grid, cell: usize, by: [i64; 2]) -> Option<usize> {
     let at = [cell / grid.cells[1], cell % grid.cells[1]];
     let to = [0, 1].map(|k| {
@@ -28,7 +28,7 @@ fn beside(grid: &Grid, cell: usize, by: [i64; 2]) -> Option<usize> {
     Some(to[0]? as usize * grid.cells[1] + to[1]? as usize)
 }
 
-/// Free cells one move away from a free cell, and whether the move is diagonal.
+/// Returns free cells one move away from a free cell, and whether the move is diagonal.
 fn moves(grid: &Grid, cell: usize, neighborhood: Neighborhood) -> Vec<(usize, bool)> {
     let free = |by: [i64; 2]| beside(grid, cell, by).filter(|&to| !grid.blocked[to]);
     let mut to = Vec::new();
@@ -42,7 +42,7 @@ fn moves(grid: &Grid, cell: usize, neighborhood: Neighborhood) -> Vec<(usize, bo
     to
 }
 
-/// Breadth-first labels, as in any textbook.
+/// Returns breadth-first labels by the textbook algorithm.
 fn textbook(grid: &Grid, sources: &[usize], neighborhood: Neighborhood) -> Vec<u32> {
     let mut labels = vec![UNREACHED; grid.blocked.len()];
     let mut queue = VecDeque::new();
@@ -72,7 +72,8 @@ fn random_grid(
     })
 }
 
-/// Long runs of free cells between walls with few doors: `walls` are rows or columns, `doors` opens them somewhere.
+/// Returns a strategy for long runs of free cells between walls with few openings. `walls` are rows or columns; `doors`
+/// opens them somewhere.
 fn random_rooms() -> impl Strategy<Value = Grid> {
     let wall = (any::<bool>(), any::<u16>(), proptest::collection::vec(any::<u16>(), 0..4));
     let size = (1..40_usize, 64..300_usize, any::<[bool; 2]>());
@@ -121,7 +122,7 @@ fn check_labels(grid: &Grid, sources: &[usize], start: usize) -> Result<(), Test
     Ok(())
 }
 
-/// The explicit graph of free cells, with one node more that is joined to all sources at no cost.
+/// Returns the explicit graph of free cells, with one more node that is joined to all sources at no cost.
 fn graph(grid: &Grid, sources: &[usize], neighborhood: Neighborhood) -> (UnGraph<(), f64>, NodeIndex) {
     let mut graph = UnGraph::new_undirected();
     let nodes: Vec<NodeIndex> = grid.blocked.iter().map(|_| graph.add_node(())).collect();
@@ -137,7 +138,8 @@ fn graph(grid: &Grid, sources: &[usize], neighborhood: Neighborhood) -> (UnGraph
     (graph, origin)
 }
 
-/// Cells are expanded once each, of those that are labelled; breadth-first by distance; and the target is the last, if it is reached.
+/// Checks that each expanded cell is labelled and is expanded once, that breadth-first orders expand by distance, and
+/// that the target is the last, if it is reached.
 fn check_order(search: &Search, order: Order, target: usize) -> Result<(), TestCaseError> {
     let (labels, expanded) = (search.labels(), &search.expanded);
     let once: BTreeSet<u32> = expanded.iter().copied().collect();
@@ -151,8 +153,8 @@ fn check_order(search: &Search, order: Order, target: usize) -> Result<(), TestC
     Ok(())
 }
 
-/// Every order finds a way exactly if there is one, over allowed moves, and of the cost that it says; which is
-/// the least where it must be.
+/// Checks that every order finds a path if and only if there is one, over allowed moves, at the reported cost. That
+/// cost is the least if the order guarantees it.
 fn check_searches(grid: &Grid, sources: &[usize], target: usize) -> Result<(), TestCaseError> {
     let free = FreeCells::new(grid);
     for neighborhood in BOTH {
@@ -180,7 +182,8 @@ fn check_searches(grid: &Grid, sources: &[usize], target: usize) -> Result<(), T
             prop_assert!(cells[0] == target && sources.contains(&cells[cells.len() - 1]));
             let mut cost = Cost::default();
             for pair in cells.windows(2) {
-                // Where a small circle allows a move both ways, the search may have taken it for the dearer one.
+                // If a small circle allows a move in two directions, the search may have counted it as the more
+                // expensive one.
                 let found = moves(grid, pair[0], neighborhood);
                 let ways: Vec<bool> = found.iter().filter(|m| m.0 == pair[1]).map(|m| m.1).collect();
                 prop_assert!(!ways.is_empty(), "not a move");
@@ -195,7 +198,7 @@ fn check_searches(grid: &Grid, sources: &[usize], target: usize) -> Result<(), T
                 Order::BreadthFirst => prop_assert_eq!(cost.moves(), steps),
                 Order::IterativeDeepening => {
                     prop_assert_eq!((cost.moves(), search.rounds as u32), (steps, steps + 1));
-                    // Each round but the last expands each cell that is as near as its limit, once.
+                    // Each round except the last expands each cell within its limit, once.
                     let within = |limit: u32| labels.iter().filter(|&&label| label <= limit).count();
                     let rounds: usize = (0..steps).map(within).sum();
                     prop_assert!(search.expansions > rounds && search.expansions <= rounds + within(steps));
@@ -239,7 +242,7 @@ proptest! {
         check_searches(&grid, &sources, target)?;
     }
 
-    /// From one cell to the nearest of several: as far as from the several to the one.
+    /// The distance from one cell to the nearest of several equals that from the several to the one.
     #[test]
     fn a_search_to_any_target_finds_the_nearest((grid, targets, start) in with_cells(random_grid(1..14, 1..14, 0.4))) {
         let free = FreeCells::new(&grid);
@@ -259,7 +262,7 @@ proptest! {
         }
     }
 
-    /// A* looks at no more cells than Dijkstra, up to those that are as far as the target.
+    /// A* expands no more cells than Dijkstra, up to those that are as far as the target.
     #[test]
     fn a_good_estimate_saves_work((grid, sources, target) in with_cells(random_grid(1..14, 1..14, 0.4))) {
         let free = FreeCells::new(&grid);
@@ -277,7 +280,7 @@ proptest! {
     }
 }
 
-/// In the open, A* that prefers the farthest goes straight: it expands the cells of the path only.
+/// In the open, A* that prefers the farthest cell goes straight: it expands only the cells of the path.
 #[test]
 fn a_star_goes_straight_in_the_open() {
     let open = FreeCells::new(&grid([50, 70], [false; 2], vec![false; 3500]));
@@ -290,7 +293,7 @@ fn a_star_goes_straight_in_the_open() {
 }
 
 /// Fig. 6.14 of the chapter on task planning ("Planejamento de Tarefas", 6.3.3), where the goal is labelled `q_fin` and
-/// the start, `q_ini`, 9; and what the text says of the labels there.
+/// the start, `q_ini`, 9. The test also checks the text's statements about the labels.
 #[test]
 fn the_published_8_by_8_example_and_its_text() {
     let table = "2 1 2 3 4 5 # #
@@ -312,7 +315,8 @@ fn the_published_8_by_8_example_and_its_text() {
         let least = free.moves(cell, Neighborhood::Four).map(|next| expected[next.to]).min();
         assert_eq!(least, Some(expected[cell] - 1));
     }
-    // "The path is of least length in the metric L1": from 9 down to 0, one at a time, and no search finds a shorter one.
+    // "The path is of least length in the metric L1": from 9 down to 0, one at a time, and no search finds a shorter
+    // one.
     let path = wave.descend(&free, start).expect("a path");
     let labels: Vec<u32> = path.iter().map(|&cell| expected[cell]).collect();
     assert_eq!(labels, (0..=9).rev().collect::<Vec<_>>());
@@ -329,7 +333,7 @@ fn the_published_8_by_8_example_and_its_text() {
     assert_eq!((walled.labels()[63], walled.reached()), (UNREACHED, 50 - 4));
 }
 
-/// A published table.
+/// Reads a published table.
 fn table(name: &str) -> Vec<u32> {
     let text = std::fs::read_to_string(published(&format!("data/{name}"))).expect("a readable table");
     let labels = text.split([',', '\n']).map(str::trim).filter(|label| !label.is_empty());
@@ -338,7 +342,7 @@ fn table(name: &str) -> Vec<u32> {
     labels
 }
 
-/// Gonçalves da Silva, Fig. 2: labels of the wave on 20 x 12 cells, the goal's is 2.
+/// Gonçalves da Silva, Fig. 2: labels of the wave on 20 x 12 cells. The goal's label is 2.
 #[test]
 #[ignore = "needs the published data that CPLAN_REFERENCE names"]
 fn the_published_20_by_12_wavefront() {
@@ -349,9 +353,9 @@ fn the_published_20_by_12_wavefront() {
     assert_eq!(wave.labels().iter().map(|&label| label.saturating_add(2)).collect::<Vec<_>>(), expected);
 }
 
-/// Gonçalves da Silva, Fig. 3: costs so far of A* on the same cells, 1 at the start, 0 where it did not come. The text
-/// has it go "through each of the positions" of least estimate: ties are first come, first served. Then every cell
-/// is as published, also the dead ends beside the path that it looked into and those that it did not.
+/// Gonçalves da Silva, Fig. 3: costs so far of A* on the same cells, 1 at the start, 0 in cells without a label. In the
+/// text, A* goes "through each of the positions" of least estimate, so ties are first come, first served. Then every
+/// cell is as published: also the visited dead ends beside the path, and the unvisited ones.
 #[test]
 #[ignore = "needs the published data that CPLAN_REFERENCE names"]
 fn the_published_20_by_12_a_star() {
@@ -369,7 +373,7 @@ fn the_published_20_by_12_a_star() {
         labels.iter().enumerate().map(shown).collect()
     };
     assert_eq!(matrix(Ties::First), expected);
-    // The other rule leaves out some of them, and looks into one dead end from farther on.
+    // The other rule omits some of them, and enters one dead end from farther away.
     let farthest = matrix(Ties::Farthest);
     assert!(farthest != expected && farthest.iter().zip(&expected).all(|(a, b)| a >= b || *a == 0));
     assert!(farthest.iter().filter(|&&g| g == 0).count() > expected.iter().filter(|&&g| g == 0).count());

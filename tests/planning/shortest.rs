@@ -1,4 +1,4 @@
-//! The shortest path among random obstacles: never below what others prove, hardly ever far above, and smooth to drive.
+//! The shortest path among random obstacles: never below proven bounds, rarely far above them, and smooth to drive.
 
 use crate::common::random::{seeds, usual};
 use crate::random_worlds::world;
@@ -11,8 +11,8 @@ use cplan::space::Metric;
 /// Worlds of each kind of arm.
 const WORLDS: u64 = 12;
 
-/// A path is within 1e-4 of what is proven by its own bound and by that of an independent run for another planner's path; it is
-/// never longer than another planner's by more than that, and says the same about whether there is one.
+/// A path is within 1e-4 of two proven bounds: its own, and that of an independent run for another planner's path. It
+/// is never longer than another planner's path by more than that. All planners agree on whether there is a path.
 #[test]
 fn it_is_within_a_ten_thousandth_of_the_optimum_in_random_worlds() {
     let (mut found, mut wide) = (0, 0);
@@ -49,6 +49,6 @@ fn it_is_within_a_ten_thousandth_of_the_optimum_in_random_worlds() {
     }
     println!("{found} found, {wide} of them not within 1e-4");
     assert!(!usual() || found >= 20, "{found}");
-    // One in twenty may lead through a passage that is too narrow for it.
+    // One in twenty may lead through a passage that is too narrow for that planner.
     assert!(wide * 20 <= found + 20, "{wide} of {found}");
 }

@@ -1,4 +1,5 @@
-//! Slabs of joint 1 against collision tests of sampled configurations, the subdivision into boxes, and the independent check.
+//! Slabs of joint 1 against collision tests of sampled configurations, the subdivision into boxes, and the independent
+//! check.
 
 use crate::common::{
     Benchmark, all_kinds, arm, benchmark, clutter, convex, disc, inside, joint, link, problem, q, recheck, rectangle,
@@ -20,8 +21,8 @@ const SLABS: usize = 20_000;
 /// Boxes that decide where slabs do not.
 const BOXES: usize = 200_000;
 
-/// Checks an answer by what shares no code with the slabs: paths by the judge of motions, proofs by the check of boxes,
-/// both against configurations sampled on them. Says which answer it was.
+/// Checks an answer by code that shares nothing with the slabs: paths by the judge of motions, proofs by the check of
+/// boxes, both with sampled configurations. Returns which answer it was.
 fn check(scene: &Scene, start: Configuration, goals: &GoalSet, clearance: f64) -> Option<bool> {
     match slab_connectivity(scene, start, goals, clearance, SLABS, BOXES) {
         Connectivity::Connected(channel) => {
@@ -66,7 +67,7 @@ fn benchmark_problems_are_decided() {
     }
 }
 
-/// A small convex obstacle of any kind.
+/// Returns a strategy for small convex obstacles of any kind.
 fn obstacle() -> impl Strategy<Value = Convex> {
     let at = (0.2..1.9_f64, -3.2..3.2_f64).prop_map(|(r, t)| Point::new(r * t.cos(), r * t.sin()));
     (at, 0..4_u8, 0.03..0.3_f64, 0.0..6.3_f64).prop_map(|(at, kind, size, turn)| {
@@ -99,7 +100,7 @@ proptest! {
     }
 }
 
-/// Where both decide, slabs and boxes say the same.
+/// Checks that slabs and boxes agree if both decide.
 fn agrees_with_the_boxes(scene: &Scene, start: Configuration, goal: Configuration, clearance: f64) {
     if let Some(connected) = check(scene, start, &goal.into(), clearance) {
         match connectivity(scene, start, &goal.into(), clearance, 20_000) {
@@ -123,7 +124,8 @@ fn a_proof_across_the_seam() {
     agrees_with_the_boxes(&scene, start, goal, 0.0);
 }
 
-/// Two segments without thickness: nothing to erode, so that only a path can be decided, or what joint 1 alone closes.
+/// Two segments without thickness leave nothing to erode. So only a path can be found, or joint 1 alone closes the
+/// space.
 #[test]
 fn thin_links_among_thin_walls() {
     let turn = JointType::Revolute { sign: 1.0 };
@@ -147,7 +149,7 @@ fn nothing_to_meet_is_free() {
     let scene = scene(rr([JointRange::Circle, JointRange::Circle]), vec![]);
     assert_eq!(check(&scene, q(0.1, 0.2), &q(3.0, -3.0).into(), 0.0), Some(true));
     assert_eq!(check(&scene, q(0.1, 0.2), &q(0.1, 0.2).into(), 0.0), Some(true));
-    // Copies of a goal on a circle are the goal.
+    // Copies of a goal on a circle are also goals.
     assert_eq!(check(&scene, q(0.1, 0.2), &q(9.0, -9.0).into(), 0.0), Some(true));
 }
 
@@ -191,7 +193,8 @@ fn odd_links_and_elbows_on_obstacles() {
     assert!(decided == answers.len(), "{decided} of {}", answers.len());
 }
 
-/// Within limits longer than a turn poses repeat, configurations do not: the way between them can be closed.
+/// If limits are longer than a turn, poses repeat but configurations do not. The path between two of them can be
+/// closed.
 #[test]
 fn limits_longer_than_a_turn() {
     let long = JointRange::Interval { lower: -5.0, upper: 5.0 };
@@ -202,7 +205,7 @@ fn limits_longer_than_a_turn() {
     assert_eq!(check(&closed, q(-4.0, 0.1), &q(turn - 4.0, 0.1).into(), 0.0), Some(false));
     let open = scene(rr([long, narrow]), vec![]);
     assert_eq!(check(&open, q(-4.0, 0.1), &q(turn - 4.0, 0.1).into(), 0.0), Some(true));
-    // Within reach of the forearm from wherever the elbow can be.
+    // The point is within reach of the forearm for any position of the elbow.
     let second = scene(rr([narrow, long]), vec![disc(Point::new(1.2, 0.3), 0.15)]);
     assert_eq!(check(&second, q(0.0, -4.0), &q(0.0, turn - 4.0).into(), 0.0), Some(false));
 }
@@ -224,7 +227,7 @@ fn joints_that_cannot_move_are_left_to_others() {
     assert_eq!(check(&scene, q(0.5, 0.0), &q(0.5, 0.1).into(), 0.0), None);
 }
 
-/// All shipped workspaces, the six closed twins and the six open ones among them.
+/// Tries all shipped workspaces, among them the six closed twins and the six open ones.
 #[test]
 fn shipped_workspaces_are_answered_as_they_say() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -268,7 +271,7 @@ fn short_paths_are_within_a_ten_thousandth_of_the_optimum() {
         let problem = problem(which);
         let Outcome::Found(certified) = shortest(&problem) else { panic!("{which:?}") };
         let length = certified.path().length();
-        // The published optima have four digits behind the point.
+        // The published optima have four decimals.
         assert!(length > optimum - 1e-4 && length < optimum * 1.0001 + 1e-4, "{which:?}: {length}");
         let again = certify(problem.scene(), certified.path().clone(), 0.0).expect("free");
         assert_eq!(again.path(), certified.path());

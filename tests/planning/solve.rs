@@ -1,4 +1,4 @@
-//! The benchmark problems whose answers are published, with every planner.
+//! The benchmark problems with published answers, with every planner.
 
 use crate::common::{Benchmark, asked, benchmark, problem, q, rectangle, rr, scene, shipped_feasible};
 use cplan::Outcome;
@@ -10,7 +10,7 @@ fn answer(which: Benchmark, method: Method) -> Answer {
     solve(&problem(which), &method.into(), &mut |_| {})
 }
 
-/// Length of the path, which must be found.
+/// Returns the length of the path, which must be found.
 fn length(which: Benchmark, method: Method) -> f64 {
     let answer = answer(which, method);
     let Outcome::Found(certified) = &answer.outcome else {
@@ -57,7 +57,8 @@ fn narrow_passages_are_found_by_subdivision() {
     }
 }
 
-/// Grids by collision checks, which are proposals alone: what is found through them is certified, and they close nothing.
+/// Grids by collision checks only make proposals: paths found through them are certified, and the grids prove no
+/// infeasibility.
 #[test]
 fn sampled_grids_lead_to_the_verdicts_of_exact_rows() {
     for method in [Method::Wavefront, Method::Harmonic] {
@@ -79,8 +80,8 @@ fn sampled_grids_lead_to_the_verdicts_of_exact_rows() {
     }
 }
 
-/// A cell that is free by its centre proves nothing: with a single look at coarse cells no world is said to have no way, and
-/// what is found is what the judge lets pass.
+/// A cell that is free at its centre proves nothing. With one pass over coarse cells, no world is reported infeasible,
+/// and each found path is one that the judge accepts.
 #[test]
 fn coarse_samples_are_never_the_last_word() {
     let planner = Planner::named(Method::Wavefront).with_space(GridSpace::Sampled).with_cells(16);
@@ -110,7 +111,7 @@ fn closed_ways_are_proven_closed() {
     }
 }
 
-/// The outstretched arm points at a wall a micrometre away, far less than the margin that polygons are grown by.
+/// The outstretched arm points at a wall a micrometre away, far less than the margin of the grown polygons.
 #[test]
 fn ends_with_little_room_are_answered_at_the_first_level() {
     let scene = scene(rr([JointRange::Circle, JointRange::Circle]), vec![rectangle(1.8 + 1e-6, 2.0, -0.5, 0.5)]);
@@ -129,7 +130,7 @@ fn ends_with_little_room_are_answered_at_the_first_level() {
     }
 }
 
-/// The start keeps the clearance exactly.
+/// The start keeps exactly the clearance.
 #[test]
 fn a_start_without_room_to_spare_is_answered() {
     let (scene, start, goal) = benchmark(Benchmark::A);
@@ -137,7 +138,7 @@ fn a_start_without_room_to_spare_is_answered() {
     let problem = asked(scene.with_clearance(clearance).unwrap(), start, goal);
     for method in [Method::Visibility, Method::Trapezoid] {
         let answer = solve(&problem, &Options { levels: 1, boxes: 1000, ..method.into() }, &mut |_| {});
-        // Exactly as much as is asked for can be no more than undecided.
+        // With exactly the requested clearance, the answer can only be undecided.
         assert!(!matches!(answer.outcome, Outcome::Found(_)), "{method}");
     }
 }

@@ -1,4 +1,4 @@
-//! Problems and plans as data: what is read is what was written, and what nobody could plan is refused.
+//! Problems and plans as data: files round-trip, and the reader refuses problems that nobody could plan.
 
 use cplan::geometry::Convex;
 use cplan::model::{Heights, MotionProblem, Scene, Task};
@@ -6,7 +6,7 @@ use cplan::{Arm, Obstacle, Options, Outcome, Plan, Planner, Problem, Status, Wor
 use serde_json::{Value, json};
 use std::path::Path;
 
-/// Every shipped world with the robot that it names, in the order of their names.
+/// Returns every shipped world with the robot that it names, in the order of their names.
 fn shipped() -> Vec<(String, Problem)> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let files = |folder: &str| std::fs::read_dir(root.join(folder)).unwrap().map(|entry| entry.unwrap().path());
@@ -27,12 +27,12 @@ fn world(name: &str) -> Problem {
     shipped().into_iter().find(|(other, _)| other == name).unwrap().1
 }
 
-/// As a file has it.
+/// Returns the data as JSON, as in a file.
 fn value(data: &impl serde::Serialize) -> Value {
     serde_json::from_str(&serde_json::to_string(data).unwrap()).unwrap()
 }
 
-/// Why a plan is refused that differs from a valid one there.
+/// Returns the error for a plan that differs from a valid one at `pointer`.
 fn refusal(valid: &Value, pointer: &str, other: Value) -> String {
     let mut tampered = valid.clone();
     *tampered.pointer_mut(pointer).unwrap_or_else(|| panic!("there is no {pointer}")) = other;
@@ -55,7 +55,7 @@ fn every_shipped_problem_is_read_as_it_was_written() {
 #[test]
 fn every_shipped_plan_is_read_as_it_was_written() {
     for (name, problem) in shipped() {
-        // Timings are there, and differ from run to run; they are no part of what is compared.
+        // The timings are present, but differ from run to run, so they are not compared.
         let made = plan(&problem, &Options { timings: true, ..Options::default() }).unwrap();
         let text = serde_json::to_string(&made).unwrap();
         let read: Plan = serde_json::from_str(&text).unwrap_or_else(|error| panic!("{name}: {error}"));
@@ -101,7 +101,7 @@ fn a_changed_result_is_refused_and_said_where() {
     let made = plan(&world("shelf"), &Options::default()).unwrap();
     assert!(matches!(made.outcome(), Outcome::Found(_)));
     let valid = value(&made);
-    // Straight from start to goal is through the shelf.
+    // The straight line from start to goal leads through the shelf.
     let ends = json!([valid["result"]["path"][0], valid["result"]["path"].as_array().unwrap().last().unwrap()]);
     let refused = refusal(&valid, "/result/path", ends);
     assert!(refused.contains("result.path has 2 entries, and planning gives"), "{refused}");
@@ -113,7 +113,7 @@ fn a_changed_result_is_refused_and_said_where() {
     assert!(refused.contains("result.trajectory.velocity[3][1]"), "{refused}");
     let refused = refusal(&valid, "/result/clearance", json!(0.5));
     assert!(refused.contains("result.clearance is 0.5"), "{refused}");
-    // A faster joint would have another motion.
+    // A faster joint would have a different motion.
     let refused = refusal(&valid, "/problem/asked/motion/scene/arm/joints/0/velocity", json!(50.0));
     assert!(refused.contains("result."), "{refused}");
     let refused = refusal(&valid, "/options/drive/period", json!(0.02));
@@ -156,7 +156,7 @@ fn what_no_constructor_makes_is_no_problem() {
         ),
         (format!("{scene}/arm/joints/0/velocity"), json!(0.0), "positive and finite"),
         (format!("{scene}/arm/plane/u"), json!([1.0, 1.0, 0.0]), "plane's vectors"),
-        // Intervals would be repeated for ever.
+        // Otherwise intervals would be repeated without end.
         (format!("{scene}/arm/joints/1/range/interval/upper"), json!(1e8), "no range"),
         // Predicates would overflow.
         (format!("{scene}/arm/tip"), json!([1e200, 0.0]), "within 1e15 m"),
@@ -250,7 +250,7 @@ fn a_scene_with_a_payload_is_data_too() {
     let motion = MotionProblem::new(read, ends[0], ends[1]).unwrap();
     let again: MotionProblem = serde_json::from_str(&serde_json::to_string(&motion).unwrap()).unwrap();
     assert!(again == motion);
-    // What is carried would shrink.
+    // Otherwise the payload would shrink.
     let mut halved = serde_json::to_value(&*leg.scene).unwrap();
     *halved.pointer_mut("/payload/grip").unwrap() =
         json!({"rigid": {"rotation": [0.5, 0.0], "translation": [0.0, 0.0]}});

@@ -20,7 +20,7 @@ fn planned(task: &Task) -> TaskAnswer {
     plan(task, &options(), &mut |_| {})
 }
 
-/// Two bars among three obstacles as high as they.
+/// Returns an arm of two bars among three obstacles of the same height.
 fn cell(limits: [[f64; 2]; 2]) -> (Arm, Workspace) {
     let turn = JointType::Revolute { sign: 1.0 };
     let [one, two] = limits.map(|[lower, upper]| JointRange::Interval { lower, upper });
@@ -35,7 +35,7 @@ fn cell(limits: [[f64; 2]; 2]) -> (Arm, Workspace) {
     (arm, Workspace { name: "cell".into(), obstacles, clearance: 0.0, preferences: Vec::new(), movers: Vec::new() })
 }
 
-/// A flat thing far below the arm, which nothing can hit.
+/// Returns a flat object far below the arm, which nothing can hit.
 fn thing(name: &str, at: Point) -> Object {
     let below = Heights { lower: -1.0, upper: -0.9 };
     Object {
@@ -55,10 +55,11 @@ fn step(action: Action, number: usize) -> Step {
     Step { action, number, cycle: 1, place: String::new(), speed: 1.0, dwell: 0.25 }
 }
 
-/// A task without obstacles as high as its things, the pairs of its picks and places, and whether their order is free.
+/// Returns a task without obstacles at the height of its objects, with pairs of picks and places in fixed or free
+/// order.
 fn task(limits: [[f64; 2]; 2], spots: &[[Point; 2]], free: bool) -> Task {
     let (arm, mut workspace) = cell(limits);
-    // The things hang lower than the posts stand.
+    // The objects are below the posts.
     workspace.obstacles.iter_mut().for_each(|o| o.heights = Heights { lower: -0.5, upper: 0.5 });
     let objects = spots.iter().enumerate().map(|(i, [from, _])| thing(&format!("thing {i}"), *from)).collect();
     let pair = |(object, [_, to]): (usize, &[Point; 2])| {
@@ -73,7 +74,7 @@ fn task(limits: [[f64; 2]; 2], spots: &[[Point; 2]], free: bool) -> Task {
     Task { arm, workspace, objects, start: home, items, wrist: None, stroke: None }
 }
 
-/// All IK solutions within the limits that put the tip somewhere.
+/// Returns all IK solutions within the limits that put the tip somewhere.
 fn ik_solutions(arm: &Arm, at: Point) -> Vec<Configuration> {
     let mut all = Vec::new();
     for branch in inverse(arm, at, Configuration::zeros()).branches {
@@ -84,7 +85,7 @@ fn ik_solutions(arm: &Arm, at: Point) -> Vec<Configuration> {
     all
 }
 
-/// Seconds of the least sequence through layers of IK solutions, each order of the pairs tried in turn.
+/// Returns the seconds of the fastest sequence through layers of IK solutions, with each order of the pairs in turn.
 fn least(
     start: Configuration,
     layers: &[[Vec<Configuration>; 2]],
@@ -97,7 +98,7 @@ fn least(
             order.iter().flat_map(|&pair| layers[pair].each_ref().map(Vec::as_slice)).collect();
         let home = [start];
         stops.push(&home);
-        // Every sequence by itself, like the digits of a counter.
+        // Each sequence is tried separately, like the digits of a counter.
         let count: usize = stops.iter().map(|stop| stop.len()).product();
         for index in 0..count {
             let (mut rest, mut at, mut sum) = (index, start, 0.0);
@@ -124,7 +125,7 @@ fn orders(count: usize) -> Vec<Vec<usize>> {
     shorter.iter().flat_map(insert).collect()
 }
 
-/// Places that the tip can reach, spread by a golden section.
+/// Returns places that the tip can reach, spread by the golden section.
 fn spots(seed: u32, count: usize, arm: &Arm) -> Vec<[Point; 2]> {
     let mut turn = f64::from(seed) * 0.377;
     let mut next = || {
@@ -135,7 +136,7 @@ fn spots(seed: u32, count: usize, arm: &Arm) -> Vec<[Point; 2]> {
     (0..count).map(|_| [next(), next()]).collect()
 }
 
-/// Whether all is done, and no other choice is faster.
+/// Returns true if the task is done, and no other choice is faster.
 fn is_exact(answer: &TaskAnswer) -> bool {
     answer.outcome.found().is_some_and(|motion| motion.exact)
 }
@@ -199,7 +200,7 @@ fn the_fastest_of_all_ik_solutions_and_orders_is_found() {
     assert!(compared >= 20 && free_differs >= 5, "{compared} compared, in {free_differs} the order matters");
 }
 
-/// Beyond ten pairs the order comes from a local search: better than all of many drawn at random, and its bound holds.
+/// For more than ten pairs, a local search finds the order. It beats many random orders, and its bound holds.
 #[test]
 fn a_large_group_gets_a_good_order() {
     let limits = [[-2.9, 2.9], [-2.6, 2.6]];

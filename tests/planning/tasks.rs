@@ -1,7 +1,7 @@
-//! Every shipped task gives its stated outcome, and what is planned can be done.
+//! Every shipped task gives its stated outcome, and its plan can be executed.
 //!
-//! The first comment of a task's world names its robot (`# robot: scara`) and the outcome (`# expect: done` or
-//! `# expect: infeasible`).
+//! The first comment of a task's world names its robot (`# robot: scara`) and the outcome (`# expect: done` or `#
+//! expect: infeasible`).
 
 use crate::common::recheck;
 use crate::random_tasks::replay;
@@ -22,7 +22,7 @@ fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("workspaces/tasks")
 }
 
-/// A shipped task and its stated outcome.
+/// Loads a shipped task and its stated outcome.
 fn load(file: &Path) -> (Task, String) {
     let text = std::fs::read_to_string(file).unwrap();
     let stated = |key: &str| {
@@ -68,7 +68,7 @@ fn every_task_gives_its_stated_outcome() {
     }
 }
 
-/// The level and the rigid payload have the same world, but for the key that tells them apart.
+/// The level and the rigid payload have the same world, except for the key that distinguishes them.
 #[test]
 fn holding_level_or_rigid_makes_the_difference() {
     let [level, rigid] = ["slot_level", "slot_rigid"].map(shipped);
@@ -84,7 +84,7 @@ fn holding_level_or_rigid_makes_the_difference() {
     assert!(matches!(planned(&rigid).outcome, Outcome::Infeasible(_)));
 }
 
-/// Empty-handed the arm passes where it does not with the board.
+/// The empty-handed arm passes where it cannot pass with the board.
 #[test]
 fn carrying_closes_a_passage() {
     let task = shipped("board_and_gate");
@@ -92,7 +92,7 @@ fn carrying_closes_a_passage() {
     let Outcome::Infeasible(impossible) = &answer.outcome else { panic!("{:?}", answer.outcome) };
     assert_eq!(impossible.step.number, 3, "the board is what does not pass");
     assert_eq!(answer.legs.len(), 2, "the way there and back is done before");
-    // What is said of the motion that fails bears checking: a gantry has one IK solution for a place, its coordinates.
+    // The reported data of the failed motion must hold: a gantry has one IK solution for a place, its coordinates.
     let [to] = &impossible.ik_solutions[..] else { panic!("{:?}", impossible.ik_solutions) };
     assert_eq!((impossible.from, to.ik_solution), (Configuration::new(0.4, 1.1), Configuration::new(1.6, 0.9)));
     assert!(impossible.reasons[0].starts_with("to joints (1.6, 0.9) m: there is no way"), "{:?}", impossible.reasons);
@@ -102,7 +102,7 @@ fn carrying_closes_a_passage() {
     assert!(!stuck.is_empty());
 }
 
-/// Two ways to take the rail, and two to reach the slot with each.
+/// The rail can be taken in two ways, and each leaves two IK solutions to reach the slot.
 #[test]
 fn reasons_name_the_motions_that_were_tried() {
     let task = shipped("slot_rigid");
@@ -117,7 +117,7 @@ fn reasons_name_the_motions_that_were_tried() {
     }
 }
 
-/// All IK solutions within the limits that put the tip where a step wants it, from the closed form.
+/// Returns all IK solutions within the limits that put the tip at a step's target, from the closed form.
 fn ik_solutions(task: &Task, step: &Step) -> Vec<Configuration> {
     let target = match &step.action {
         Action::Pick { object, .. } => Point::from(task.objects[*object].at.translation.vector),
@@ -134,14 +134,14 @@ fn ik_solutions(task: &Task, step: &Step) -> Vec<Configuration> {
     branches.iter().flat_map(copies).collect()
 }
 
-/// Taking the IK solution that is nearest in time, step by step, is at least a fifth slower.
+/// A greedy choice of the IK solution nearest in time, step by step, is at least a fifth slower.
 #[test]
 fn the_greedy_choice_of_ik_solutions_is_slower() {
     let task = shipped("elbow_choice");
     let mut taken: Vec<Item> = Vec::new();
     let mut greedy = 0.0;
     for step in task.steps() {
-        // Going to an IK solution first and doing the step there forces that IK solution; objects lie below the arm.
+        // A first move to an IK solution, with the step done there, forces that IK solution. Objects lie below the arm.
         let forced = |q: &Configuration| {
             let there = Step { action: Action::Move(Goal::Joints(*q)), dwell: 0.0, ..step.clone() };
             let items = taken.iter().cloned().chain([Item::Step(there), Item::Step(step.clone())]).collect();
@@ -159,7 +159,7 @@ fn the_greedy_choice_of_ik_solutions_is_slower() {
     assert!(greedy >= 1.2 * ours, "greedy {greedy} s, ours {ours} s");
 }
 
-/// Cycles after which the world is the same are planned once, also where a rigid payload's orientation comes from the arm's.
+/// Cycles that end with the same world are planned once, also if a rigid payload's orientation depends on the arm's.
 #[test]
 fn identical_cycles_are_planned_once() {
     let once = planned(&shipped("feeder"));

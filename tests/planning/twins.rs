@@ -1,5 +1,5 @@
-//! Workspaces without a path and their feasible twins: proofs pass the independent check as they stand in a file, and
-//! found paths a sweep by parry2d.
+//! Workspaces without a path and their feasible twins: stored proofs pass the independent check, and found paths pass a
+//! sweep by parry2d.
 
 use crate::common::recheck;
 use cplan::Outcome;
@@ -14,7 +14,7 @@ use parry2d_f64::math::{Pose, Rotation, Vector};
 use parry2d_f64::query::intersection_test;
 use parry2d_f64::shape::{Ball, ConvexPolygon, Segment, Shape};
 
-/// What closes the way, and the robot.
+/// Obstruction of each twin, and the robot.
 const TWINS: [(&str, &str); 6] = [
     ("limits", "planar_2r"),
     ("annulus", "gantry"),
@@ -51,7 +51,7 @@ fn each_closed_way_is_proven_closed_and_the_proof_can_be_read_back() {
         let claim = read.stuck();
         assert_eq!(claim, proof.stuck(), "{what}");
         assert_eq!(recheck(claim, scene, start, goals, 0.0), Ok(()), "{what}");
-        // It says nothing about the twin, whose way is open: some box cannot be true there.
+        // The proof does not apply to the twin, which has a path: some box must be false there.
         let twin = load(&format!("{what}_open"), robot);
         let refused = recheck(claim, twin.scene(), twin.start(), twin.goals(), 0.0);
         let is_false = matches!(
@@ -62,7 +62,8 @@ fn each_closed_way_is_proven_closed_and_the_proof_can_be_read_back() {
     }
 }
 
-/// parry2d's shape of a rounded polygon's core; the radius is a disc's, all others here are sharp.
+/// Returns parry2d's shape of a rounded polygon's core. The radius is a disc's; all other shapes here have sharp
+/// corners.
 fn shape(convex: &Convex) -> Box<dyn Shape> {
     let corners: Vec<Vector> = convex.core().iter().map(|p| Vector::new(p.x, p.y)).collect();
     assert!(corners.len() == 1 || convex.radius() == 0.0);
@@ -73,7 +74,7 @@ fn shape(convex: &Convex) -> Box<dyn Shape> {
     }
 }
 
-/// Where parry2d has a disc's centre.
+/// Returns parry2d's pose of a disc's centre.
 fn place(convex: &Convex) -> Pose {
     match convex.core() {
         [center] => Pose::from_translation(Vector::new(center.x, center.y)),
@@ -81,7 +82,7 @@ fn place(convex: &Convex) -> Pose {
     }
 }
 
-/// The first sample of the path, in steps of at most [`STEP`], at which parry2d finds a contact.
+/// Returns the first sample of the path, in steps of at most [`STEP`], at which parry2d finds a contact.
 fn first_contact(scene: &Scene, path: &Path) -> Option<Configuration> {
     let pairs: Vec<_> = scene.pairs().iter().map(|&p| (p.link, scene.part(p), scene.piece(p))).collect();
     let shapes: Vec<_> = pairs.iter().map(|(link, a, b)| (*link, shape(a), place(a), shape(b), place(b))).collect();
@@ -132,7 +133,7 @@ fn open_ways_are_found_by_subdivision() {
 
 #[test]
 fn the_sweep_sees_contacts() {
-    // The same path as the twin's, where the way is closed.
+    // Tries the twin's path in the closed world.
     for (what, robot) in TWINS.into_iter().filter(|(what, _)| *what != "limits") {
         let (open, closed) = (load(&format!("{what}_open"), robot), load(&format!("{what}_closed"), robot));
         let answer = solve(&open, &Method::Visibility.into(), &mut |_| {});

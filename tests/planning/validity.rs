@@ -1,5 +1,6 @@
-//! What the library takes cannot be made invalid: each constructor refuses what would give a false answer, and names it. A
-//! clockwise square had wrong penetrations, a problem without goals or with a start out of range was "infeasible".
+//! Accepted data cannot be made invalid: each constructor refuses input that would lead to a false answer, and names
+//! it. Before that, a clockwise square had wrong penetrations, and a problem without goals or with a start out of range
+//! was "infeasible".
 
 use crate::common::dice::Dice;
 use crate::common::random::{seeds, usual};
@@ -42,7 +43,7 @@ fn no_convex_shape_is_made_of_what_is_none() {
         (&clockwise, 0.0, NotConvex { corner: 1 }),
         (&[(0., 0.), (2., 0.), (1., 0.5), (2., 2.)], 0.0, NotConvex { corner: 2 }),
         (&[(0., 0.), (1., 1.), (3., 3.)], 0.0, NotConvex { corner: 0 }),
-        // Twice round by left turns, one of them back along a side.
+        // The ring turns left twice around, once back along a side.
         (&[(-2., 0.), (3., 2.), (-3., 0.), (-1., 0.), (-1., 1.)], 0.0, NotConvex { corner: 0 }),
     ];
     for (corners, radius, error) in cases {
@@ -68,14 +69,14 @@ fn no_polygon_is_made_of_what_is_none() {
     assert_eq!(Polygon::new(square, vec![outside]), Err(RingError::Misplaced { hole: 1 }));
 }
 
-/// The arm of the tests, changed.
+/// Returns the arm of the tests with a change.
 fn arm(change: impl Fn(&mut Arm)) -> Arm {
     let mut arm = rr([JointRange::Circle, JointRange::Interval { lower: -2.0, upper: 2.0 }]);
     change(&mut arm);
     arm
 }
 
-/// A workspace with one obstacle, changed.
+/// Returns a workspace with one obstacle and a change.
 fn workspace(change: impl Fn(&mut Workspace)) -> Workspace {
     let obstacles = vec![obstacle("post", disc(Point::new(0.9, 0.9), 0.1))];
     let mut workspace =
@@ -226,14 +227,14 @@ fn no_problem_is_made_of_what_has_no_true_answer() {
     let through = GoalSet::from(Segment::new(free, q(PI / 4.0, 0.3)));
     let problem = MotionProblem::new(scene(), free, through).expect("some of it is free");
     assert!(matches!(solve(&problem, &Method::Visibility.into(), &mut |_| {}).outcome, Outcome::Found(_)));
-    // What keeps less than the clearance is not free either.
+    // A configuration nearer than the clearance is not free either.
     let near = scene().with_clearance(0.7).expect("a clearance");
     let touched = MotionProblem::new(near, q(0.0, 0.5), free).expect_err("it is too near").to_string();
     assert!(touched.contains("nearer than the clearance of 0.7 m"), "{touched}");
 }
 
-/// Corners in convex position by construction: on an ellipse, in the order of their angles. And the same on integers, judged
-/// by the sign of an exact determinant.
+/// The corners are in convex position by construction: on an ellipse, in the order of their angles. The test also uses
+/// integers, judged by the sign of an exact determinant.
 #[test]
 fn what_is_valid_is_taken() {
     let (mut refused, mut taken) = (0, 0);
@@ -263,12 +264,12 @@ fn what_is_valid_is_taken() {
     assert!(taken > 10 && refused > 10, "{taken} {refused}");
 }
 
-/// By brute force: every corner lies to the left of every side, or on it between its ends; no two are the same; all are met
-/// in the order of the angle about their mean, once round.
+/// Decides convexity by brute force. Every corner lies to the left of every side, or on it between its ends, and no two
+/// corners are equal. The corners follow in the order of the angle about their mean, once round.
 fn is_convex(corners: &[(i64, i64)]) -> bool {
     let n = corners.len() as i64;
     let (x, y) = corners.iter().fold((0, 0), |(x, y), c| (x + c.0, y + c.1));
-    // Relative to the mean, times the number of corners.
+    // The corners are relative to the mean, times the number of corners.
     let about: Vec<(i64, i64)> = corners.iter().map(|c| (n * c.0 - x, n * c.1 - y)).collect();
     let cross = |a: (i64, i64), b: (i64, i64)| a.0 * b.1 - a.1 * b.0;
     let less = |a: (i64, i64), b: (i64, i64)| (a.0 - b.0, a.1 - b.1);
@@ -278,7 +279,7 @@ fn is_convex(corners: &[(i64, i64)]) -> bool {
         (0..about.len()).all(|i| about.iter().all(|&c| cross(less(about[next(i)], about[i]), less(c, about[i])) >= 0));
     let has_area =
         (0..about.len()).any(|i| cross(less(about[next(i)], about[i]), less(about[next(next(i))], about[i])) > 0);
-    // Seen from the mean, which is inside, each side turns left, and together they turn once.
+    // As seen from the mean, which is inside, each side turns left, and together they turn once.
     let turns = (0..about.len()).all(|i| cross(about[i], about[next(i)]) > 0);
     let total: f64 = (0..about.len())
         .map(|i| {
@@ -289,13 +290,13 @@ fn is_convex(corners: &[(i64, i64)]) -> bool {
     distinct && left && has_area && turns && (total - 2.0 * PI).abs() < 1e-6
 }
 
-/// Scenes and problems of random worlds are taken, and nothing of them is changed by being taken apart.
+/// The library accepts scenes and problems of random worlds, and taking them apart changes nothing.
 #[test]
 fn random_problems_are_taken() {
     let mut made = 0;
     for seed in seeds(300) {
         let kind = world::KINDS[seed as usize % world::KINDS.len()];
-        // `asked` and `placed` panic where the library refuses.
+        // `asked` and `placed` panic if the library refuses.
         let Some(problem) = world::world(kind, seed) else { continue };
         made += 1;
         let (arm, workspace) = problem.scene().clone().into_parts();
@@ -306,7 +307,7 @@ fn random_problems_are_taken() {
     assert!(!usual() || made > 250, "{made}");
 }
 
-/// Corners that a right angle apart make a hair of a wall are judged exactly.
+/// The corners differ from a straight wall by the last bit, and are judged exactly.
 #[test]
 fn a_hair_decides() {
     let tip = 1.0 / 3.0;

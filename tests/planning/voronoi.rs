@@ -1,5 +1,5 @@
-//! Voronoi diagrams and the ways of greatest clearance along them, against distances from all sides, floods over grids and closed
-//! forms.
+//! Voronoi diagrams and the paths of greatest clearance along them, against distances from all sides, floods over grids
+//! and closed forms.
 
 use crate::common::dice::Dice;
 use crate::common::roadmap::*;
@@ -24,7 +24,8 @@ fn path(run: &Run) -> Option<&Path> {
     }
 }
 
-/// What one can hit: the sides of free space that are not the window's on circles, with copies around.
+/// Returns the sides that an arm can hit: those of free space, without the window's sides on circles, with copies
+/// around.
 fn obstacles(regions: &Regions) -> Vec<(Point, Point)> {
     let circle = |k: usize| regions.topology.ranges[k].is_circle();
     let on_seam = |a: Point, b: Point| {
@@ -49,7 +50,7 @@ fn clearance(sides: &[(Point, Point)], p: Point) -> f64 {
     sides.iter().map(|side| (p - nearest(p, *side)).norm()).fold(f64::INFINITY, f64::min)
 }
 
-/// The least clearance of a path, at many places.
+/// Returns the least clearance of a path, over many samples.
 fn least_clearance(sides: &[(Point, Point)], path: &Path) -> f64 {
     let along = |(a, b): (Configuration, Configuration)| {
         (0..=40).map(move |k| Point::from(a + (b - a) * (f64::from(k) / 40.0)))
@@ -57,8 +58,8 @@ fn least_clearance(sides: &[(Point, Point)], path: &Path) -> f64 {
     path.segments().flat_map(along).map(|p| clearance(sides, p)).fold(f64::INFINITY, f64::min)
 }
 
-/// Each end of an arc or chord has two nearest points on different sides, and what is between them nearly so; and the diagram
-/// hangs together.
+/// Checks that each end of an arc or chord has two nearest points on different sides. In between, the two distances are
+/// almost equal. The diagram is connected.
 fn assert_is_diagram(regions: &Regions, run: &Run, ends: &[Point]) {
     let sides = obstacles(regions);
     let Trace::Roads { edges, .. } = &run.trace else { panic!("{:?}", run.trace) };
@@ -91,7 +92,7 @@ fn assert_is_diagram(regions: &Regions, run: &Run, ends: &[Point]) {
     }
 }
 
-/// The greatest least clearance of a way from cell to cell of a grid that begins and ends next to the ends.
+/// Returns the greatest least clearance of a path from cell to cell of a grid that begins and ends next to the ends.
 fn widest_on_grid(regions: &Regions, within: [(f64, f64); 2], n: usize, start: Point, goals: &[Point]) -> (f64, f64) {
     let (sides, obstacles) = (sides(regions), obstacles(regions));
     let step = within.map(|(lower, upper)| (upper - lower) / n as f64);
@@ -134,7 +135,7 @@ fn widest_on_grid(regions: &Regions, within: [(f64, f64); 2], n: usize, start: P
     (0.0, step[0].hypot(step[1]))
 }
 
-/// A free place, of some clearance.
+/// Draws a free place with some clearance.
 fn free_place(random: &mut Dice, regions: &Regions, within: [(f64, f64); 2]) -> Option<Point> {
     let (sides, obstacles) = (sides(regions), obstacles(regions));
     (0..200)
@@ -142,7 +143,7 @@ fn free_place(random: &mut Dice, regions: &Regions, within: [(f64, f64); 2]) -> 
         .find(|p| is_nearly_free(&sides, *p) && clearance(&obstacles, *p) > 0.02)
 }
 
-/// A crowd on a torus, or a cylinder between walls, over two turns of each circle.
+/// Returns a crowd on a torus, or a cylinder between walls, over two turns of each circle.
 fn repeated_crowd(crowd: &[Vec<Point>], side: usize, circles: [bool; 2]) -> Regions {
     let scale = TAU / side as f64;
     let range = |k: usize| if circles[k] { (-TAU, TAU) } else { (0.0, TAU) };
@@ -206,7 +207,8 @@ proptest! {
         prop_assert!(width >= 0.98 * expected - cell, "{width} {expected} {cell}");
     }
 
-    /// Collinear sides, equal distances everywhere, and corners that touch: there is a way where a flood finds one.
+    /// The boards have collinear sides, equal distances everywhere, and corners that touch. The planner finds a path
+    /// wherever a flood finds one.
     #[test]
     fn boards_have_ways_where_floods_find_them(seed: u64, size in 2usize..7, density in 0.1..0.6) {
         let mut random = Dice::new(seed);
@@ -256,12 +258,12 @@ fn a_square_room_has_its_diagonals() {
     let diagonals = edges.iter().filter(|edge| edge.iter().any(|q| q.amin() < 1e-9 || q.amax() > 2.0 - 1e-9));
     let total: f64 = diagonals.map(|[a, b]| (b - a).norm()).sum();
     assert!((total - 32.0_f64.sqrt()).abs() < 1e-9, "{edges:?}");
-    // Pulled taut it is straight, whatever is near.
+    // Pulled taut, the path is straight, however near the obstacles are.
     let taut = planner.query(&regions, &planner.build(&regions), &query);
     assert_eq!(path(&taut).expect("a way").waypoints().len(), 2);
 }
 
-/// Of two doors the wider one, though it is farther away.
+/// The planner takes the wider of two openings, though it is farther away.
 #[test]
 fn the_wider_door_is_taken() {
     let walls = [((0.0, 0.9), 0.0), ((1.1, 3.0), 0.0), ((3.5, 5.0), 0.0)];
@@ -277,7 +279,7 @@ fn the_wider_door_is_taken() {
     assert!((least_clearance(&obstacles(&regions), path(&run).unwrap()) - 0.25).abs() < 1e-9);
 }
 
-/// Nothing to keep away from: straight there.
+/// Without obstacles to keep away from, the path is straight.
 #[test]
 fn with_no_obstacle_on_a_torus_the_way_is_straight() {
     let regions = repeated_crowd(&[], 1, [true, true]);
@@ -285,8 +287,7 @@ fn with_no_obstacle_on_a_torus_the_way_is_straight() {
     assert_eq!(path(&run).expect("a way").waypoints().len(), 2);
 }
 
-/// A corner that all but touches a side: between them is no way, and nothing that is worth arcs.
-/// The place of a set of goals that is nearest to the start is computed: it may be another one by a rounding.
+/// The nearest goal of a set is computed, and rounding may move it away from the start.
 #[test]
 fn who_stands_at_a_goal_up_to_rounding_stays() {
     let regions = window_with_holes((0.0, 4.0), (0.0, 4.0), vec![rectangle((2.0, 2.5), (2.0, 2.5))]);
@@ -304,6 +305,7 @@ fn who_stands_at_a_goal_up_to_rounding_stays() {
     assert!(rounded > 5, "{rounded} of 40");
 }
 
+/// No path leads between a side and a corner that nearly touches it, so the diagram needs few arcs there.
 #[test]
 fn corners_that_all_but_touch_a_side_make_few_arcs() {
     for gap in [1e-12, 1e-11, 1e-10, 1e-9, 2e-9, 4e-9, 7e-9, 1e-8, 1e-7, 1e-6] {

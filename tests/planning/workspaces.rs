@@ -1,8 +1,8 @@
 //! Every shipped workspace gives its stated outcome with every planner.
 //!
-//! The first comment of a workspace names its robot (`# robot: planar_2r`) and the outcome (`# expect: found` or
-//! `# expect: infeasible`). A line `# unknown: wavefront harmonic` names planners whose finest resolution may not do: they
-//! may answer either as stated or unknown, never the contrary.
+//! The first comment of a workspace names its robot (`# robot: planar_2r`) and the outcome (`# expect: found` or `#
+//! expect: infeasible`). A line `# unknown: wavefront harmonic` names planners whose finest resolution may not suffice:
+//! they may answer as stated or unknown, but never the contrary.
 
 use cplan::Outcome;
 use cplan::engine::{Method, solve};
@@ -14,7 +14,7 @@ struct Shipped {
     name: String,
     problem: MotionProblem,
     expect: String,
-    /// Names of the planners that may not know.
+    /// Names of the planners that may answer unknown.
     unknown: Vec<String>,
 }
 
@@ -42,7 +42,7 @@ fn shipped() -> Vec<Shipped> {
         .collect()
 }
 
-/// Least distance at configurations no farther apart than `step` in joint space.
+/// Returns the least distance at configurations no farther apart than `step` in joint space.
 fn sampled_clearance(problem: &MotionProblem, path: &cplan::space::Path, step: f64) -> f64 {
     let mut least = f64::INFINITY;
     for (a, b) in path.segments() {
@@ -86,7 +86,7 @@ fn check(method: Method) {
             (verdict, _) => wrong.push(format!("{name}: expected {expect}, got {verdict:?}\n{:?}", answer.history)),
         }
     }
-    // Where a planner may not know, it mostly does.
+    // A planner that may answer unknown usually does.
     for (told, expect) in told.into_iter().zip(["found", "infeasible"]) {
         let count = all.iter().filter(|s| s.expect == expect).count();
         assert!(told * 2 > count, "{method}: {expect} in {told} of {count}");
@@ -155,7 +155,7 @@ fn the_visibility_path_is_the_shortest_up_to_the_margin() {
             Method::Subdivision,
         ];
         for method in others.into_iter().filter(able) {
-            // Fields and channels keep their own distance from obstacles; what the margin costs is far below 2 %.
+            // Fields and channels keep their own distance from obstacles. The margin costs far below 2 %.
             let other = length(method);
             assert!(shortest <= 1.02 * other, "{name}: visibility {shortest}, {method} {other}");
         }

@@ -1,4 +1,4 @@
-//! The library's front door: what `plan` gives is what the program writes, byte for byte.
+//! The library's entry point: the output of `plan` equals that of the program, byte for byte.
 
 use crate::cli::Place;
 use cplan::PlanOutput as _;
@@ -88,7 +88,7 @@ fn an_outcome_is_one_of_three() {
     let closed = plan(&load("workspaces/singular_closed.toml"), &Options::default()).unwrap();
     let Outcome::Infeasible(Refutation::Motion(proof)) = closed.outcome() else { panic!("it is closed") };
     assert!(!proof.stuck().is_empty() && closed.trajectory().is_none());
-    // One attempt at eight cells shows nothing, and a wave proves nothing; the judge may.
+    // One attempt at eight cells finds nothing, and a wave proves nothing.
     let coarse = Options { planner: Planner::named(Method::Wavefront).with_cells(8), levels: 1, ..Options::default() };
     let unknown = plan(&load("workspaces/shelf.toml"), &coarse).unwrap();
     assert!(matches!(unknown.outcome(), Outcome::Unknown(why) if !why.is_empty()), "{:?}", unknown.status());
@@ -136,7 +136,7 @@ fn files_that_cannot_be_written_are_refused() {
     }
 }
 
-/// An arm of two bars whose joints turn without end, before a wall that only the stretched arm reaches.
+/// The arm has two bars with continuous joints, and only the stretched arm reaches the wall.
 #[test]
 fn an_arm_and_a_world_in_code() {
     let arm = || Arm::rr([1.0, 0.5], 0.1).unwrap();
@@ -147,7 +147,7 @@ fn an_arm_and_a_world_in_code() {
     let Outcome::Found(motion) = made.outcome() else { panic!("the arm can fold") };
     let reached = motion.position.last().unwrap();
     assert!((reached[0] + 0.8).abs() < 1e-9 && reached[1].abs() < 1e-9, "{reached:?}");
-    // Stretched through the wall it cannot be: link 2 has to fold, so the way is longer than straight.
+    // The stretched arm cannot pass the wall: link 2 has to fold, so the path is longer than the straight one.
     assert!(made.length().unwrap() > 1.6 + 1e-3);
     let blocked = Problem::new(arm(), world(), [0.0, 0.0], [-0.8, 0.0]).expect_err("in the wall");
     assert!(blocked.to_string().contains("wall"), "{blocked}");
@@ -162,7 +162,7 @@ fn an_arm_and_a_world_in_code() {
     assert_eq!(Problem::new(arm(), Workspace::new([]), round, round).unwrap().motion().unwrap().start(), round);
 }
 
-/// Squares: whether they meet, how deep, and their difference, in closed form.
+/// Squares: contact, depth and difference, in closed form.
 #[test]
 fn predicates_and_differences_in_code() {
     let square = |x: f64, y: f64, half: f64| {

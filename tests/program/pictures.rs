@@ -1,4 +1,4 @@
-//! The pictures of the documentation are what the program draws today.
+//! The pictures of the documentation equal those that the program draws today.
 
 #[path = "../../examples/pictures/drawn.rs"]
 mod drawn;
@@ -20,7 +20,7 @@ fn pictures_are_up_to_date() {
     assert!(drawn::PICTURES.iter().any(|(name, _)| *name == drawn::MOVING.1), "what moves has a still picture");
 }
 
-/// The picture that moves ends with the still one. To draw it anew takes seconds, so its other pictures are not compared.
+/// The animated picture ends with the still one. Drawing it takes seconds, so its other frames are not compared.
 #[cfg(feature = "png")]
 #[test]
 fn the_picture_that_moves_is_up_to_date() {

@@ -1,4 +1,4 @@
-//! Roadmaps on the command line: planners, searches, seeds; and grids of two numbers of cells.
+//! Roadmaps on the command line: planners, searches, seeds, and grids with two numbers of cells.
 
 use crate::verify::judged::planned;
 use serde_json::Value;
@@ -14,7 +14,7 @@ fn cplan(options: &str) -> Output {
     command.args(FILES).args(options.split_whitespace()).output().expect("it runs")
 }
 
-/// The result of planning with these options, by the library.
+/// Returns the library's result of planning with these options.
 pub fn json(options: &str) -> Value {
     let [robot, world] = FILES.map(Path::new);
     let result = planned(robot, world, options);
@@ -44,7 +44,7 @@ fn every_roadmap_is_searched_in_every_order_both_ways() {
                     assert_eq!(found["search"]["backward"], backward, "{planner}");
                 }
                 let (least, other) = (length(&usual), length(&found));
-                // Costs of a trapezoid's search are those of its own path, but for the cells at the ends.
+                // Costs of a trapezoid's search are those of its own path, except for the cells at the ends.
                 let is_shortest = ["dijkstra", "astar"].contains(&search);
                 assert!(
                     if is_shortest { (other - least).abs() < 1e-6 } else { other > least - 1e-6 },
@@ -60,7 +60,7 @@ fn samples_follow_from_the_seed() {
     let of = |options: &str| json(&format!("--planner prm --path own {options}"));
     assert_eq!(of(""), of("--seed 1 --samples 500 --nearest 12"));
     assert_ne!(of(""), of("--seed 2"));
-    // More samples among which the first are the same make no longer path, when each is joined to all.
+    // More samples that begin with the same ones give no longer path, if each sample is joined to all.
     let [few, more] =
         [100, 400].map(|n| length(&json(&format!("--planner prm --path own --nearest 1000 --samples {n}"))));
     assert!(more <= few, "{few} {more}");
@@ -99,7 +99,7 @@ fn grids_may_have_other_numbers_of_cells_along_each_joint() {
         assert_eq!(of("96"), of("96x96"), "{planner}");
         assert_ne!(of("96x160")["path"], of("160x96")["path"], "{planner}");
     }
-    // Along the joint that has few cells the staircase has few steps.
+    // Along the joint with few cells, the staircase has few steps.
     let result = json("--planner wavefront --path own --cells 32x512");
     let path = result["path"].as_array().expect("a path");
     let at = |k: usize| (1..path.len() - 1).map(move |i| path[i][k].as_f64().expect("a number"));

@@ -1,7 +1,7 @@
-//! Texts that are the same but for the last digit of a number, which may round otherwise where another machine's sine differs
-//! in its last bit.
+//! Compares texts up to the last digit of each number. It may round otherwise on a machine whose sine differs in its
+//! last bit.
 
-/// A text cut into numbers and what stands between them; `true` for numbers.
+/// Splits a text into numbers and the text between them; `true` for numbers.
 fn parts(text: &str) -> Vec<(bool, &str)> {
     let in_number = |c: char| c.is_ascii_digit() || c == '.' || c == '-';
     let mut parts = Vec::new();
@@ -9,7 +9,7 @@ fn parts(text: &str) -> Vec<(bool, &str)> {
     while let Some(first) = rest.chars().next() {
         let numeric = in_number(first);
         let (part, after) = rest.split_at(rest.find(|c| in_number(c) != numeric).unwrap_or(rest.len()));
-        // Dots and hyphens in words are no numbers.
+        // Dots and hyphens in words are not numbers.
         parts.push((numeric && part.parse::<f64>().is_ok(), part));
         rest = after;
     }
@@ -21,7 +21,7 @@ fn decimals(number: &str) -> i32 {
     number.split_once('.').map_or(0, |(_, digits)| i32::try_from(digits.len()).expect("a short number"))
 }
 
-/// Whether two numbers differ by no more than one unit of the last decimal that either has; whole ones not at all.
+/// Returns true if two numbers differ by at most one unit of the last decimal of either. Integers must be equal.
 fn near(a: &str, b: &str) -> bool {
     let unit = match decimals(a).max(decimals(b)) {
         0 => 0.0,
@@ -31,7 +31,7 @@ fn near(a: &str, b: &str) -> bool {
     (value(a) - value(b)).abs() <= unit
 }
 
-/// Whether two texts are the same but for rounding.
+/// Returns true if two texts are equal up to rounding.
 pub fn same(a: &str, b: &str) -> bool {
     let (a, b) = (parts(a), parts(b));
     a.len() == b.len() && a.iter().zip(&b).all(|(a, b)| if a.0 && b.0 { near(a.1, b.1) } else { a == b })

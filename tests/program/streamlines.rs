@@ -1,4 +1,4 @@
-//! The paths of fields are the fields': through the program, against an equation solved here on cells of its own.
+//! The paths of fields follow the fields: through the program, against an equation solved here on separate cells.
 
 use cplan::input::{Overrides, load};
 use cplan::model::Scene;
@@ -7,12 +7,12 @@ use serde_json::Value;
 use std::path::Path;
 use std::process::Command;
 
-/// A file of the repository.
+/// Returns the path of a file of the repository.
 fn shipped(file: &str) -> String {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(file).display().to_string()
 }
 
-/// The result of the program on a world, which has to be found.
+/// Returns the program's result in a world; it must be a path.
 fn planned(robot: &str, world: &str, options: &str) -> Value {
     let mut command = Command::new(env!("CARGO_BIN_EXE_cplan"));
     command.args([&shipped(robot), world, "--json", "--planner", "harmonic"]).args(options.split_whitespace());
@@ -27,7 +27,7 @@ fn waypoints(result: &Value) -> Vec<[f64; 2]> {
     result["path"].as_array().unwrap().iter().map(pair).collect()
 }
 
-/// Places along a path, so far apart, each with the direction there.
+/// Returns places along a path at this spacing, each with the direction there.
 fn along(path: &[[f64; 2]], apart: f64) -> Vec<([f64; 2], [f64; 2])> {
     let mut places = Vec::new();
     for piece in path.windows(2) {
@@ -42,13 +42,13 @@ fn along(path: &[[f64; 2]], apart: f64) -> Vec<([f64; 2], [f64; 2])> {
     places
 }
 
-/// Angle between two vectors, degrees.
+/// Returns the angle between two vectors, degrees.
 fn angle(a: [f64; 2], b: [f64; 2]) -> f64 {
     (a[0] * b[1] - a[1] * b[0]).atan2(a[0] * b[0] + a[1] * b[1]).abs().to_degrees()
 }
 
-/// The configuration space as square cells, and Laplace's equation on them: free where the arm at the cell's centre touches
-/// nothing.
+/// The configuration space as square cells, and Laplace's equation on them. A cell is free if the arm at its centre
+/// touches nothing.
 struct Oracle<'a> {
     scene: &'a Scene,
     cells: [usize; 2],
@@ -58,7 +58,7 @@ struct Oracle<'a> {
 }
 
 impl<'a> Oracle<'a> {
-    /// With about `n x n` cells.
+    /// Solves with about `n x n` cells.
     fn new(scene: &'a Scene, goal: Configuration, n: f64) -> Self {
         let extents = scene.arm().topology().ranges.map(|axis| axis.extent());
         let side = (extents[0] * extents[1]).sqrt() / n;
@@ -77,8 +77,8 @@ impl<'a> Oracle<'a> {
         };
         let source = *free.iter().min_by(nearest).unwrap();
         oracle.values[source] = 1.0;
-        // Over-relaxation, row by row and back, until no value changes by more than a millionth of itself; far below those along
-        // a path they need not.
+        // Over-relaxation row by row and back, until no value changes by more than a millionth. Values far below those
+        // along a path need not converge.
         let neighbors: Vec<[Option<usize>; 4]> = (0..oracle.values.len()).map(|cell| oracle.around(cell)).collect();
         for sweep in 0..20_000 {
             let mut change = 0.0_f64;
@@ -117,7 +117,8 @@ impl<'a> Oracle<'a> {
         Some(on(0)? * self.cells[1] + on(1)?)
     }
 
-    /// The direction of the gradient of the bilinear interpolation of central differences; none beside obstacles.
+    /// Returns the direction of the gradient, bilinearly interpolated from central differences; `None` beside
+    /// obstacles.
     fn gradient(&self, q: [f64; 2]) -> Option<[f64; 2]> {
         let at = [0, 1].map(|k| (q[k] - self.scene.arm().topology().ranges[k].domain().0) / self.step[k] - 0.5);
         let least = at.map(|x| x.floor() as i64);
@@ -136,7 +137,7 @@ impl<'a> Oracle<'a> {
         sum.iter().all(|x| x.is_finite()).then_some(sum)
     }
 
-    /// Median angle between a path and the gradient, but for the last cells before the goal.
+    /// Returns the median angle between a path and the gradient, without the last cells before the goal.
     fn median_angle(&self, path: &[[f64; 2]]) -> f64 {
         let end = path[path.len() - 1];
         let far = |q: [f64; 2]| (q[0] - end[0]).hypot(q[1] - end[1]) > 3.0 * self.step[0];
@@ -153,7 +154,7 @@ impl<'a> Oracle<'a> {
     }
 }
 
-/// Worlds of different kinds: two turning joints with limits, without, a gantry, turning and sliding.
+/// Worlds of different kinds: two revolute joints with limits and without, a gantry, a revolute and a prismatic joint.
 const WORLDS: [(&str, &str); 5] = [
     ("robots/planar_2r.urdf", "workspaces/shelf.toml"),
     ("robots/planar_2r.urdf", "workspaces/u_trap.toml"),
@@ -177,7 +178,7 @@ fn harmonic_paths_follow_the_gradient_of_an_equation_solved_elsewhere() {
         let median = oracle.median_angle(&waypoints(&relaxed));
         assert!(median <= 5.0, "{world}, relaxed: {median} degrees off the gradient");
         if world.contains("shelf") {
-            // What a string pulled through the same cells is worth.
+            // For comparison, a taut path through the same cells.
             let taut = planned(robot, &shipped(world), "--path taut");
             assert_eq!(taut["path_kind"], "taut");
             let median = oracle.median_angle(&waypoints(&taut));
@@ -186,7 +187,7 @@ fn harmonic_paths_follow_the_gradient_of_an_equation_solved_elsewhere() {
     }
 }
 
-/// A room of 2 m x 1.5 m without obstacles.
+/// Writes a room of 2 m x 1.5 m without obstacles.
 fn room(place: &tempfile::TempDir, start: [f64; 2], goal: [f64; 2], rest: &str) -> String {
     let file = place.path().join("room.toml");
     let text = format!("[start]\njoints = {start:?}\n[goal]\njoints = {goal:?}\n{rest}");
@@ -203,12 +204,12 @@ fn in_an_empty_room_a_drift_decides_from_where_the_goal_is_reached() {
     for k in 0..8 {
         let angle_of = f64::from(k) * std::f64::consts::FRAC_PI_4;
         let (sin, cos) = angle_of.sin_cos();
-        // From the side: straight on the goal would be reached 80 degrees off.
+        // The start is to the side: the straight direction to the goal is 80 degrees off.
         let (aside, ahead) = (angle_of + 100_f64.to_radians()).sin_cos();
         let world = room(&place, [goal[0] + 0.5 * ahead, goal[1] + 0.5 * aside], goal, "");
         let options = format!("--cells 96 --field oriented --epsilon 1 --direction {cos},{sin}");
         let path = waypoints(&planned(GANTRY, &world, &options));
-        // The last piece, and the way from where it is within two cells.
+        // Checks the last piece, and the direct line to the goal from the last place outside two cells.
         let far = |q: &[f64; 2]| (q[0] - goal[0]).hypot(q[1] - goal[1]) > 2.0 * 0.018;
         let within = along(&path, 1e-3).into_iter().rev().find(|(q, _)| far(q)).unwrap().0;
         for from in [path[path.len() - 2], within] {
@@ -218,7 +219,7 @@ fn in_an_empty_room_a_drift_decides_from_where_the_goal_is_reached() {
     }
 }
 
-/// Figure 3.7 of the sources.
+/// Compares with figure 3.7 of the sources.
 #[test]
 fn the_path_bends_the_more_the_greater_epsilon_is() {
     let place = tempfile::tempdir().unwrap();
@@ -257,7 +258,7 @@ fn the_share_of_a_path_in_a_region_falls_with_its_preference() {
     }
 }
 
-/// A curve of many pieces is driven like a curve: no stop at its corners.
+/// A curve of many pieces is driven like a curve: the arm does not stop at its corners.
 #[test]
 fn the_motion_along_a_streamline_takes_no_many_times_that_along_a_string() {
     for (robot, world) in WORLDS {

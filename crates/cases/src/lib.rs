@@ -1,8 +1,8 @@
-//! Random cases for tests: how many, and which. They are the same in every run, unless the environment asks for others.
-//! Generators of numbers, mazes and texts with slips.
+//! Random cases for tests: their number and their seeds. They are the same in every run, unless the environment
+//! requests others. The submodules generate numbers, mazes and texts with typing mistakes.
 //!
-//! - `CPLAN_TIMES=20`: twenty times as many (0.1: a tenth).
-//! - `CPLAN_SEED=7`: others, the seventh choice; 0 is the usual one. A failure comes again with the same two variables.
+//! - `CPLAN_TIMES=20`: twenty times as many cases (0.1: a tenth).
+//! - `CPLAN_SEED=7`: other cases, choice number seven; 0 is the default. The same two variables reproduce a failure.
 
 pub mod dice;
 pub mod mazes;
@@ -13,7 +13,7 @@ use proptest::test_runner::{Config, RngSeed};
 use std::ops::Range;
 use std::str::FromStr;
 
-/// Seeds of handwritten generators are counted from here on, for one `CPLAN_SEED` after the other.
+/// Distance between the first seeds of consecutive values of `CPLAN_SEED`.
 const STRIDE: u64 = 1 << 32;
 
 /// Returns the configuration for `proptest!`: this many cases, always the same. Every block must have it
@@ -29,7 +29,7 @@ pub fn cases(usual: u32) -> Config {
         // `prop_assume` may turn down twenty draws for each case that is kept.
         max_global_rejects: cases.saturating_mul(20).max(1024),
         rng_seed: RngSeed::Fixed(seed()),
-        // A file of failures would make the next run another one. What failed becomes a test with a name.
+        // A file of failures would change the next run. Instead, turn each failure into a named test.
         failure_persistence: None,
         ..Config::default()
     }
@@ -38,26 +38,26 @@ pub fn cases(usual: u32) -> Config {
 /// Returns seeds for generators written by hand: this many, always the same.
 ///
 /// # Panics
-/// As [`cases`].
+/// Same as [`cases`].
 #[must_use]
 pub fn seeds(usual: u64) -> Range<u64> {
     let first = seed().wrapping_mul(STRIDE);
     first..first + times(usual)
 }
 
-/// Returns the generator of this number; another one with another `CPLAN_SEED`.
+/// Returns the generator with this number. It depends on `CPLAN_SEED`.
 ///
 /// # Panics
-/// As [`cases`].
+/// Same as [`cases`].
 #[must_use]
 pub fn dice(stream: u64) -> Dice {
     Dice::new(stream ^ seed().wrapping_mul(0xd134_2543_de82_ef95))
 }
 
-/// Returns the number of cases, given the usual number; at least one.
+/// Returns the number of cases, given the default number; at least one.
 ///
 /// # Panics
-/// As [`cases`].
+/// Same as [`cases`].
 #[must_use]
 pub fn times(usual: u64) -> u64 {
     let factor = from_environment("CPLAN_TIMES", 1.0);
@@ -65,10 +65,10 @@ pub fn times(usual: u64) -> u64 {
     ((usual as f64 * factor).round() as u64).max(1)
 }
 
-/// Returns the number of the choice of cases, `CPLAN_SEED`.
+/// Returns `CPLAN_SEED`, the number of the choice of cases.
 ///
 /// # Panics
-/// As [`cases`].
+/// Same as [`cases`].
 #[must_use]
 pub fn seed() -> u64 {
     from_environment("CPLAN_SEED", 0)

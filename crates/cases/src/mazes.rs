@@ -9,8 +9,8 @@ fn random(state: &mut u64) -> u64 {
     *state
 }
 
-/// Returns a maze without loops, by depth-first search over the cells with even coordinates; then of every thousand walls between
-/// two corridors `openings` are opened.
+/// Returns a maze without loops, made by depth-first search over the cells with even coordinates. Afterwards,
+/// `openings` of every thousand walls between two corridors are opened.
 #[must_use]
 pub fn maze(n: usize, openings: u64) -> Vec<bool> {
     let rooms = n.div_ceil(2);
@@ -39,7 +39,7 @@ pub fn maze(n: usize, openings: u64) -> Vec<bool> {
     blocked
 }
 
-/// Returns a corridor that winds inwards, and its inner end; the outer one is cell 0.
+/// Returns a corridor that winds inwards, and its inner end. The outer end is cell 0.
 #[must_use]
 pub fn spiral(n: usize) -> (Vec<bool>, usize) {
     let n = n as i64;
@@ -50,7 +50,7 @@ pub fn spiral(n: usize) -> (Vec<bool>, usize) {
         let before = (i, j);
         let inside = |i: i64, j: i64| (0..n).contains(&i) && (0..n).contains(&j);
         let is_free = |i: i64, j: i64, blocked: &[bool]| inside(i, j) && !blocked[(i * n + j) as usize];
-        // Continues as long as the corridor does not come next to itself.
+        // Continue as long as the corridor does not run next to itself.
         while inside(i + di, j + dj) && !is_free(i + 2 * di, j + 2 * dj, &blocked) {
             (i, j) = (i + di, j + dj);
             blocked[(i * n + j) as usize] = false;

@@ -25,7 +25,7 @@ const NUMBERS: [&str; 16] = [
 const BITS: [&str; 18] =
     ["[", "]", "{", "}", "\"", "<", ">", "/", "=", ",", "#", "\n", "\0", "\u{e4}", "[[", "]]", ";", "\t"];
 
-/// Returns the text with one to three slips: something deleted, written twice, swapped, changed or put in.
+/// Returns the text with one to three mistakes: something deleted, repeated, swapped, changed or inserted.
 pub fn slipped(dice: &mut Dice, text: &str) -> String {
     let mut text: Vec<char> = text.chars().collect();
     for _ in 0..1 + dice.below(3) {

@@ -1,4 +1,4 @@
-//! The files that a certificate is about: the URDF, the world, and those that they name.
+//! The files that a certificate is about: the URDF, the world, and the files that these refer to.
 
 use cplan_check::CheckError;
 use cplan_check::certificate::Certificate;
@@ -8,15 +8,15 @@ use std::path::PathBuf;
 
 mod named;
 
-/// Where the files are that the URDF and the world name.
+/// Locations of the files that the URDF and the world refer to.
 pub struct Files {
-    /// The URDF and the world; none if they are texts.
+    /// Paths of the URDF and the world; `None` if they were given as texts.
     given: [Option<PathBuf>; 2],
-    /// Digests of the others, if the certificate has them.
+    /// Digests of the other files, if the certificate has them.
     others: Option<Vec<String>>,
 }
 
-/// The SHA-256 of some bytes, in hex.
+/// Returns the SHA-256 of some bytes, in hex.
 fn digest(bytes: &[u8]) -> String {
     Sha256::digest(bytes).iter().fold(String::new(), |mut hex, byte| {
         let _ = write!(hex, "{byte:02x}");
@@ -25,10 +25,10 @@ fn digest(bytes: &[u8]) -> String {
 }
 
 impl Files {
-    /// Those of a certificate that is about the URDF and the world, whose texts these are.
+    /// Prepares access to the files, and checks that the certificate is about these texts of the URDF and the world.
     ///
     /// # Errors
-    /// If it has digests, and they are those of others.
+    /// If the certificate has digests that do not match the texts.
     pub fn new(
         certificate: &Certificate,
         [urdf, world]: [&str; 2],

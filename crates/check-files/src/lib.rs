@@ -1,10 +1,11 @@
 //! An independent checker of cplan's certificates: the files that they are about, tasks and moving obstacles.
 //!
-//! [`check`] reads a URDF, a world and a certificate, and says whether the certificate proves its answer, in exact arithmetic:
-//! decimals are taken as they are written, roots, sines and cosines are enclosed by numbers below and above. It shares no code
-//! with the planner. `cplan-check` judges what is said of one motion; this crate reads URDF and meshes, worlds and maps for it, and judges
-//! tasks, whose steps it does again. In cplan's repository, `docs/certificate_format.md` has the format and the meaning of each key, and
-//! `docs/certificate_checks.md` the conditions that are checked and why they suffice.
+//! [`check`] reads a URDF, a world and a certificate, and decides whether the certificate proves its answer, in exact
+//! arithmetic. Decimals are taken exactly as written. Roots, sines and cosines are enclosed between a lower and an
+//! upper bound. The checker shares no code with the planner. `cplan-check` judges certificates about one motion. This
+//! crate reads URDF and meshes, worlds and maps for it, and judges tasks by repeating their steps. In cplan's
+//! repository, `docs/certificate_format.md` describes the format and the meaning of each key, and
+//! `docs/certificate_checks.md` lists the conditions that are checked and explains why they suffice.
 //!
 //! ```
 //! let urdf = r#"<robot name="bar">
@@ -46,19 +47,21 @@ use robot::Robot;
 use std::path::{Path, PathBuf};
 use world::WorldFile;
 
-/// Checks a certificate: the texts of the three files. What it proves is returned in words.
+/// Checks a certificate, given the texts of the three files. Returns a sentence that states the proven answer.
 ///
 /// # Errors
-/// [`CheckError::Fails`] with the first part that does not hold, [`CheckError::Input`] for files that are wrong or that say
-/// what the checker does not know; also if they name other files, which have no place here.
+/// [`CheckError::Fails`] names the first part that does not hold. [`CheckError::Input`] reports files that are wrong or
+/// contain something that the checker does not know. It also reports references to other files, which texts cannot
+/// have.
 pub fn check(urdf: &str, world: &str, certificate: &str) -> Result<String, CheckError> {
     judged([urdf, world, certificate], [None, None])
 }
 
-/// The same of three files. What the URDF and the world name is looked for beside them.
+/// Checks a certificate, given the three files. Files that the URDF and the world refer to are looked up relative to
+/// them.
 ///
 /// # Errors
-/// As [`check`], and files that cannot be read.
+/// Same as [`check`], and if a file cannot be read.
 pub fn check_files(urdf: &Path, world: &Path, certificate: &Path) -> Result<String, CheckError> {
     let read = |input: Input, path: &Path| {
         let message = |error| format!("{error}: give a URDF, a world file and a certificate");
@@ -68,22 +71,23 @@ pub fn check_files(urdf: &Path, world: &Path, certificate: &Path) -> Result<Stri
     check_beside(texts.each_ref().map(String::as_str), [urdf, world])
 }
 
-/// The same of three texts. What the URDF and the world name is looked for beside these paths.
+/// Checks a certificate, given three texts. Files that the URDF and the world refer to are looked up relative to the
+/// paths `beside`.
 ///
 /// # Errors
-/// As [`check`], and files that cannot be read.
+/// Same as [`check`], and if a file cannot be read.
 pub fn check_beside(texts: [&str; 3], beside: [&Path; 2]) -> Result<String, CheckError> {
     judged(texts, beside.map(|path| Some(path.to_owned())))
 }
 
-/// Checks a certificate of texts, and where they are from.
+/// Checks a certificate, given texts and, where known, their paths.
 fn judged([urdf, world, certificate]: [&str; 3], given: [Option<PathBuf>; 2]) -> Result<String, CheckError> {
     let certificate = certificate::read(certificate)?;
     let files = Files::new(&certificate, [urdf, world], given)?;
-    // A byte order mark says nothing.
+    // Ignore a byte order mark.
     let [urdf, world] = [urdf, world].map(|text| text.strip_prefix('\u{feff}').unwrap_or(text));
     let world = WorldFile::read(world, &files)?;
-    // A document type is no matter; what entities stand for is bounded by the parser.
+    // A document type is harmless: the parser limits the size of entities.
     let options = roxmltree::ParsingOptions { allow_dtd: true, ..roxmltree::ParsingOptions::default() };
     let document = roxmltree::Document::parse_with_options(urdf, options).map_err(|error| CheckError::Input {
         input: Input::Urdf,

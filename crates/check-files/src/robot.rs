@@ -1,4 +1,4 @@
-//! The URDF: two joints that move, and shapes in the plane.
+//! The URDF: two movable joints, and shapes in the plane.
 
 use crate::files::Files;
 use crate::world::WorldFile;
@@ -33,10 +33,10 @@ mod tree;
 
 /// A robot: the arm, and the tree of its links.
 pub struct Robot<'a> {
-    /// The arm in the plane.
+    /// The planar arm.
     pub arm: Arm,
     tree: Tree<'a>,
-    /// Links that the joints move, one by one.
+    /// The links that the two joints carry directly.
     children: [&'a str; 2],
     /// The link whose origin is the tip.
     tip_link: &'a str,
@@ -47,7 +47,7 @@ impl<'a> Robot<'a> {
     /// Reads the URDF and finds the two joints.
     ///
     /// # Errors
-    /// What is no robot, or one that the checker does not know.
+    /// If it does not describe a robot, or describes one that the checker does not know.
     pub fn read(
         document: &'a Document<'a>,
         world: &WorldFile,
@@ -153,17 +153,18 @@ impl<'a> Robot<'a> {
         Ok(robot)
     }
 
-    /// The last of the two joints that moves a link.
+    /// Returns the last of the two joints that moves a link.
     fn moved_by(&self, link: &'a str) -> Read<Option<usize>> {
         let above = self.tree.above(link)?;
         let moves = |k: &usize| above.iter().any(|joint| self.tree.joints.get(self.children[*k]) == Some(joint));
         Ok([1, 0].into_iter().find(moves))
     }
 
-    /// The link whose origin is the tip: the one that the world names, else the deepest that the second joint moves.
+    /// Finds the link whose origin is the tip: the one that the world names, or else the deepest link that the second
+    /// joint moves.
     ///
     /// # Errors
-    /// When the second joint does not move it.
+    /// If the second joint does not move it.
     fn find_tip(&self, named: Option<&str>) -> Read<&'a str> {
         let mut deepest = None;
         for link in self.tree.order.iter().filter(|link| named.is_none_or(|named| named == **link)) {

@@ -14,10 +14,10 @@ use num_bigint::Sign;
 use order::{Order, stands};
 use replay::Replay;
 
-/// The arm may stand still for less than it is to by this, seconds: `10^-6`.
+/// Tolerance of rest times, seconds: `10^-6`. The arm may rest for less than required by this much.
 const SHORT: u32 = 6;
 
-/// That a motion does all steps of a task.
+/// Checks that a motion executes all steps of a task.
 pub fn found(robot: &Robot, file: &WorldFile, certificate: &Certificate, done: &[Done]) -> Result<String, CheckError> {
     let (arm, world) = (&robot.arm, &file.world);
     let clearance = certificate.clearance(world)?;

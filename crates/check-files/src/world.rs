@@ -1,4 +1,4 @@
-//! The world file: obstacles, what is asked, and what goes over the URDF.
+//! The world file: obstacles, the query, and settings that override the URDF.
 
 use crate::files::Files;
 use cells::Cells;
@@ -30,32 +30,32 @@ type Value<'a> = Spanned<DeValue<'a>>;
 /// A world file.
 #[derive(Default)]
 pub struct WorldFile {
-    /// What stands around the arm, and what is asked.
+    /// Obstacles, start and goal.
     pub world: World,
-    /// What goes over the URDF.
+    /// Settings that override the URDF.
     pub robot: RobotTable,
-    /// What is to be done, if it says it in steps.
+    /// The task, if the file has steps.
     pub task: Option<Task>,
 }
 
-/// What the checker knows of the `[robot]` table. Enclosures of what is in degrees, else the numbers themselves.
+/// The keys of the `[robot]` table that the checker knows. Quantities in degrees are enclosures, others exact numbers.
 pub struct RobotTable {
-    /// Where the root frame of the robot stands, and how it is turned.
+    /// Position of the robot's root frame. `angle` is its orientation.
     pub at: Corner,
     pub angle: Interval,
-    /// The names of the two joints, if it says them.
+    /// Names of the two joints, if given.
     pub joints: Option<Vec<String>>,
     /// Values of other joints, by name.
     pub fixed: BTreeMap<String, Range>,
     /// Enclosures of the least and the greatest value of joints, by name.
     pub limits: BTreeMap<String, [Range; 2]>,
-    /// The radius of bars in place of links without geometry, if it wants them.
+    /// Radius of bars that replace links without geometry, if given.
     pub bar: Option<Decimal>,
-    /// The link whose origin is the tip, if it says one.
+    /// The link whose origin is the tip, if given.
     pub tip: Option<String>,
-    /// Whether links of the robot must not collide with its other links, ...
+    /// True if links of the robot must not collide with its other links.
     pub own_body: bool,
-    /// ... and pairs that may.
+    /// Pairs of links that may collide.
     pub ignore_contact: Vec<[String; 2]>,
 }
 
@@ -75,7 +75,7 @@ impl Default for RobotTable {
     }
 }
 
-/// Reads values of the file, with their places.
+/// Reads values of the file, and reports errors with their position.
 struct Reader<'a> {
     text: &'a str,
     files: &'a Files,
@@ -103,7 +103,7 @@ impl Reader<'_> {
         value.get_ref().as_str().map_or_else(|| self.error(value, "expected a text"), |text| Ok(text.to_owned()))
     }
 
-    /// A number, exactly as it is written.
+    /// Reads a number exactly as written.
     fn number(&self, value: &Value) -> Read<Decimal> {
         let text = match value.get_ref() {
             DeValue::Integer(number) if number.radix() == 10 => number.as_str(),
@@ -118,7 +118,7 @@ impl Reader<'_> {
         Decimal::read(&text.replace('_', "")).or_else(|why: String| self.error(value, &why))
     }
 
-    /// A number, or an enclosure of degrees in radians.
+    /// Reads a number, or encloses a quantity in degrees in radians.
     fn quantity(&self, value: &Value) -> Read<Range> {
         let Some(text) = value.get_ref().as_str() else {
             let number = self.number(value)?;
@@ -142,7 +142,7 @@ impl Reader<'_> {
         self.list(value)?.into_iter().map(|p| self.two(p, |n| self.number(n))).collect()
     }
 
-    /// A ring, or as in GeoJSON a list of rings.
+    /// Reads a ring, or a list of rings as in GeoJSON.
     fn rings(&self, value: &Value) -> Read<Vec<Vec<Corner>>> {
         let list = self.list(value)?;
         let first = list.first().and_then(|ring| ring.get_ref().as_array()?.iter().next()?.get_ref().as_array());
@@ -157,7 +157,7 @@ impl Reader<'_> {
         self.table(value)?.iter().map(|(name, value)| Ok((name.get_ref().to_string(), read(value)?))).collect()
     }
 
-    /// `[start]` or `[goal]`.
+    /// Reads `[start]` or `[goal]`.
     fn place(&self, value: &Value) -> Read<Goal> {
         let table = self.table(value)?;
         if let (Some(areas), 1) = (table.get("areas"), table.len()) {
@@ -186,9 +186,9 @@ impl Reader<'_> {
                 "tip" => robot.tip = Some(self.text(value)?),
                 "at" => robot.at = self.two(value, |n| self.number(n))?,
                 "angle" => robot.angle = Interval::around(&self.quantity(value)?),
-                // What does not concern where shapes are.
+                // These keys do not affect the positions of shapes.
                 "velocity" | "acceleration" | "jerk" | "effort" | "dynamics" | "gravity" => {}
-                // What concerns tasks alone.
+                // These keys affect tasks only.
                 "wrist" | "stroke" | "payload" => {}
                 "bar" => robot.bar = Some(self.number(value)?),
                 "own_body" => match value.get_ref().as_bool() {
@@ -213,12 +213,12 @@ impl Reader<'_> {
         Ok([low, high])
     }
 
-    /// The path of a file that the world names.
+    /// Returns the path of a file that the world refers to.
     fn file(&self, name: &str) -> Read<PathBuf> {
         Ok(self.files.path(Input::World)?.with_file_name(name))
     }
 
-    /// An obstacle, or an object as one where it lies at first.
+    /// Reads an obstacle, or an object as an obstacle at its initial pose.
     fn obstacle(&self, value: &Value, is_object: bool) -> Read<Obstacle> {
         let (mut outlines, mut holes) = (Vec::new(), Vec::new());
         let (mut at, mut angle, mut heights) = (point(&origin()), Interval::whole(0), None);
@@ -244,14 +244,14 @@ impl Reader<'_> {
                 "height" => heights = Some(self.heights(value)?),
                 "name" => name = Some(self.text(value)?),
                 "motion" => motion = Some(value),
-                // Of objects: read elsewhere.
+                // Keys of objects, which are read elsewhere.
                 "pallet" | "lift" | "mass" | "payload" | "grasp" | "supports" | "renew" if is_object => {}
                 other => {
                     return self.error(value, &format!("the checker does not know the key {other} of an obstacle"));
                 }
             }
         }
-        // What is not known is no matter if nobody asks.
+        // An unreadable picture matters only if something uses it.
         let cells = |name: String| Cells::read(self.files, &self.file(&name)?, unknown_is_solid);
         outlines.extend(image.map(|name| Outline::Squares(cells(name).map(|cells| Rc::new(cells) as _))));
         let [outline] =
@@ -268,7 +268,7 @@ impl Reader<'_> {
         Ok(Obstacle { name, own: None, outline, at, turn: angle.sin_cos(), heights, course })
     }
 
-    /// All obstacles.
+    /// Reads all obstacles.
     fn obstacles(&self, list: &Value, world: &mut World) -> Read<()> {
         for (index, value) in self.list(list)?.into_iter().enumerate() {
             let mut obstacle = self.obstacle(value, false)?;
@@ -288,7 +288,7 @@ impl WorldFile {
     /// Reads a world file.
     ///
     /// # Errors
-    /// What is no world, or says what the checker does not know and what could make a difference.
+    /// If it is not a world file, or contains something unknown that could affect the result.
     pub fn read(text: &str, files: &Files) -> Read<Self> {
         let table = DeTable::parse(text).map_err(|error| {
             let at = error.span().map_or(0, |span| span.start);
@@ -305,7 +305,7 @@ impl WorldFile {
                 "clearance" => world.clearance = reader.number(value)?,
                 "obstacle" => reader.obstacles(value, world)?,
                 "name" | "preference" | "sensor" => {}
-                // These refer to all else.
+                // These depend on everything else, and are read last.
                 "map" | "object" | "pallet" | "step" | "task" => {}
                 other => return reader.error(value, &format!("the checker does not know worlds with {other} yet")),
             }

@@ -1,4 +1,4 @@
-//! Goals that are areas of the tip.
+//! Goals that are areas for the tip.
 
 #[path = "common/two_bars.rs"]
 mod two_bars;
@@ -6,7 +6,7 @@ mod two_bars;
 use cplan_check_files::{CheckError, check};
 use two_bars::{LIMIT, TWO_BARS};
 
-/// Two bars that slide along x and y: the tip is at `(1.8 + a, b)`.
+/// Makes an arm of two bars that slide along x and y. The tip is at `(1.8 + a, b)`.
 fn sliding() -> String {
     let [first, second] = [("a", "1 0 0"), ("b", "0 1 0")];
     let slides = |urdf: &str, (joint, axis): (&str, &str)| {
@@ -17,7 +17,7 @@ fn sliding() -> String {
     slides(&slides(TWO_BARS, first), second)
 }
 
-/// Whether it holds, by its exit code, and what is said.
+/// Judges a certificate, and returns the exit code and the message.
 fn judged(urdf: &str, world: &str, certificate: &str) -> (i32, String) {
     match check(urdf, world, certificate) {
         Ok(said) => (0, said),
@@ -40,7 +40,7 @@ fn motion(last: &str) -> String {
 fn a_motion_ends_in_any_of_the_areas() {
     let ends = |areas: &str, last: &str| judged(&sliding(), &world(areas), &motion(last));
     let area = "[[2.5, 0.5], [3.5, 1.5]]";
-    // On the rim, inside, and a hundredth short of it along either axis.
+    // On the border, inside, and a hundredth outside along either axis.
     for (last, code) in
         [("0.7, 0.5", 0), ("1, 1", 0), ("0.69, 0.5", 3), ("0.7, 0.49", 3), ("1.71, 1", 3), ("1, 1.51", 3)]
     {
@@ -48,7 +48,7 @@ fn a_motion_ends_in_any_of_the_areas() {
     }
     let (code, said) = ends(area, "1, 1");
     assert!(code == 0 && said.contains("the goal, an area of the tip \"tool\""), "{said}");
-    // Any two opposite corners, and any of several.
+    // Any two opposite corners, and any of several areas.
     for corners in ["[[3.5, 1.5], [2.5, 0.5]]", "[[2.5, 1.5], [3.5, 0.5]]"] {
         assert_eq!((ends(corners, "1, 1").0, ends(corners, "0.6, 1").0), (0, 3));
     }
@@ -61,7 +61,7 @@ fn a_motion_ends_in_any_of_the_areas() {
 
 #[test]
 fn for_an_arm_that_turns_an_area_is_its_middle() {
-    // Stretched out along 1 rad, which is within the limits.
+    // Stretched out at an angle of 1 rad, which is within the limits.
     let angle = 1f64.min(LIMIT);
     let (x, y) = (1.8 * angle.cos(), 1.8 * angle.sin());
     let about = |dx: f64| format!("[[{}, {}], [{}, {}]]", x - 0.1 + dx, y - 0.1, x + 0.1 + dx, y + 0.1);
@@ -71,7 +71,7 @@ fn for_an_arm_that_turns_an_area_is_its_middle() {
 
 #[test]
 fn no_area_is_reached_if_all_are_beyond_the_boxes() {
-    // A wall across the first bar's way, at 0.3 m.
+    // A wall across the path of the first bar, at 0.3 m.
     let wall = "[[obstacle]]\npolyline = [[0.3, -10], [0.3, 10]]\n";
     let proof = r#"{"format": "cplan certificate 1", "answer": "infeasible",
         "shapes": [{"link": "upper", "collision": 0}], "parts": [{"obstacle": 0, "corners": [[0.3, -10], [0.3, 10]]}],
@@ -79,7 +79,7 @@ fn no_area_is_reached_if_all_are_beyond_the_boxes() {
     let closed = |areas: &str| judged(&sliding(), &(world(areas) + wall), proof);
     let (code, said) = closed("[[2.5, 0.5], [3.5, 1.5]]");
     assert_eq!(code, 0, "{said}");
-    // On the start's side, some of it, and one of two.
+    // On the start's side entirely, partly, and one of two areas.
     for areas in ["[[1, 0.5], [1.2, 1.5]]", "[[1.6, 0.5], [3.5, 1.5]]", "[[2.5, 0.5], [3.5, 1.5]], [[1, 1], [1, 1]]"] {
         assert_eq!(closed(areas).0, 3, "{areas}");
     }

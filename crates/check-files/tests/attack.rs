@@ -1,5 +1,5 @@
-//! Falsified certificates: each is refused, or what it says is still true, as an oracle in floating point has it that shares no code with
-//! the checker: samples of the boxes, and a flood fill of the cells between their ends.
+//! Falsified certificates. Each must be refused, or its statement must still be true. A floating-point oracle that
+//! shares no code with the checker decides this: it samples the boxes, and floods the cells between their ends.
 
 use cplan_cases as random;
 #[path = "common/two_bars.rs"]
@@ -9,14 +9,15 @@ use cplan_cases::dice::Dice;
 use cplan_check_files::{CheckError, check};
 use two_bars::{LIMIT, TWO_BARS};
 
-/// Corners of both bars, as seen from their joints.
+/// Corners of both bars, relative to their joints.
 const BARS: [[[f64; 2]; 4]; 2] =
     [[[0.0, -0.05], [1.0, -0.05], [1.0, 0.05], [0.0, 0.05]], [[0.0, -0.05], [0.8, -0.05], [0.8, 0.05], [0.0, 0.05]]];
 
 const START: [f64; 2] = [-1.0, 0.2];
 const GOAL: [f64; 2] = [1.0, -0.3];
 
-/// A wall from `from` to 2.5 on the x axis, and a box that says which of the bars meets it, or a second wall that is out of reach.
+/// A wall from `from` to 2.5 on the x axis. Each box states which of the bars touches it, or touches a second wall out
+/// of reach.
 #[derive(Clone, Debug)]
 struct Claim {
     from: f64,
@@ -32,7 +33,7 @@ struct Stuck {
 }
 
 impl Claim {
-    /// Rows that overlap or share an end, each cut in two at some value near 0.
+    /// Slices that overlap or share an end, each cut in two at some value near 0.
     fn honest(random: &mut Dice) -> Self {
         let mut boxes = Vec::new();
         let mut bottom = -LIMIT;
@@ -94,7 +95,7 @@ impl Claim {
         check(TWO_BARS, &world, &certificate)
     }
 
-    /// Whether every box is stuck, as far as samples show, up to rounding.
+    /// Returns true if all sampled configurations of every box collide, up to rounding.
     fn is_stuck(&self) -> bool {
         let steps = || (0..=4).map(|i| f64::from(i) / 4.0);
         let at = |stuck: &Stuck, s: f64, t: f64| {
@@ -115,7 +116,7 @@ impl Claim {
         })
     }
 
-    /// Whether a flood of the cells between the boxes' ends, from the start's, stops before the goal's.
+    /// Returns true if a flood of the cells between the boxes' ends, from the start's cell, does not reach the goal's.
     fn separates(&self) -> bool {
         let ends = [0, 1].map(|k| {
             let inside = |x: &f64| x.abs() < LIMIT;
@@ -150,7 +151,7 @@ impl Claim {
     }
 }
 
-/// A bar's corners at a configuration.
+/// Returns a bar's corners in a configuration.
 fn bar(q: [f64; 2], shape: usize) -> [[f64; 2]; 4] {
     let turned = |[x, y]: [f64; 2], angle: f64| {
         let (s, c) = angle.sin_cos();
@@ -162,7 +163,7 @@ fn bar(q: [f64; 2], shape: usize) -> [[f64; 2]; 4] {
     })
 }
 
-/// How far a line can be from either of two convex shapes that it separates; negative where none does.
+/// Returns the distance of two convex shapes along the best separating line; negative if they overlap.
 fn apart(a: &[[f64; 2]], b: &[[f64; 2]]) -> f64 {
     let normals = |ring: &[[f64; 2]]| -> Vec<[f64; 2]> {
         (0..ring.len())

@@ -1,5 +1,6 @@
-//! Falsified certificates of motions: each is refused, or the motion is still free, as an oracle in floating point has it that shares no
-//! code with the checker: samples of the motion, by power series of its own, and distances of sides and corners.
+//! Falsified certificates of motions. Each must be refused, or the motion must still be free. A floating-point oracle
+//! that shares no code with the checker decides this: it samples the motion by its own power series, and measures
+//! distances of sides and corners.
 
 use cplan_cases as random;
 #[path = "common/two_bars.rs"]
@@ -12,15 +13,15 @@ use two_bars::{LIMIT, TWO_BARS};
 const START: [f64; 2] = [-1.0, 0.2];
 const GOAL: [f64; 2] = [1.0, -0.3];
 
-/// Samples of each piece.
+/// Number of samples per piece.
 const SAMPLES: u32 = 200;
 
-/// The same where it matters what is between them.
+/// Number of samples per piece where the motion between them matters.
 const FINE: u32 = 4_000;
 
 type P = [f64; 2];
 
-/// A time and then values, velocities and accelerations.
+/// A time, followed by values, velocities and accelerations.
 type Knot = [f64; 7];
 
 /// The obstacles are a ring, a bent wall and a disc.
@@ -38,7 +39,7 @@ struct Claim {
 const WAYS: [&str; 4] = ["linear", "cubic", "quartic", "quintic"];
 
 impl Claim {
-    /// A motion with some knots, of a slow and a swinging joint, among obstacles that it keeps off.
+    /// Makes a motion with some knots, of a slow and a swinging joint, among obstacles that it avoids.
     fn honest(random: &mut Dice) -> Self {
         loop {
             let count = 2 + random.below(5);
@@ -63,7 +64,8 @@ impl Claim {
                 way: random.below(4),
                 knots,
                 clearance: [0.0, 0.01][random.below(2)],
-                // Five corners in no order: it may cross itself, and is then what lies within an odd number of times.
+                // Five corners in any order. The ring may cross itself, and then covers the points that it surrounds an
+                // odd number of times.
                 ring: (0..5).map(|_| near(random, a)).collect(),
                 wall: (0..3).map(|_| near(random, b)).collect(),
                 center: around(random),
@@ -112,7 +114,7 @@ impl Claim {
         check(TWO_BARS, &world, &certificate)
     }
 
-    /// Samples of the motion.
+    /// Samples the motion.
     fn samples(&self, count: u32) -> impl Iterator<Item = P> {
         self.knots.windows(2).flat_map(move |pair| {
             let (a, b) = (pair[0], pair[1]);
@@ -122,7 +124,7 @@ impl Claim {
                 [0, 1].map(|joint| {
                     let of = |knot: &Knot| [knot[1 + joint], knot[3 + joint], knot[5 + joint]];
                     let ([p, v, a], [q, w, b]) = (of(&a), of(&b));
-                    // What the end asks for beyond what the beginning makes of value, velocity and acceleration.
+                    // The terms that the end requires beyond value, velocity and acceleration at the beginning.
                     match self.way {
                         0 => p + (q - p) * t / h,
                         1 => {
@@ -154,7 +156,7 @@ impl Claim {
         self.samples(SAMPLES).all(|q| q.iter().all(|value| value.abs() <= LIMIT - room))
     }
 
-    /// The least distance that samples have from the obstacles; negative in the ring or the disc.
+    /// Returns the least distance of the samples from the obstacles; negative inside the ring or the disc.
     fn distance(&self, count: u32) -> f64 {
         let round =
             |points: &[P]| (0..points.len()).map(|i| [points[i], points[(i + 1) % points.len()]]).collect::<Vec<_>>();
@@ -182,7 +184,7 @@ impl Claim {
         least
     }
 
-    /// Whether what a certificate says is true, up to rounding.
+    /// Returns true if the certificate's statement is true, up to rounding.
     fn is_true(&self) -> bool {
         let last = self.knots.len() - 1;
         let meets = |knot: &Knot, end: P| (0..2).all(|k| (knot[1 + k] - end[k]).abs() <= 1.0000001e-5);
@@ -194,7 +196,7 @@ impl Claim {
     }
 }
 
-/// A bar's corners at a configuration, in order.
+/// Returns a bar's corners in a configuration, in order.
 fn bar(q: P, shape: usize) -> [P; 4] {
     let length = [1.0, 0.8][shape];
     let turned = |[x, y]: P, angle: f64| {
@@ -207,14 +209,14 @@ fn bar(q: P, shape: usize) -> [P; 4] {
     })
 }
 
-/// The distance of a point from a segment.
+/// Returns the distance of a point from a segment.
 fn off(p: P, [a, b]: [P; 2]) -> f64 {
     let (u, v) = ([b[0] - a[0], b[1] - a[1]], [p[0] - a[0], p[1] - a[1]]);
     let share = ((u[0] * v[0] + u[1] * v[1]) / (u[0] * u[0] + u[1] * u[1])).clamp(0.0, 1.0);
     (v[0] - share * u[0]).hypot(v[1] - share * u[1])
 }
 
-/// The distance of two segments, 0 where they cross.
+/// Returns the distance of two segments; 0 if they cross.
 fn between(s: [P; 2], t: [P; 2]) -> f64 {
     let side = |[a, b]: [P; 2], p: P| (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
     if side(s, t[0]) * side(s, t[1]) < 0.0 && side(t, s[0]) * side(t, s[1]) < 0.0 {
@@ -223,7 +225,8 @@ fn between(s: [P; 2], t: [P; 2]) -> f64 {
     off(s[0], t).min(off(s[1], t)).min(off(t[0], s)).min(off(t[1], s))
 }
 
-/// Whether a point is within a ring, which may cross itself, an odd number of times: by the sides that a ray to the right crosses.
+/// Returns true if a ring, which may cross itself, surrounds a point an odd number of times. It counts the sides that a
+/// ray to the right crosses.
 fn within(p: P, ring: &[[P; 2]]) -> bool {
     let crossed = ring
         .iter()
@@ -237,7 +240,7 @@ fn what_is_falsified_is_refused_or_still_true() {
     for seed in random::seeds(120) {
         let mut random = Dice::new(seed);
         let mut claim = Claim::honest(&mut random);
-        // What comes too near between two samples is no honest claim.
+        // A motion that comes too near between two samples is not an honest claim.
         if seed % 4 == 0 && claim.distance(FINE) > claim.clearance + 1e-6 {
             claim.judged().unwrap_or_else(|why| panic!("seed {seed}: {why}\n{claim:?}"));
         }

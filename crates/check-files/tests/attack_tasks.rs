@@ -1,6 +1,7 @@
-//! Random certificates of tasks against an oracle in floating point that shares no code with the checker: the steps done again with
-//! kinematics of its own, and dense samples of every motion and turn. What holds is right there, up to a hair; what is right there by
-//! more than a hair holds. Honest ones, falsified ones, and such as nobody looked at.
+//! Compares random certificates of tasks with a floating-point oracle that shares no code with the checker. The oracle
+//! repeats the steps with its own kinematics, and densely samples every motion and turn. A certificate that holds must
+//! be right up to a small margin. A certificate that is right by more than the margin must hold. There are honest
+//! certificates, falsified ones, and arbitrary ones.
 
 use cplan_cases as random;
 #[path = "common/two_bars.rs"]
@@ -13,13 +14,14 @@ use two_bars::{LIMIT, TWO_BARS};
 
 type P = [f64; 2];
 
-/// Samples of a motion or a turn.
+/// Number of samples of a motion or a turn.
 const SAMPLES: u32 = 300;
 
-/// What is nearer than this to being wrong, or right, is not told apart here.
+/// Margin within which the oracle does not distinguish right from wrong.
 const HAIR: f64 = 2e-3;
 
-/// The greatest miss, and how deep supports may be pressed into: 1e-4 of a reach of 1.8 m, as far as the corners of the bar.
+/// Maximum error at the ends, and maximum penetration of supports: 1e-4 of a reach of 1.8 m, measured to the corners of
+/// the bar.
 const MISSED: f64 = 1e-5;
 const PRESSED: f64 = 1.8016e-4;
 
@@ -36,7 +38,7 @@ fn minus(a: P, b: P) -> P {
     [a[0] - b[0], a[1] - b[1]]
 }
 
-/// A place, and how it is turned.
+/// A position and an orientation.
 #[derive(Clone, Copy, Debug)]
 struct Pose {
     at: P,
@@ -57,7 +59,7 @@ impl Pose {
     }
 }
 
-/// Convex corners and a radius.
+/// A convex shape: corners and a radius.
 #[derive(Clone, Debug)]
 struct Shape {
     corners: Vec<P>,
@@ -77,7 +79,7 @@ impl Shape {
         }
     }
 
-    /// A disc, a wall or a polygon of some corners on a circle.
+    /// Makes a disc, a wall, or a polygon with some corners on a circle.
     fn any(dice: &mut Dice, size: f64, walls: bool) -> Shape {
         let around = |dice: &mut Dice, n: u32| {
             let first = dice.within(0.0, 6.0);
@@ -94,7 +96,8 @@ impl Shape {
     }
 }
 
-/// The signed distance of convex shapes: along the best of the normals of their sides and the ways from corner to corner.
+/// Returns the signed distance of convex shapes: the best over the normals of their sides and the directions from
+/// corner to corner.
 fn distance(a: &Shape, b: &Shape) -> f64 {
     let mut normals = Vec::new();
     for shape in [a, b] {
@@ -119,7 +122,7 @@ fn distance(a: &Shape, b: &Shape) -> f64 {
     normals.into_iter().map(apart).fold(f64::NEG_INFINITY, f64::max) - a.radius - b.radius
 }
 
-/// Straight and evenly from one time and pose to the next, then on at a velocity.
+/// Uniform straight motion from one time and pose to the next, and then at a constant velocity.
 #[derive(Clone, Debug)]
 struct Course {
     stops: Vec<(f64, Pose)>,
@@ -152,7 +155,7 @@ impl Course {
         format!("motion = {{ stops = [{}], velocity = {:?} }}", stops.join(", "), self.velocity)
     }
 
-    /// Past some pose at some time, in one way or another.
+    /// Makes a random motion that passes a pose at a time.
     fn past(dice: &mut Dice, time: f64, pose: Pose, turns: bool) -> Course {
         let velocity = turned([dice.within(0.0, 0.6), 0.0], dice.within(-3.0, 3.0));
         let spin = if turns && dice.chance(0.5) { dice.within(-1.0, 1.0) } else { 0.0 };
@@ -182,14 +185,14 @@ enum Action {
 struct Object {
     shape: Shape,
     at: Pose,
-    /// How it moves until it is picked, if it does.
+    /// Its motion until it is picked, if it moves.
     course: Option<Course>,
     is_level: bool,
-    /// Whether it may touch the first obstacle.
+    /// True if it may touch the first obstacle.
     rests: bool,
 }
 
-/// A world, and what is claimed of it.
+/// A world, and a claim about it.
 #[derive(Clone, Debug)]
 struct Claim {
     obstacles: Vec<Shape>,
@@ -199,7 +202,7 @@ struct Claim {
     start: P,
     actions: Vec<Action>,
     is_free: bool,
-    /// Where the motion of each step as it is done ends, by a way of some knots; its number, and the turn after it.
+    /// The executed steps: number, path of some knots to the end of the motion, and the turn after it.
     steps: Vec<(usize, Vec<P>, Option<f64>)>,
 }
 
@@ -217,7 +220,8 @@ fn bar(length: f64) -> Shape {
 }
 
 impl Claim {
-    /// Objects from somewhere to somewhere, straight in joint space and by a knot or two beside it.
+    /// Makes objects with random starts and targets, carried straight in joint space or past a knot or two beside the
+    /// line.
     fn any(dice: &mut Dice) -> Claim {
         let q = |dice: &mut Dice| [dice.within(-2.0, 2.0), dice.within(-2.5, 2.5)];
         let start = q(dice);
@@ -261,7 +265,8 @@ impl Claim {
         Claim { obstacles, movers: Vec::new(), objects, clearance, start, actions, is_free, steps }
     }
 
-    /// The time at which the motion of each step begins, at the least: knots are a second apart, and the arm stands for one between steps.
+    /// Returns the earliest time at which the motion of each step begins: knots are a second apart, and the arm rests
+    /// for a second between steps.
     fn begins(&self) -> Vec<f64> {
         let mut time = 0.0;
         let begin = |(_, way, _): &(usize, Vec<P>, Option<f64>)| {
@@ -271,7 +276,7 @@ impl Claim {
         self.steps.iter().map(begin).collect()
     }
 
-    /// The same where some objects come along on their way, and obstacles move; nothing turns at the wrist then.
+    /// Makes some objects arrive on their own trajectories, and adds moving obstacles. The wrist turns nothing then.
     fn set_in_motion(&mut self, dice: &mut Dice) {
         let picked: Vec<f64> =
             self.begins().iter().zip(&self.steps).map(|(begin, (_, way, _))| begin + way.len() as f64 - 1.0).collect();
@@ -296,7 +301,7 @@ impl Claim {
         }
     }
 
-    /// Something else in it, large or small.
+    /// Returns the claim with one change, large or small.
     fn falsified(&self, dice: &mut Dice) -> Claim {
         let mut other = self.clone();
         let size = 10_f64.powf(dice.within(-9.0, -0.5));
@@ -307,7 +312,7 @@ impl Claim {
             1 => other.steps.swap(step, dice.below(n)),
             2 => other.steps[step].0 = 1 + dice.below(n),
             3 => {
-                // Where it ends the next one begins.
+                // The next path begins where this one ends.
                 let by = [dice.within(-size, size), dice.within(-size, size)];
                 let last = other.steps[step].1.len() - 1;
                 other.steps[step].1[last] = plus(other.steps[step].1[last], by);
@@ -316,7 +321,7 @@ impl Claim {
                 }
             }
             4 => other.steps[step].1[0][0] += size,
-            // Somewhere else, earlier or later, or with a turn of the wrist.
+            // Another place, an earlier or later time, or a turn of the wrist.
             9 | 10 => {
                 let moving = other.objects.iter_mut().filter_map(|object| object.course.as_mut());
                 let mut courses: Vec<&mut Course> =
@@ -402,8 +407,8 @@ impl Claim {
         )
     }
 
-    /// The least of what shows that all is right: distances beyond the clearance, metres; below 0 something is wrong. What is not
-    /// there, or misses its place, is wrong without measure.
+    /// Returns the least margin by which everything is right: distances beyond the clearance, metres. Below 0 something
+    /// is wrong. A missing object, or one that misses its place, gives minus infinity.
     fn margin(&self) -> f64 {
         let wrong = f64::NEG_INFINITY;
         let mut margin = f64::INFINITY;
@@ -417,7 +422,7 @@ impl Claim {
             true => Pose { at: tip(q), angle: 0.0 }.after(grip),
             false => links(q)[1].after(grip),
         };
-        // How far a payload is from what it may not meet.
+        // Distance of a payload from things that it must not touch.
         let carried = |object: usize, pose: Pose, time: f64, lies: &[Option<Course>]| {
             let own = self.objects[object].shape.at(pose);
             let fixed = self.obstacles.iter().enumerate().map(|(k, obstacle)| {
@@ -454,7 +459,7 @@ impl Claim {
         };
         let begins = self.begins();
         for (index, (number, way, turn)) in self.steps.iter().enumerate() {
-            // Pairs in any order, or all in theirs.
+            // Pairs in any order, or all steps in their own order.
             let is_next = match (self.is_free, held) {
                 (true, None) => left.contains(number) && number % 2 == 1,
                 (true, Some((object, _))) => *number == 2 * object + 2,
@@ -467,7 +472,7 @@ impl Claim {
             let action = &self.actions[number - 1];
             let target = if let Action::Pick(object) = action { Some(*object) } else { None };
             let begin = begins[index];
-            // Before, it stands where the last step has left it.
+            // Before the motion, the arm rests where the last step left it.
             let stands = [if index == 0 { way[0] } else { at }, way[0]];
             for (number, piece) in [&stands[..]].into_iter().chain(way.windows(2)).enumerate() {
                 for k in 0..=SAMPLES {
@@ -496,7 +501,7 @@ impl Claim {
                 if any_moves(&lies) {
                     return wrong;
                 }
-                // It keeps its own where its place asks for none.
+                // An object keeps its orientation if its place requires none.
                 let may_turn = |object: usize| {
                     self.objects[object].is_level && matches!(self.actions[2 * object + 1], Action::Place(_, Some(_)))
                 };
@@ -555,7 +560,7 @@ fn compared(in_time: bool) {
             honest.set_in_motion(&mut dice);
         }
         let margin = honest.margin();
-        // Most of what is drawn hits something; of that enough are looked at.
+        // Most random claims collide. Judge only some of these.
         if margin < -HAIR && !dice.chance(0.1) {
             continue;
         }

@@ -19,11 +19,11 @@ const GANTRY: &str = r#"<robot name="g">
   <link name="tool"> <collision> <geometry> <box size="1 1 1"/> </geometry> </collision> </link>
 </robot>"#;
 
-/// A wall from below the floor up to y = 7: the square passes it where y >= 7.5, from x = 3.5 to 6.5.
+/// A wall from below the floor up to y = 7. The square passes it where y >= 7.5, for x from 3.5 to 6.5.
 const WORLD: &str = "start.joints = [1, 1]\ngoal.joints = [9, 1]\n\
                      obstacle = [{ polygon = [[4, -1], [6, -1], [6, 7], [4, 7]] }]";
 
-/// A wall of configurations, and what it has been given as potential at its upper end.
+/// Walls of configurations, each with the claimed potential at its upper end.
 type Walls = Vec<([f64; 2], [f64; 2], Option<f64>)>;
 
 fn certificate(length: f64, metric: &str, walls: &Walls) -> String {
@@ -46,7 +46,7 @@ fn certificate(length: f64, metric: &str, walls: &Walls) -> String {
 
 const EUCLIDEAN: &str = r#""euclidean""#;
 
-/// Over the corners (3.6, 7.4) and (6.4, 7.4), shorter by a hair.
+/// Returns the length over the corners (3.6, 7.4) and (6.4, 7.4), reduced slightly, and the walls that prove it.
 fn over_the_wall() -> (f64, Walls) {
     let rise = 2.6_f64.hypot(6.4);
     let walls = vec![([3.6, -1.0], [3.6, 7.4], Some(rise - 1e-9)), ([6.4, -1.0], [6.4, 7.4], Some(rise + 2.8 - 2e-9))];
@@ -71,13 +71,13 @@ fn the_way_over_a_wall_is_no_shorter_than_its_corners_make_it() {
     );
     assert_eq!(of(length, &walls), 0);
     assert_eq!(of(length + 1e-8, &walls), 3, "the last leg is no longer than that");
-    // Without walls only the straight way is known; with one the way past that.
+    // Without walls only the straight path is known; with one wall, the path around that.
     assert_eq!((of(8.0, &vec![]), of(8.001, &vec![])), (0, 3));
     let past = 2.6_f64.hypot(6.4);
     let one = vec![([3.6, -1.0], [3.6, 7.4], Some(past - 1e-9))];
     let shorter = past + 5.4_f64.hypot(6.4) - 1e-8;
     assert_eq!((of(shorter, &one), of(shorter + 1e-7, &one)), (0, 3));
-    // A potential that is too high; one that is no less than the length leaves says nothing, and need not.
+    // A potential that is too high. One that is at least the length minus the rest has no effect, and is accepted.
     for change in [1e-6, 1.0] {
         for (k, code) in [(0, 3), (1, 0)] {
             let mut other = walls.clone();
@@ -85,14 +85,14 @@ fn the_way_over_a_wall_is_no_shorter_than_its_corners_make_it() {
             assert_eq!(of(length, &other), code, "{k} {change}");
         }
     }
-    // A wall that goes where the square is free.
+    // A wall that extends to where the square is free.
     for (k, x, y) in [(0, 3.6, 7.51), (0, 3.49, 7.4), (1, 6.51, 7.4)] {
         let mut other = walls.clone();
         (other[k].0[0], other[k].1) = (x, [x, y]);
         let message = check(GANTRY, WORLD, &certificate(1.0, EUCLIDEAN, &other)).unwrap_err().to_string();
         assert_eq!(message, format!("wall {k}: along it the shape can come off the part"));
     }
-    // The way below the floor is barred by the limit of y alone.
+    // Only the limit of y blocks the path below the floor.
     let higher = GANTRY.replacen(r#"lower="0""#, r#"lower="-9""#, 2);
     assert_eq!(code(&higher, WORLD, &certificate(length, EUCLIDEAN, &walls)), 3);
 }
@@ -100,7 +100,7 @@ fn the_way_over_a_wall_is_no_shorter_than_its_corners_make_it() {
 #[test]
 fn other_metrics_measure_their_own_lengths() {
     let (_, mut walls) = over_the_wall();
-    // With y counting half: 2.6 and 3.2, and so on.
+    // With half the weight for y: 2.6 and 3.2, and so on.
     let rise = 2.6_f64.hypot(3.2);
     (walls[0].2, walls[1].2) = (Some(rise - 1e-9), Some(rise + 2.8 - 2e-9));
     let of = |length: f64, metric: &str, walls: &Walls| code(GANTRY, WORLD, &certificate(length, metric, walls));
@@ -118,7 +118,8 @@ fn other_metrics_measure_their_own_lengths() {
     assert_eq!(of(1.0, r#""taxi""#, &walls), 1);
 }
 
-/// A bar of 1 m that turns without end, and a rod that slides out of its end: on the circle ways lead round both sides.
+/// A bar of 1 m on a continuous joint, and a rod that slides out of its end: on the circle, paths lead around both
+/// sides.
 #[test]
 fn on_a_circle_ways_lead_round_both_sides() {
     let arm = r#"<robot name="p">
@@ -130,7 +131,7 @@ fn on_a_circle_ways_lead_round_both_sides() {
   </joint>
   <link name="rod"/>
 </robot>"#;
-    // A post that the bar cannot pass: at q = 0, and for the other way round at q = 3.
+    // A post that the bar cannot pass: at q = 0, and at q = 3 for the other direction.
     let world = |posts: &str| format!("start.joints = [-1, 0]\ngoal.joints = [1.5, 0]\nobstacle = [{posts}]");
     let post = "{ circle = { center = [0.9, 0.0], radius = 0.05 } }";
     let certificate = |length: f64| {
@@ -143,19 +144,20 @@ fn on_a_circle_ways_lead_round_both_sides() {
     let round = std::f64::consts::TAU - 2.5;
     assert_eq!(code(arm, &world(post), &certificate(round - 1e-9)), 0);
     assert_eq!(code(arm, &world(post), &certificate(round + 1e-9)), 3);
-    // The same wall, written a turn on.
+    // The same wall, written a whole turn further.
     let turned = certificate(round - 1e-9)
         .replace("[0, -1]", "[6.283185307179586, -1]")
         .replace("[0, 1]", "[6.283185307179586, 1]");
     assert_eq!(code(arm, &world(post), &turned), 0);
-    // No length is too long to be refused.
+    // Even extreme lengths must be refused.
     for length in ["1e9", "1e300", "-1"] {
         let of = certificate(1.0).replace(r#""length": 1,"#, &format!(r#""length": {length},"#));
         assert_eq!(code(arm, &world(post), &of), if length == "-1" { 0 } else { 3 }, "{length}");
     }
 }
 
-/// Walls, potentials and lengths at random: what holds is no more than the true optimum, over the two corners of the C-obstacle.
+/// Random walls, potentials and lengths: a bound that holds must not exceed the true optimum, over the two corners of
+/// the C-obstacle.
 #[test]
 fn nothing_that_is_longer_than_the_optimum_holds() {
     let optimum = 2.0 * 2.5_f64.hypot(6.5) + 3.0;
@@ -178,7 +180,7 @@ fn nothing_that_is_longer_than_the_optimum_holds() {
     assert!(held > random::times(10) && longest > 0.9 * optimum, "{held} {longest}");
 }
 
-/// Two bars of 1 m, of which the second collides.
+/// Two bars of 1 m. The second collides.
 const ARM: &str = r#"<robot name="r">
   <link name="base"/>
   <joint name="a" type="revolute">
@@ -212,7 +214,7 @@ fn to_wherever_the_tip_is_at_a_place() {
     let quarter = std::f64::consts::FRAC_PI_2;
     let (near, far) = (quarter - 1.0, quarter.hypot(quarter + 1.0));
     assert_eq!((of("[1, 1]", near - 1e-9, ""), of("[1, 1]", near + 1e-9, "")), (0, 3));
-    // The nearer one is in the disc.
+    // The nearer solution is inside the disc.
     let about = |half: f64| {
         format!(
             r#""boxes": [{{"lower": [{}, {}], "upper": [{half}, {}], "shape": 0, "part": 0}}],"#,
@@ -230,15 +232,15 @@ fn to_wherever_the_tip_is_at_a_place() {
         said,
         "no motion of \"a\" and \"b\" from the start to the goal, a place of the tip \"tip\", with clearance 0 is shorter than 3"
     );
-    // Stretched, two become one, which is known less well; out of reach is no way at all.
+    // Stretched out, the two solutions become one, which is known less precisely. Out of reach there is no path at all.
     assert_eq!((of("[2, 0]", 0.8, ""), of("[2, 0]", 1.0 + 1e-9, ""), of("[2.1, 0]", 100.0, "")), (0, 3, 0));
-    // With the tip on the first axis the first joint is free, and the second at half a turn: outside the limits.
+    // With the tip on the first axis, the first joint is free, and the second is at half a turn, outside the limits.
     assert_eq!(of("[0, 0]", 100.0, ""), 0);
     let wide = ARM.replace("2.9", "3.2");
     let of = |length: f64| code(&wide, &world("[0, 0]"), &certificate(length, ""));
     let near = 2.0 * quarter - 1.0;
     assert_eq!((of(near - 0.4), of(near + 1e-9)), (0, 3));
-    // Where it is said, boxes have no say.
+    // With an explicit target, boxes are not allowed.
     let said = certificate(1.0, &stuck).replace("\"length\"", "\"to\": [1, 1], \"length\"");
     assert_eq!(code(ARM, &world("[1, 1]"), &said), 1);
 }

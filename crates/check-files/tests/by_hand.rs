@@ -1,4 +1,4 @@
-//! The page's certificate that a few lines of Python write.
+//! The certificate on the documentation page that a few lines of Python write.
 
 use cplan_check_files::{CheckError, check};
 use std::path::Path;
@@ -13,7 +13,7 @@ fn the_certificate_of_the_page_holds() {
     let code = code.replace("open(\"by_hand.json\", \"w\")", "open(1, \"w\")");
     let done = match Command::new("python3").args(["-c", &code]).output() {
         Ok(done) => done,
-        // The code is what is tested, where there is something to run it with.
+        // Tests the Python code only if Python is available.
         Err(error) => return assert_eq!(error.kind(), std::io::ErrorKind::NotFound),
     };
     let certificate = String::from_utf8(done.stdout).unwrap();

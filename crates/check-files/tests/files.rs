@@ -1,4 +1,5 @@
-//! Files that the URDF and the world name: pictures, line maps and meshes, held to the same in other words.
+//! Files that the URDF and the world refer to: pictures, line maps and meshes, compared with equivalent inline
+//! descriptions.
 
 use cplan_cases as random;
 
@@ -6,7 +7,7 @@ use cplan_cases::dice::Dice;
 use cplan_check_files::{CheckError, Input, check, check_files};
 use std::path::{Path, PathBuf};
 
-/// Two bars of 1 m and 0.8 m, given by what is in the places of `{upper}` and `{fore}`.
+/// Two bars of 1 m and 0.8 m. Their geometry replaces `{upper}` and `{fore}`.
 const ARM: &str = r#"<robot name="r">
   <link name="base"/>
   <joint name="a" type="revolute">
@@ -23,7 +24,7 @@ const ARM: &str = r#"<robot name="r">
   </link>
 </robot>"#;
 
-/// Its tip is at the joints' values.
+/// A gantry with the tip at the joints' values.
 const GANTRY: &str = r#"<robot name="g">
   <link name="base"/>
   <joint name="x" type="prismatic">
@@ -73,7 +74,7 @@ impl Place {
         }
     }
 
-    /// Why a world is not taken.
+    /// Returns the reason why a world is refused.
     fn refused(&self, world: &str) -> String {
         let Err(CheckError::Input { message, .. }) = self.judged(world, &straight([0.0; 2], [1.0; 2])) else {
             panic!("{world}")
@@ -82,7 +83,7 @@ impl Place {
     }
 }
 
-/// The certificate of a straight motion.
+/// Returns the certificate of a straight motion.
 fn straight(from: [f64; 2], to: [f64; 2]) -> String {
     let ([a, b], [c, d]) = (from, to);
     format!(
@@ -98,7 +99,7 @@ fn motion(dice: &mut Dice) -> String {
 const YAML: &str = "# a map\nimage: \"map.pgm\"\nresolution: 0.4 # metres\norigin: [-1.2, -1, 0.3]\nnegate: 0\noccupied_thresh: 0.65\n\
                     free_thresh: 0.196\n";
 
-/// Pictures with pixels at random are free for the same motions as squares one by one.
+/// Pictures with random pixels allow the same motions as individual squares.
 #[test]
 fn a_picture_is_its_dark_squares() {
     let place = Place::new("picture");
@@ -120,7 +121,7 @@ fn a_picture_is_its_dark_squares() {
             }
         }
         place.write("map.pgm", &picture);
-        // What is not light is solid, or what is dark.
+        // Pixels that are not light are solid, or those that are dark.
         let unknown = ["", "unknown = \"solid\"\n", "unknown = \"free\"\n"][random.below(3)];
         let is_solid = |shade: usize| {
             let dark = 1000 * (most - shade);
@@ -130,7 +131,7 @@ fn a_picture_is_its_dark_squares() {
         let one = format!("[[obstacle]]\nimage = \"map.yaml\"\n{unknown}{pose}");
         let mut many = String::new();
         for (k, _) in shades.iter().enumerate().filter(|(_, shade)| is_solid(**shade)) {
-            // The picture's frame within the obstacle's: both turns about their own corner, by hand.
+            // The picture's frame within the obstacle's frame, computed by hand: both turn about their own corner.
             let corner = |x: usize, y: usize| {
                 let (x, y, (sine, cosine)) = (0.4 * x as f64, 0.4 * y as f64, 0.3f64.sin_cos());
                 [-1.2 + cosine * x - sine * y, -1.0 + sine * x + cosine * y]
@@ -149,7 +150,8 @@ fn a_picture_is_its_dark_squares() {
     assert!((random::times(8)..random::times(76)).contains(&free), "{free}");
 }
 
-/// Map savers write 205 for what nobody has seen, and a threshold beside it by which it would be free; and keys of their own.
+/// Map savers write 205 for unseen cells, together with a threshold that would make them free. They also add keys of
+/// their own.
 #[test]
 fn the_shade_of_unseen_cells_is_solid_whatever_free_thresh() {
     let place = Place::new("unseen");
@@ -185,7 +187,7 @@ fn a_part_of_a_picture_is_a_rectangle_of_solid_squares() {
     };
     for held in [
         "[[0.2, -0.4], [1, -0.4], [1, 0.4], [0.2, 0.4]]",
-        // Whatever comes first, and nearly.
+        // Any order, and approximate values.
         "[[1.01, 0.39], [0.21, 0.41], [1.0, -0.4], [0.2, -0.4]]",
     ] {
         of(held).unwrap();
@@ -204,7 +206,7 @@ fn a_part_of_a_picture_is_a_rectangle_of_solid_squares() {
     }
 }
 
-/// The walls of a line map are polylines, in metres, and its frame is one; the goal is in the middle of its rectangle.
+/// The walls of a line map are polylines in metres, and so is its frame. The goal is in the middle of its rectangle.
 #[test]
 fn a_line_map_is_its_walls() {
     let place = Place::new("walls");
@@ -229,7 +231,7 @@ fn a_line_map_is_its_walls() {
         free += u64::from(verdicts[0]);
     }
     assert!((random::times(4)..random::times(56)).contains(&free), "{free}");
-    // Obstacles count as chains of walls, the frame last.
+    // Obstacles are chains of walls, with the frame last.
     let named = |obstacle: usize, part: &str| {
         let certificate = format!(
             r#"{{"format": "cplan certificate 1", "answer": "infeasible", "start": [1, 0],
@@ -240,19 +242,20 @@ fn a_line_map_is_its_walls() {
             other => panic!("{other:?}"),
         }
     };
-    // The tip, the origin of the second bar, is 1 m from the origin: the goal cannot be reached, which leaves the parts to be looked at.
+    // The tip, which is the origin of the second bar, is 1 m from the origin. So the goal cannot be reached, and only
+    // the parts are checked.
     let goal = place.judged(world, &straight([0.0; 2], [0.0; 2]).replace(", \"goal\": [0, 0]", ""));
     assert!(matches!(goal, Err(CheckError::Fails(why)) if why.contains("misses the goal")));
     assert!(named(4, "").contains("no obstacle 4"));
     assert!(named(3, ", \"corners\": [[-2.8, -2.6], [3.2, 2.4]]").contains("obstacle 3: its corners"));
-    // Steps count for more than the goal of the preferences.
+    // Steps override the goal of the preferences.
     let moving = format!("{world}[[step]]\nmove = {{ joints = [0, 0] }}\n");
     let goal = place.judged(&moving, &straight([0.0; 2], [0.0; 2]).replace(", \"goal\": [0, 0]", ""));
     assert!(
         matches!(&goal, Err(CheckError::Input { message, .. }) if message.contains("there is no goal")),
         "{goal:?}"
     );
-    // They have names, by which they support objects.
+    // Walls have names, so that they can support objects.
     for (name, is_one) in [
         ("room, lines 1 to 3", true),
         ("room, line 4", true),
@@ -283,7 +286,7 @@ fn a_line_map_is_its_walls() {
     assert!(place.refused("[map]\nscale = 1").contains("the map has no file"));
 }
 
-/// The file's own obstacles come first, then the walls of the map, then objects where they lie at first.
+/// The order of numbers: the file's own obstacles, the walls of the map, then the objects at their initial poses.
 #[test]
 fn numbers_are_those_of_obstacles_then_walls_then_objects() {
     let place = Place::new("numbers");
@@ -311,7 +314,7 @@ fn numbers_are_those_of_obstacles_then_walls_then_objects() {
     }
 }
 
-/// What is carried can be a picture: it keeps off as its squares do, wherever the arm has it.
+/// A carried object can be a picture: it keeps away as its squares do, wherever the arm moves it.
 #[test]
 fn a_picture_is_carried_as_its_squares_are() {
     let place = Place::new("carried");
@@ -340,7 +343,7 @@ fn a_picture_is_carried_as_its_squares_are() {
     assert!((random::times(3)..random::times(27)).contains(&free), "{free}");
 }
 
-/// How a mesh is written.
+/// File format of a mesh.
 #[derive(Clone, Copy, PartialEq, Debug)]
 enum Format {
     Bytes,
@@ -349,7 +352,7 @@ enum Format {
     Collada,
 }
 
-/// A box as triangles.
+/// Returns a box as triangles.
 fn block(size: [f32; 3], format: Format) -> Vec<u8> {
     let corner = |k: usize| [0, 1, 2].map(|i| if k >> i & 1 == 0 { -size[i] / 2.0 } else { size[i] / 2.0 });
     let spaced = |k: usize, by: [f32; 3]| {
@@ -359,13 +362,14 @@ fn block(size: [f32; 3], format: Format) -> Vec<u8> {
     let faces = [[0, 1, 3], [0, 3, 2], [4, 5, 7], [4, 7, 6], [0, 2, 4], [1, 3, 5], [2, 6, 4], [3, 7, 5]];
     let triangles = faces.map(|face| face.map(corner));
     if format == Format::Obj {
-        // Far away is a vertex of no face.
+        // A far vertex that belongs to no face.
         let vertices: String = (0..8).map(|k| format!("v {}\n", spaced(k, [0.0; 3]))).collect();
         let faces: String = faces.iter().map(|[a, b, c]| format!("f {} -{} {}/7/7\n", a + 1, 9 - b, c + 1)).collect();
         return format!("# a block\n{vertices}v 99 99 99\n{faces}").into_bytes();
     }
     if format == Format::Collada {
-        // Its axes are others in the file, where it lies elsewhere, too. Far away is a vertex of no triangle.
+        // The axes differ in the file, and a transformation moves the mesh elsewhere. A far vertex belongs to no
+        // triangle.
         let numbers: Vec<String> = (0..8).map(|k| spaced(k, [0.25, 0.5, -0.5])).chain(["99 99 99".into()]).collect();
         let indices: Vec<String> = faces.iter().flatten().map(|corner| format!("0 {corner}")).collect();
         return format!(
@@ -405,7 +409,7 @@ fn block(size: [f32; 3], format: Format) -> Vec<u8> {
     format!("solid block\n{}endsolid block\n", triangles.iter().map(facet).collect::<String>()).into_bytes()
 }
 
-/// A mesh stands for its convex hull: that of a box is the box. Sizes are such that single precision has them.
+/// A mesh is replaced by its convex hull: the hull of a box is the box. The sizes are exact in single precision.
 #[test]
 fn a_mesh_is_its_hull() {
     let place = Place::new("mesh");
@@ -527,7 +531,7 @@ fn pictures_that_are_none_are_refused() {
         place.write("map.pgm", picture);
         assert!(place.refused(world).contains(part), "{part}: {}", place.refused(world));
     }
-    // Texts have no files beside them; nor is there any need, as long as nobody names the picture.
+    // Texts have no other files beside them. This does not matter if nothing refers to the picture.
     let one = |certificate: &str| {
         check(&arm(BOXES), &format!("start.joints = [0, 0]\ngoal.joints = [1, 0]\n{world}"), certificate)
     };
@@ -537,7 +541,7 @@ fn pictures_that_are_none_are_refused() {
     assert!(matches!(one(nothing), Err(CheckError::Fails(_))));
 }
 
-/// Digests bind a certificate to its files (those here are computed by `sha256sum`).
+/// Digests bind a certificate to its files. The digests here were computed by `sha256sum`.
 #[test]
 fn digests_are_of_the_files_themselves() {
     let of = |digests: &str| {
@@ -551,7 +555,7 @@ fn digests_are_of_the_files_themselves() {
     of(&format!("\"world\": \"{}\"", WORLD_DIGEST.to_uppercase())).unwrap();
     assert!(matches!(of(&format!("\"urdf\": \"{WORLD_DIGEST}\"")), Err(CheckError::Fails(_))));
     assert!(matches!(of("\"world\": 7"), Err(CheckError::Input { input: Input::Certificate, .. })));
-    // Files that are named have to be among the others, if there is word of these.
+    // If the certificate lists other files, all files in use must be among them.
     let place = Place::new("digests");
     place.write("map.pgm", "P2 1 1 1 1\n");
     place.write("map.yaml", YAML);

@@ -2,7 +2,7 @@
 
 use cplan_check_files::{CheckError, Input, check};
 
-/// A bar of 1 m and 0.1 m about the origin, and one of 0.8 m at its end.
+/// Returns a robot with a bar of 1 m by 0.1 m about the origin, and one of 0.8 m at its end.
 fn robot(first: &str, second: &str) -> String {
     format!(
         r#"<robot name="r">
@@ -44,7 +44,7 @@ fn certificate(extra: &str, interpolation: &str, knots: &str) -> String {
 
 const LINEAR: &str = r#""linear""#;
 
-/// Whether it holds, by its exit code, and what is said.
+/// Judges a certificate, and returns the exit code and the message.
 fn judged(urdf: &str, world: &str, certificate: &str) -> (i32, String) {
     match check(urdf, world, certificate) {
         Ok(said) => (0, said),
@@ -53,7 +53,7 @@ fn judged(urdf: &str, world: &str, certificate: &str) -> (i32, String) {
     }
 }
 
-/// Straight from the start to the goal, whatever the obstacles.
+/// Judges a straight motion from the start to the goal among obstacles.
 fn straight(urdf: &str, obstacles: &str) -> (i32, String) {
     judged(urdf, &world(obstacles), &certificate("", LINEAR, "[0, -1, 0], [1, 1, 0]"))
 }
@@ -68,7 +68,7 @@ fn fails(urdf: &str, obstacles: &str, part: &str) {
     assert!(code == 3 && said.contains(part), "{obstacles}: {code} {said}");
 }
 
-/// Both bars turn about the origin as one, up to 1.8 m and sqrt(1.8^2 + 0.05^2) at the corners.
+/// Both bars turn about the origin together, up to 1.8 m and sqrt(1.8^2 + 0.05^2) at the corners.
 #[test]
 fn distances_are_those_of_the_closed_form() {
     let reach = (1.8f64 * 1.8 + 0.05 * 0.05).sqrt();
@@ -79,12 +79,12 @@ fn distances_are_those_of_the_closed_form() {
         } else {
             fails(&arm(), &post, "link \"fore\", collision 0")
         }
-        // Beyond it the wall is straight, and only its middle is near.
+        // Beyond the reach, the wall is straight, and only its middle is near.
         let wall = reach + gap;
         let wall = format!("[[obstacle]]\npolyline = [[{wall}, -3], [{wall}, 3]]\n");
         if holds { is_free(&arm(), &wall) } else { fails(&arm(), &wall, "obstacle 0") }
     }
-    // A corner that the long side passes as the arm comes to rest: where it turns no farther.
+    // A corner that the long side reaches just where the arm stops turning.
     for (gap, holds) in [(1e-3, true), (1e-9, true), (-1e-9, false)] {
         let (sine, cosine) = 1f64.sin_cos();
         let at = |along: f64, beside: f64| [along * cosine - beside * sine, along * sine + beside * cosine];
@@ -117,10 +117,10 @@ fn clearance_counts_and_what_is_asked_elsewhere_is_said() {
     assert!(at(r#""start": [1, 0],"#).1.contains("misses the start"));
 }
 
-/// The same motion with a knot moved, and what is named.
+/// Moves one knot of a motion. The message must name the problem.
 #[test]
 fn what_is_falsified_is_named() {
-    // Beside the stretched arm, in the way of the folded one.
+    // Beside the stretched arm, and on the path of the folded arm.
     let post = "[[obstacle]]\ncircle = { center = [0.7, 0.8], radius = 0.15 }\n";
     let judge = |knots: &str| judged(&arm(), &world(post), &certificate("", LINEAR, knots));
     let fold = "[0, -1, 0], [1, -1, 2.5], [2, 1, 2.5], [3, 1, 0]";
@@ -143,23 +143,23 @@ fn what_is_falsified_is_named() {
         let (code, why) = judge(knots);
         assert!(code == 3 && why.contains(part), "{knots}: {code} {why}");
     }
-    // At the limit itself, and in time that is as long as one likes.
+    // At the limit itself, and with very long durations.
     assert_eq!(judge("[-1e9, -1, 0], [1, -1, 2.90], [2, 1, 2.9], [3e9, 1, 0]").0, 0);
 }
 
-/// An arm that stands inside an obstacle touches none of its sides.
+/// An arm inside an obstacle does not touch its sides, and still collides.
 #[test]
 fn inside_is_not_off() {
     let ring = "polygon = [[-9, -9], [9, -9], [9, 9], [-9, 9]]\n";
     fails(&arm(), &format!("[[obstacle]]\n{ring}"), "link \"upper\", collision 0 is inside obstacle 0");
-    // In its hole it is off.
+    // In its hole the arm is free.
     is_free(&arm(), &format!("[[obstacle]]\n{ring}holes = [[[-3, -3], [3, -3], [3, 3], [-3, 3]]]\n"));
     fails(&arm(), &format!("[[obstacle]]\n{ring}holes = [[[-3, -3], [1, -3], [1, 3], [-3, 3]]]\n"), "obstacle 0");
     let turned = format!(
         "[[obstacle]]\nat = [0.1, 0.2]\nangle = \"30deg\"\n{ring}holes = [[[-3, -3], [3, -3], [3, 3], [-3, 3]]]\n"
     );
     is_free(&arm(), &turned);
-    // A disc around all of it, and one that the second bar alone is in.
+    // A disc around the whole arm, and one that contains only the second bar.
     fails(&arm(), "[[obstacle]]\ncircle = { center = [0, 0], radius = 9 }\n", "from knot 0");
     fails(
         &arm(),
@@ -168,14 +168,14 @@ fn inside_is_not_off() {
     );
 }
 
-/// What the second joint does where the first turns or slides: the tip passes a wall at some distance in closed form.
+/// All combinations of joint types: the tip passes a wall at a distance known in closed form.
 #[test]
 fn all_kinds_of_joints() {
     for (first, second, farthest) in [
-        // Slid to the right by 1 at most, the first bar reaches to 2, and the second's corner to where it is from there.
+        // Slid to the right by at most 1, the first bar reaches to 2. The second's corner adds its own distance.
         ("prismatic", "revolute", 2.0 + (0.8f64 * 0.8 + 0.05 * 0.05).sqrt()),
         ("prismatic", "prismatic", 2.8),
-        // Slid across by at most 1: its outermost corner at (1.8, 1.05).
+        // Slid across by at most 1, its outermost corner is at (1.8, 1.05).
         ("revolute", "prismatic", (1.8f64 * 1.8 + 1.05 * 1.05).sqrt()),
     ] {
         let urdf = robot(first, second);
@@ -196,7 +196,7 @@ fn all_kinds_of_joints() {
     }
 }
 
-/// Heights that are known to be disjoint leave a pair out; that touch, do not.
+/// Heights that are certainly disjoint exclude a pair. Touching heights do not.
 #[test]
 fn heights() {
     let at = |height: &str| {
@@ -207,10 +207,10 @@ fn heights() {
     assert_eq!(at("[0.2, 0.06]"), 1);
 }
 
-/// Between knots it is the interpolation that counts: by cubics with these velocities the arm swings out, by lines it does not.
+/// Between knots the interpolation matters: cubics with these velocities make the arm swing out, lines do not.
 #[test]
 fn interpolations_are_those_of_their_readers() {
-    // q2 stays at 2.5 at both knots; with slopes 4 and -4 over a second the cubic goes up by 1, 8 / 27 = 0.296 with (4, 0).
+    // q2 is 2.5 at both knots. With slopes 4 and -4 over a second the cubic rises by 1; with (4, 0) by 8 / 27 = 0.296.
     let world = |limit: &str| {
         format!("start.joints = [0, 1]\ngoal.joints = [0, 1]\nrobot.limits = {{ b = [-2.9, {limit}] }}\n")
     };
@@ -224,7 +224,8 @@ fn interpolations_are_those_of_their_readers() {
     let cubic = "[0, 0, 1, 0, 4], [1, 0, 1, 0, 0]";
     // 1 + 4 t (1 - t)^2 is at most 1 + 16 / 27 = 1.5925926 at 1/3.
     assert_eq!((code(r#""cubic""#, cubic, "1.5925926"), code(r#""cubic""#, cubic, "1.5925925")), (0, 3));
-    // 1 + 4 t - 12 t^3 + 8 t^4: position 1, velocity 4, acceleration 0; then 1 and 0. Greatest 2 - 1/3 sqrt(3) ... by samples below.
+    // 1 + 4 t - 12 t^3 + 8 t^4 has position 1, velocity 4, acceleration 0; then 1 and 0. The samples below give its
+    // maximum.
     let quartic = |t: f64| 1.0 + 4.0 * t - 12.0 * t.powi(3) + 8.0 * t.powi(4);
     let most = (0..=1_000_000).map(|i| quartic(f64::from(i) / 1e6)).fold(0.0, f64::max);
     let knots = "[0, 0, 1, 0, 4, 0, 0], [1, 0, 1, 0, 0, 0, 0]";
@@ -237,7 +238,7 @@ fn interpolations_are_those_of_their_readers() {
     assert_eq!(limits.each_ref().map(|limit| code(r#""quintic""#, knots, limit)), [0, 3]);
 }
 
-/// A joint that turns without end has no limits; whole turns are no matter for where it ends.
+/// A continuous joint has no limits. Whole turns do not matter at its goal.
 #[test]
 fn joints_without_end() {
     let urdf = arm().replacen("revolute", "continuous", 1);
@@ -252,7 +253,7 @@ fn joints_without_end() {
     assert_eq!((code("-11.566370614359172", "-5.283185307179586"), code("1.1", "-5.283185307179586")), (0, 3));
 }
 
-/// A goal that is a place of the tip: how near it comes is said.
+/// A goal that is a tip position: the message states the distance from it.
 #[test]
 fn places_of_the_tip() {
     let urdf = arm().replace(
@@ -265,7 +266,7 @@ fn places_of_the_tip() {
     let (code, said) = judged(&urdf, &world(&format!("goal.tip = [{x}, {y}]")), &line);
     assert!(code == 0 && said.contains("the goal, a place of the tip \"tool\", within 1e-1"), "{said}");
     assert_eq!(judged(&urdf, &world(&format!("goal.tip = [{x}, {}]", y + 2e-5)), &line).0, 3);
-    // Asked for elsewhere, and of another link.
+    // Requested at another place, and for another link.
     let asked = certificate(&format!(r#""goal_tip": [{x}, {y}],"#), LINEAR, "[0, -1, 0], [1, 1, 0]");
     let (code, said) = judged(&urdf, ENDS, &asked);
     assert!(code == 0 && said.contains("goal (0.97"), "{said}");
@@ -273,7 +274,7 @@ fn places_of_the_tip() {
     assert!(code == 3 && why.contains("misses the goal"), "{why}");
     let two = asked.replace("\"motion\"", "\"goal\": [1, 0], \"motion\"");
     assert!(judged(&urdf, ENDS, &two).1.contains("two goals"));
-    // The robot stands elsewhere, turned by half a right angle, and so does its surrounding.
+    // Robot and surroundings are moved and turned by 45 degrees.
     let turn = std::f64::consts::FRAC_PI_4;
     let place =
         |angle: f64, r: f64| format!("[{}, {}]", 5.0 + r * (turn + angle).cos(), -2.0 + r * (turn + angle).sin());
@@ -288,7 +289,7 @@ fn places_of_the_tip() {
     assert_eq!((at(1.901), at(1.899)), (0, 3));
 }
 
-/// One knot is an arm that stands.
+/// A single knot is an arm at rest.
 #[test]
 fn standing_still() {
     let post =
@@ -297,7 +298,7 @@ fn standing_still() {
     assert_eq!(judged(&arm(), &post.replace("-1, 0", "0, 0"), &certificate("", r#""cubic""#, "[0, 0, 0, 0, 0]")).0, 3);
 }
 
-/// What the checker does not know it refuses, and never leaves out.
+/// The checker refuses unknown input, and never ignores it.
 #[test]
 fn bad_input_is_named() {
     let place = world("[[obstacle]]\npolyline = [[3, 0], [4, 0]]\n");
@@ -336,7 +337,7 @@ fn bad_input_is_named() {
         "",
     );
     assert_eq!(judged(&bars, &place, &good).0, 0);
-    // The bar goes from the second joint to the tip, which is there.
+    // The bar extends from the second joint to the tip, where the wall is.
     let at = |x: f64| format!("robot.bar = 0.05\n{ENDS}[[obstacle]]\npolyline = [[{x}, 0], [4, 0]]\n");
     assert_eq!((judged(&bars, &at(1.051), &good).0, judged(&bars, &at(1.049), &good).0), (0, 3));
     let certificates = |text: String, part: &str| bad(&arm(), &place, &text, Input::Certificate, part);
@@ -351,13 +352,14 @@ fn bad_input_is_named() {
     certificates(good.replace("certificate 1", "certificate 2"), "certificate 2");
 }
 
-/// Visual shapes stand in where there are no others, one part of the arm at a time; solids lie and stand as they do.
+/// Visual shapes are used if there are no others, separately for each part of the arm. Solids have the orientations of
+/// the file.
 #[test]
 fn every_shape_counts() {
     let visual = arm().replacen("collision", "visual", 2);
     let wall = |at: f64| format!("[[obstacle]]\npolyline = [[{at}, -3], [{at}, 3]]\n");
     assert_eq!((straight(&visual, &wall(1.81)).0, straight(&visual, &wall(1.79)).0), (0, 3));
-    // A solid at the tip, in several ways: how far it reaches beyond 1.8.
+    // A solid at the tip, in several orientations, and its reach beyond 1.8.
     let tipped = |solid: &str, turn: &str| {
         arm().replace(
             "<link name=\"fore\">",
@@ -375,14 +377,14 @@ fn every_shape_counts() {
         ("box size=\"0.6 0.2 0.1\"", "0 0 0.3", 0.3 * 0.3f64.cos() + 0.1 * 0.3f64.sin()),
     ] {
         let urdf = tipped(solid, turn);
-        // The tip is at 2.8 when the arm is stretched out, and the wall is bent: a ring's inner border, nearly.
+        // The stretched arm has its tip at 2.8, and the wall is short and straight: nearly the inner border of a ring.
         let at = |gap: f64| {
             straight(&urdf, &format!("[[obstacle]]\npolyline = [[{0}, -0.001], [{0}, 0.001]]\n", 2.8 + reach + gap)).0
         };
         let corner = if solid.starts_with("box") || turn.starts_with("0 1.57") { 0.15 } else { 0.02 };
         assert_eq!((at(corner), at(-0.005)), (0, 3), "{solid} {turn}");
     }
-    // Turned by so much that nobody knows how it lies.
+    // Turned by such an angle that its orientation is unknown.
     let urdf = tipped("cylinder radius=\"0.2\" length=\"0.6\"", "0 1e14 0");
     assert_eq!(straight(&urdf, "[[obstacle]]\npolyline = [[2.9, 0], [3, 0]]\n").0, 3);
 }

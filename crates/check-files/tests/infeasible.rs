@@ -4,7 +4,7 @@ use cplan_cases as random;
 
 use cplan_check_files::{CheckError, Input, check};
 
-/// A bar of 1 m and 0.1 m about the origin, and one of 0.8 m at its end.
+/// Returns a robot with a bar of 1 m by 0.1 m about the origin, and one of 0.8 m at its end.
 fn robot(first: &str, second: &str) -> String {
     format!(
         r#"<robot name="r">
@@ -57,7 +57,7 @@ const FORE: &str = r#"{"link": "fore", "collision": 0}"#;
 const WALL: &str = "[[obstacle]]\npolyline = [[0.5, 0], [2.5, 0]]\n";
 const WALL_PART: &str = r#"{"obstacle": 0, "corners": [[0.5, 0], [2.5, 0]]}"#;
 
-/// Whether it holds, by its exit code.
+/// Judges a certificate, and returns the exit code.
 fn code(urdf: &str, world: &str, certificate: &str) -> i32 {
     match check(urdf, world, certificate) {
         Ok(_) => 0,
@@ -66,8 +66,8 @@ fn code(urdf: &str, world: &str, certificate: &str) -> i32 {
     }
 }
 
-/// The bar meets a wall along the x axis at depth 0.05 / cos q in its direction: a box of half-width `w` around 0 holds as long
-/// as the corner farthest from the axis, at sqrt(1 + 0.05^2), moves by less than that.
+/// The bar overlaps a wall along the x axis by 0.05 / cos q in the wall's direction. A box of half-width `w` around 0
+/// holds as long as the farthest corner, at sqrt(1 + 0.05^2), moves by less than that.
 #[test]
 fn a_box_holds_up_to_the_closed_form() {
     let arm = robot("revolute", "revolute");
@@ -90,12 +90,12 @@ fn all_kinds_of_joints_and_shapes() {
         let arm = robot("revolute", second);
         assert_eq!(code(&arm, &world(post), &certificate("", UPPER, disc, &whole)), 0);
         let arm = robot("prismatic", second);
-        // Slid by 0 the bar reaches from 0 to 1.
+        // Slid by 0, the bar reaches from 0 to 1.
         assert_eq!(code(&arm, &world(post), &certificate("", UPPER, disc, &whole)), 0);
         let beyond = [("0.7, -3", "0.9, 3", 0, 0)];
         assert_eq!(code(&arm, &world(post), &certificate("", UPPER, disc, &beyond)), 3);
     }
-    // The second bar, of each kind, met by a large disc wherever it is.
+    // The second bar, with each type of joint. A large disc touches it everywhere.
     let large = "[[obstacle]]\ncircle = { center = [1, 0], radius = 40 }\n";
     for (first, second) in
         [("revolute", "revolute"), ("revolute", "prismatic"), ("prismatic", "revolute"), ("prismatic", "prismatic")]
@@ -117,14 +117,14 @@ fn all_kinds_of_joints_and_shapes() {
     };
     assert_eq!((beside("0.5, 0.3", "0.101"), beside("0.5, 0.3", "0.0999")), (0, 3));
     assert_eq!((beside("1, 0", "0.218"), beside("1, 0", "0.217")), (0, 3));
-    // In whichever order; not a side alone.
+    // Corners in any order; but not a side alone.
     let other = r#"{"obstacle": 0, "corners": [[0.3, 0.2], [0.9, -0.2], [0.9, 0.2], [0.3, -0.2]]}"#;
     assert_eq!(code(&arm, &world(polygon), &certificate("", UPPER, other, &whole)), 0);
     for wrong in [r#"{"obstacle": 0, "corners": [[0.3, 0.2], [0.9, 0.2]]}"#, r#"{"obstacle": 0}"#, r#"{"obstacle": 1}"#]
     {
         assert_eq!(code(&arm, &world(polygon), &certificate("", UPPER, wrong, &whole)), 3, "{wrong}");
     }
-    // The same, turned and moved to where it was.
+    // The same polygon, turned and moved to the same place.
     let placed = "[[obstacle]]\nat = [0.6, 0]\nangle = \"90deg\"\npolygon = [[-0.2, -0.3], [0.2, -0.3], [0.2, 0.3], [-0.2, 0.3]]\n";
     assert_eq!(code(&arm, &world(placed), &certificate("", UPPER, corners, &whole)), 0);
 }
@@ -160,7 +160,7 @@ fn heights_that_do_not_meet_are_no_contact() {
     assert_eq!(at("[0.0, 0.2]", 2), 3);
 }
 
-/// Both elbows reach the place; behind the wall is neither.
+/// Both elbow solutions reach the position. Behind the wall there must be neither.
 #[test]
 fn a_place_of_the_tip_is_all_configurations_that_reach_it() {
     let arm = robot("revolute", "revolute");
@@ -172,14 +172,14 @@ fn a_place_of_the_tip_is_all_configurations_that_reach_it() {
         named
     };
     let wall = [("-0.04, -3", "0.04, 3", 0, 0)];
-    // Elbows left and right: (1, 1), and some (1.88, -1).
+    // Elbows left and right: (1, 1), and about (1.88, -1).
     assert_eq!(tip("[0.2073848661404736, 1.5689089262373]", &wall), 0);
     assert_eq!(tip("[0.2073848661404736, 1.5689089262373]", &[("-0.04, -3", "0.04, 2", 0, 0)]), 3);
-    // One elbow on either side of the wall, and both on the start's.
+    // One elbow solution on either side of the wall, and both on the start's side.
     assert_eq!((tip("[1.4, 0.1]", &wall), tip("[0.2, -1.5]", &wall)), (3, 3));
-    // Out of reach, and stretched out, beyond the wall and before it.
+    // Out of reach, and stretched out beyond the wall and in front of it.
     assert_eq!((tip("[0, 1.9]", &wall), tip("[0, 1.8]", &wall), tip("[0, -1.8]", &wall)), (0, 0, 3));
-    // What is said is about the tip that the world names.
+    // The statement is about the tip that the world names.
     let place = format!("start.joints = [-1, 0]\nrobot.tip = \"fore\"\n{WALL}");
     let extra = r#""goal_tip": [0.6, 0.8],"#;
     let said = check(&arm, &place, &certificate(extra, UPPER, WALL_PART, &wall)).unwrap();
@@ -190,10 +190,10 @@ fn a_place_of_the_tip_is_all_configurations_that_reach_it() {
     assert_eq!(code(&arm, &world(WALL), &certificate(both, UPPER, WALL_PART, &wall)), 1);
 }
 
-/// A goal that leaves a joint free is a curve: all of it has to be beyond the boxes.
+/// A goal that leaves a joint free is a curve. All of it must be beyond the boxes.
 #[test]
 fn a_place_of_the_tip_that_leaves_a_joint_free() {
-    // The tip on the second axis, at q1 = 1, whatever q2.
+    // The tip on the second axis, at q1 = 1, with any q2.
     let arm = robot("revolute", "revolute");
     let elbow = |tip: &str, boxes: Boxes| {
         let place = format!("start.joints = [-1, 0]\nrobot.tip = \"fore\"\ngoal.tip = {tip}\n{WALL}");
@@ -203,14 +203,14 @@ fn a_place_of_the_tip_that_leaves_a_joint_free() {
     assert_eq!(elbow("[0.6, 0.8]", &wall), 0);
     assert_eq!(elbow("[0.6, -0.8]", &wall), 3);
     assert_eq!(elbow("[0.6, 0.8]", &[("-0.04, -3", "0.04, 2.8", 0, 0)]), 3);
-    // Bars alike, and the tip at the first axis: q2 is half a turn, which the limits exclude, or do not.
+    // Bars of equal length, and the tip at the first axis: q2 is half a turn, with limits that exclude or allow it.
     let alike = arm.replace("1 0 0\"/> <axis", "0.8 0 0\"/> <axis");
     let folded = |limit: &str, boxes: Boxes| {
         let place = format!("start.joints = [-1, 0]\ngoal.tip = [0, 0]\nrobot.limits.b = [-3, {limit}]\n{WALL}");
         code(&alike, &place, &certificate("", UPPER, WALL_PART, boxes))
     };
     assert_eq!((folded("3.1", &wall), folded("3.2", &wall)), (0, 3));
-    // A carriage along x whose bar turns: from every place of the carriage in reach of the tip's place.
+    // A carriage along x with a rotating bar: all carriage positions within reach of the tip position count.
     let cart = robot("prismatic", "revolute");
     let disc = "[[obstacle]]\ncircle = { center = [1, 0], radius = 0.3 }\n";
     let shut = [("-0.2, -3", "0.2, 3", 0, 0)];
@@ -221,7 +221,7 @@ fn a_place_of_the_tip_that_leaves_a_joint_free() {
     assert_eq!((tip("[2.5, 0.3]"), tip("[1.5, 0.3]"), tip("[0, 0.3]")), (0, 3, 3));
 }
 
-/// An arm that the world puts elsewhere, against the same arm in a world that is moved and turned the other way.
+/// Compares an arm that the world places elsewhere with the same arm in a world that is moved and turned oppositely.
 #[test]
 fn a_robot_stands_where_the_world_puts_it() {
     let disc = r#"{"obstacle": 0}"#;
@@ -229,7 +229,7 @@ fn a_robot_stands_where_the_world_puts_it() {
         [("revolute", "revolute"), ("revolute", "prismatic"), ("prismatic", "revolute"), ("prismatic", "prismatic")]
     {
         let arm = robot(first, second);
-        // As seen from the robot it is at (0.9, 0.02): at (2 - 0.02, 3 + 0.9) in the world.
+        // In the robot's frame it is at (0.9, 0.02), in the world at (2 - 0.02, 3 + 0.9).
         let at = |center: &str| {
             let place = "[robot]\nat = [2, 3]\nangle = \"90deg\"\n";
             let place = format!("{place}[[obstacle]]\ncircle = {{ center = {center}, radius = 0.2 }}\n");
@@ -238,14 +238,14 @@ fn a_robot_stands_where_the_world_puts_it() {
         };
         assert_eq!((at("[1.98, 3.9]"), at("[2.02, 2.1]"), at("[2.9, 3.02]")), (0, 3, 3), "{first} {second}");
     }
-    // About y the plane is (x, z), and the turn from x to z.
+    // About y the plane is (x, z), and the robot turns from x to z.
     let arm = robot("revolute", "revolute").replace("axis xyz=\"0 0 1\"", "axis xyz=\"0 -1 0\"");
     let place = "[robot]\nangle = \"90deg\"\n[[obstacle]]\ncircle = { center = [-0.02, 0.9], radius = 0.2 }\n";
     let boxes = [("-0.05, -3", "0.05, 3", 0, 0)];
     assert_eq!(code(&arm, &format!("{ENDS}{place}"), &certificate("", UPPER, disc, &boxes)), 0);
 }
 
-/// Visual shapes stand in for collision shapes where a link has none.
+/// Visual shapes replace collision shapes for a link without any.
 #[test]
 fn visual_shapes_count_where_there_are_no_others() {
     let arm = robot("revolute", "revolute");
@@ -255,7 +255,7 @@ fn visual_shapes_count_where_there_are_no_others() {
     let at = |arm: &str, shape: &str| code(arm, &world(WALL), &certificate("", shape, WALL_PART, &wall));
     assert_eq!((at(&arm, UPPER), at(&seen, &visual)), (0, 0));
     assert_eq!((at(&arm, &visual), at(&seen, UPPER)), (3, 3));
-    // Each link by itself: those of others are another matter.
+    // Each link by itself: shapes of other links do not matter.
     let fore = "<collision> <geometry> <sphere radius=\"0.01\"/> </geometry> </collision>";
     assert_eq!(at(&seen.replace("<link name=\"tool\"/>", &format!("<link name=\"tool\">{fore}</link>")), &visual), 0);
     let fixed =
@@ -264,7 +264,7 @@ fn visual_shapes_count_where_there_are_no_others() {
     assert_eq!(at(&both, &visual), 0);
     let own = seen.replace("<link name=\"upper\">", &format!("<link name=\"upper\">{fore}"));
     assert_eq!(at(&own, &visual), 3);
-    // Bars stand in for what has neither.
+    // Bars replace links without either.
     let bare = arm.replace("collision", "lamp");
     let bars = |arm: &str, robot: &str, shape: &str, obstacle: &str, part: &str| {
         let place = format!("[robot]\n{robot}\n{obstacle}\n[start]\njoints = [-1, 0]\n[goal]\njoints = [1, 0]");
@@ -278,7 +278,7 @@ fn visual_shapes_count_where_there_are_no_others() {
         (1, 3, 3)
     );
     assert_eq!((on_wall(&bare, "bar = 0.05", &upper.replace('0', "1")), on_wall(&bare, "bar = -1", upper)), (1, 1));
-    // From the second joint to the tip, whatever the elbow; all at the height of the joints.
+    // From the second joint to the tip, for any elbow, and all at the height of the joints.
     let disc = "[[obstacle]]\ncircle = { center = [1, 0], radius = 1.2 }\n";
     let on_disc = |robot: &str, obstacle: &str| bars(&bare, robot, fore, obstacle, r#"{"obstacle": 0}"#);
     assert_eq!((on_disc("bar = 0.1", disc), on_disc("bar = 0.1", &disc.replace("[1, 0]", "[5, 0]"))), (3, 3));
@@ -291,7 +291,7 @@ fn visual_shapes_count_where_there_are_no_others() {
     }
 }
 
-/// What the reader of each file does not know or what is wrong there is bad input, with the file and the place.
+/// Unknown or wrong content of each file is bad input. The message names the file and the place.
 #[test]
 fn bad_input_is_named() {
     let arm = robot("revolute", "revolute");
@@ -362,7 +362,7 @@ fn bad_input_is_named() {
     }
 }
 
-/// Earlier versions of cplan wrote proofs that a task is infeasible, case by case: by themselves, or within a result.
+/// Earlier versions of cplan wrote proofs that a task is infeasible, case by case, on their own or within a result.
 #[test]
 fn proofs_about_tasks_are_not_judged() {
     let old = r#"{"format": "cplan certificate 1", "answer": "infeasible", "joints": ["a", "b"],
@@ -377,14 +377,14 @@ fn proofs_about_tasks_are_not_judged() {
     }
 }
 
-/// A wall of boxes that all are as wide as they may be. Whatever is done to one of them opens a way or makes a box too large: what
-/// is falsified is refused.
+/// A wall of boxes, each as wide as possible. Any change to one of them opens a gap or makes a box too large, so
+/// falsified certificates must be refused.
 #[test]
 fn falsified_certificates_are_refused() {
     let arm = robot("revolute", "revolute");
     let place = world(WALL);
     let edges: Vec<f64> = (0..=8).map(|k| -3.0 + f64::from(k) * 0.75).collect();
-    // Up to 0.04994 each, in steps so that neighbours overlap at one value only.
+    // Up to 0.04994 each, in steps, so that neighbours share one value only.
     let boxes = |edges: &[f64]| -> Vec<[f64; 4]> {
         let from = |k: usize| if k.is_multiple_of(2) { -0.0499 } else { 0.0 };
         edges.windows(2).enumerate().map(|(k, e)| [from(k), from(k) + 0.0499, e[0], e[1]]).collect()
@@ -394,7 +394,7 @@ fn falsified_certificates_are_refused() {
         let named: Vec<_> = texts.iter().map(|(lower, upper)| (&lower[..], &upper[..], 0, 0)).collect();
         code(&arm, &place, &certificate("", UPPER, WALL_PART, &named))
     };
-    // Half a box to each side of the wall: the corner at 0.05 lies on the one side, so less deep at the other.
+    // Half a box to each side of the wall: the corner at 0.05 lies on one side, so it is less deep on the other.
     let whole = boxes(&edges);
     assert_eq!(judged(&whole), 0);
     for gone in 0..whole.len() {
@@ -410,7 +410,7 @@ fn falsified_certificates_are_refused() {
         let is_outermost = (number, end) == (0, 2) || (number, end) == (7, 3);
         assert_eq!(judged(&shrunk), if is_outermost { 0 } else { 3 }, "box {number}, end {end}");
     }
-    // Twice as wide: the sides come off the wall.
+    // Twice as wide, the sides no longer touch the wall.
     for number in 0..whole.len() {
         let mut grown = whole.clone();
         grown[number][0] -= 0.06;
@@ -419,15 +419,15 @@ fn falsified_certificates_are_refused() {
     }
 }
 
-/// Random boxes against the closed form: what holds is true. The bar meets the wall as long as its long side is not beyond the
-/// wall's near end.
+/// Compares random boxes with the closed form: a box that holds must be true. The bar overlaps the wall as long as its
+/// long side is not beyond the wall's near end.
 #[test]
 fn what_holds_is_true() {
     let arm = robot("revolute", "revolute");
     let place = world(WALL);
     let mut held = 0;
     for seed in random::seeds(400) {
-        // Weyl's sequences.
+        // Weyl sequences.
         let [a, b] = [0.754_877_666, 0.569_840_290].map(|step| (seed as f64 * step).fract());
         let (middle, half) = (0.3 * (a - 0.5), 0.08 * b);
         let (lower, upper) = (format!("{}, -3", middle - half), format!("{}, 3", middle + half));
@@ -439,7 +439,7 @@ fn what_holds_is_true() {
     assert!(held > random::times(20), "{held}");
 }
 
-/// Numbers and nests that are as large as they can be are refused.
+/// Extremely large numbers and deep nests are refused.
 #[test]
 fn hostile_input_is_refused() {
     let arm = robot("revolute", "revolute");

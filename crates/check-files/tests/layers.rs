@@ -10,10 +10,10 @@ use std::path::{Path, PathBuf};
 /// A folder of its own for each test.
 struct Place(PathBuf);
 
-/// Blocks: the corner with the least coordinates and the one with the greatest, each.
+/// Blocks, each by its corners with the least and the greatest coordinates.
 type Blocks<'a> = &'a [[[f32; 3]; 2]];
 
-/// The sides of blocks by their corners.
+/// Returns the sides of blocks by their corners.
 fn sides(blocks: Blocks) -> Vec<[[f32; 3]; 4]> {
     let side = |[low, high]: &[[f32; 3]; 2], axis: usize, end: usize| {
         [[0, 0], [1, 0], [1, 1], [0, 1]].map(|[u, v]| {
@@ -75,7 +75,7 @@ fn of_mesh(lowest: f64, file: &str) -> String {
     urdf.replacen("<origin xyz=\"0 0 0.15\"/>", "", 1)
 }
 
-/// The quill passes above the foot, beside the column. The convex hull of the whole base would be in its way.
+/// The quill passes above the foot, beside the column. The convex hull of the whole base would block it.
 #[test]
 fn meshes_are_cut_in_layers() {
     let place = Place::new("layers");
@@ -117,7 +117,7 @@ fn proofs_name_layers() {
     holds(shut(-0.1, &own(r#", "height": 0.1"#)));
 }
 
-/// Links that move are cut at the heights of the base. The layers count for obstacles of the world, too.
+/// Moving links are cut at the heights of the base. The layers also apply to obstacles of the world.
 #[test]
 fn layers_are_those_for_obstacles_too() {
     let place = Place::new("moving");
@@ -141,7 +141,7 @@ fn layers_are_those_for_obstacles_too() {
     fails(among("", &post.replace("0.25]", "0.31]")), &["layer 1", "obstacle 0"]);
 }
 
-/// Links that move are also cut at the heights of each other: the upper arm at the lower end of the quill.
+/// Moving links are also cut at each other's heights: the upper arm at the lower end of the quill.
 #[test]
 fn links_that_move_cut_each_other() {
     let place = Place::new("each_other");
@@ -163,7 +163,7 @@ fn links_that_move_cut_each_other() {
     fails(among(0.36, "own_body = false"), &hit);
 }
 
-/// The same faces in other units make the same layers.
+/// Faces scaled to other units give the same layers.
 #[test]
 fn layers_are_scaled() {
     let place = Place::new("scaled");

@@ -1,4 +1,5 @@
-//! Obstacles and objects that move: motions by hand, and what holds of what stands in spite of them.
+//! Moving obstacles and objects: motions computed by hand, and statements about static obstacles that hold in spite of
+//! them.
 
 use cplan_check_files::{CheckError, Input, check};
 
@@ -20,7 +21,7 @@ const WALL: &str = "[[obstacle]]\npolygon = [[4, -1], [6, -1], [6, 10], [4, 10]]
 const MOTIONS: [&str; 2] =
     ["{ velocity = [0.1, 0] }", "{ stops = [{ time = 0, at = [3, 3] }, { time = 1, at = [8, 8] }] }"];
 
-/// Something far off that moves.
+/// Returns a moving obstacle far away.
 fn cart(motion: &str) -> String {
     format!(
         "[[obstacle]]\nname = \"cart\"\ncircle = {{ center = [0, 0], radius = 0.1 }}\nat = [50, 50]\nmotion = {motion}\n"
@@ -37,7 +38,8 @@ fn certificate(answer: &str, evidence: &str) -> String {
 
 const BOUND: &str = r#""bound": {"to": [9, 1], "length": 8, "walls": [], "potentials": []}"#;
 
-/// Boxes all along the wall, a metre each: the square in the middle of one is deeper in the wall than it can move there.
+/// Returns boxes along the wall, one metre each. In the middle of each box, the square is deeper in the wall than it
+/// can move within the box.
 fn boxes() -> String {
     let stuck = |y: i32| {
         let above = y + 1;
@@ -46,7 +48,7 @@ fn boxes() -> String {
     format!(r#""boxes": [{}]"#, (0..9).map(stuck).collect::<Vec<_>>().join(", "))
 }
 
-/// Parts go by their number among the obstacles that stand, whatever moves before them in the file.
+/// Parts use the numbers of static obstacles, regardless of moving obstacles before them in the file.
 #[test]
 fn what_is_impossible_among_what_stands_is_so_among_more() {
     for motion in MOTIONS {
@@ -62,10 +64,10 @@ fn what_is_impossible_among_what_stands_is_so_among_more() {
     }
 }
 
-/// In eight seconds from the start to the goal, a metre a second.
+/// From the start to the goal in eight seconds, at a metre per second.
 const DRIVEN: &str = r#""motion": {"interpolation": ["linear"], "knots": [[0, 1, 1], [8, 9, 1]]}"#;
 
-/// What the checker says of a motion as it is given, among some obstacles.
+/// Judges a motion as given, among some obstacles.
 fn judged(obstacles: &str, evidence: &str) -> Result<String, CheckError> {
     let text = format!(r#"{{"format": "cplan certificate 1", "answer": "found", {evidence}}}"#);
     check(GANTRY, &format!("{ENDS}{obstacles}"), &text)
@@ -75,14 +77,16 @@ fn fails(judged: Result<String, CheckError>, with: &str) {
     assert!(matches!(&judged, Err(CheckError::Fails(why)) if why.contains(with)), "{judged:?}");
 }
 
-/// The square has its left side at `0.5 + t` and its right one at `1.5 + t`, the upper at 1.5. A disc of radius 0.1 comes down along x = 5.
+/// The left side of the square is at `0.5 + t`, its right side at `1.5 + t`, its upper side at 1.5. A disc of radius
+/// 0.1 moves down along x = 5.
 #[test]
 fn in_time_by_hand() {
     let disc = |motion: &str| {
         format!("[[obstacle]]\ncircle = {{ center = [0, 0], radius = 0.1 }}\nat = [5, 5]\nmotion = {motion}\n")
     };
     let falling = |from: &str| disc(&format!("{{ stops = [{{ time = 0, at = [5, {from}] }}], velocity = [0, -1] }}"));
-    // At 4.6 s the square is past it: then the disc's lowest point is at `from - 4.7`. At 3.4 s it comes, and the uppermost is at `from - 3.3`.
+    // At 4.6 s the square has passed: then the disc's lowest point is at `from - 4.7`. At 3.4 s it arrives: then the
+    // disc's highest point is at `from - 3.3`.
     for (from, is_free) in
         [("6.21", true), ("6.19", true), ("6.1", false), ("5", false), ("3.9", false), ("3.7", true), ("1.7", true)]
     {
@@ -93,7 +97,7 @@ fn in_time_by_hand() {
             fails(judged, "obstacle 0");
         }
     }
-    // It waits until it is time, and comes too late or is just there; it stays where the last stop is.
+    // The disc waits for its time, and arrives too late or just in time. It stays at its last stop.
     let late = |from: f64| {
         let until = from + 4.0;
         disc(&format!("{{ stops = [{{ time = {from:?} }}, {{ time = {until:?}, at = [5, 1] }}] }}"))
@@ -101,7 +105,7 @@ fn in_time_by_hand() {
     judged(&late(1.3), DRIVEN).unwrap();
     fails(judged(&late(1.0), DRIVEN), "obstacle 0");
     fails(judged(&disc("{ stops = [{ time = 0 }, { time = 1, at = [5, 1] }] }"), DRIVEN), "obstacle 0");
-    // With it, ever in front, it goes; a little slower it is run into.
+    // The disc moves ahead of the square at the same speed. At a lower speed the square hits it.
     let ahead = |speed: &str| disc(&format!("{{ stops = [{{ time = 0, at = [1.7, 1] }}], velocity = [{speed}, 0] }}"));
     judged(&ahead("1"), DRIVEN).unwrap();
     fails(judged(&ahead("0.98"), DRIVEN), "obstacle 0");
@@ -109,18 +113,18 @@ fn in_time_by_hand() {
     let later = DRIVEN.replace("[[0,", "[[2,").replace("[8,", "[10,");
     judged(&falling("6.19"), &later).unwrap();
     fails(judged(&falling("5"), &later), "obstacle 0");
-    // What begins around it.
+    // An obstacle that surrounds the square initially.
     let around =
         "[[obstacle]]\npolygon = [[-3, -3], [3, -3], [3, 3], [-3, 3]]\nat = [1, 1]\nmotion = { velocity = [1, 0] }\n";
     fails(judged(around, DRIVEN), "inside obstacle 0");
-    // Numbers go on after those that stand.
+    // Numbers of moving obstacles follow those of static ones.
     let post = "[[obstacle]]\ncircle = { center = [5, 9], radius = 1 }\n";
     fails(judged(&format!("{}{post}", falling("5")), DRIVEN), "obstacle 1");
-    // A bound is about what stands.
+    // A bound is about static obstacles.
     judged(&falling("7"), &format!("{DRIVEN}, {BOUND}")).unwrap();
 }
 
-/// A bar from 2 m on one side of a pivot above the square's way to 2 m on the other.
+/// A bar, 2 m to each side of a pivot above the square's path.
 #[test]
 fn what_turns() {
     let bar = |stops: &str| {
@@ -129,15 +133,15 @@ fn what_turns() {
     };
     judged(&bar("{ time = 0 }"), DRIVEN).unwrap();
     fails(judged(&bar("{ time = 0, angle = \"90deg\" }"), DRIVEN), "obstacle 0");
-    // One end comes down behind the square, or upon it.
+    // One end comes down behind the square, or onto it.
     judged(&bar("{ time = 5 }, { time = 6, angle = \"90deg\" }"), DRIVEN).unwrap();
     fails(judged(&bar("{ time = 5 }, { time = 6, angle = \"-90deg\" }"), DRIVEN), "obstacle 0");
-    // After half a turn it is as before; not on the way.
+    // After half a turn the bar is as before, but not during the turn.
     judged(&bar("{ time = 9 }, { time = 10, angle = \"180deg\" }"), DRIVEN).unwrap();
     fails(judged(&bar("{ time = 3 }, { time = 4, angle = \"180deg\" }"), DRIVEN), "obstacle 0");
 }
 
-/// Bottles on a belt along y = 4, picked at the corner of their frame that the tip goes to, and brought to where they are put down.
+/// Bottles on a belt along y = 4. The tip picks each at the corner of its frame, and carries it to its target.
 #[test]
 fn picks_of_what_moves() {
     let world = |step: &str| {
@@ -160,7 +164,8 @@ fn picks_of_what_moves() {
     fails(judged("", "5.01, 4", "5"), "misses the target");
     fails(judged("window = [1, 3.9]", "5, 4", "5"), "outside its window");
     fails(judged("at = [5.1, 4]", "5, 4", "5"), "not picked where it is to be then");
-    // The second bottle runs into the arm while it stands at the first, unless that goes in time: its square begins at x = 5.5.
+    // The second bottle hits the arm while it rests at the first one, unless the arm leaves in time: its square begins
+    // at x = 5.5.
     let second = "[[object]]\nname = \"other\"\ncircle = { center = [0, 0], radius = 0.1 }\nat = [10.5, 4]\nmotion = { velocity = [-1, 0] }\n";
     let both = |late: &str| check(GANTRY, &format!("{}{second}", world("")), &done("5, 4", late));
     both("4.5").unwrap();

@@ -1,4 +1,4 @@
-//! The robot's own body: links that stand still and links that joint 1 carries are obstacles for other links.
+//! The robot's own body: static links, and links that joint 1 carries, are obstacles for other links.
 
 #[path = "common/scara.rs"]
 mod scara;
@@ -34,9 +34,9 @@ fn a_base_is_hit_and_passed_over() {
     let block = "[[obstacle]]\npolygon = [[-0.2, -0.15], [0.2, -0.15], [0.2, 0.15], [-0.2, 0.15]]\n";
     let among = |heights: &str| told(check(&bare, &format!("{}{block}{heights}", world("")), &folded("")));
     fails(among("height = [0, 0.3]"), &["obstacle 0"]);
-    // The upper arm begins at 0.25 m, and is no neighbour of an obstacle.
+    // The upper arm begins at 0.25 m, and is not a neighbour of an obstacle.
     holds(among("height = [0, 0.24]"));
-    // Folded less, the quill stays beside the base, by less than 0.3 m.
+    // Folded less, the quill stays beside the base, at less than 0.3 m.
     let turned = |extra: &str| judged(&scara(0.1), "", &folded(extra).replace("2.8]]", "2.2]]"));
     holds(turned(r#""goal": [-1, 2.2],"#));
     fails(turned(r#""goal": [-1, 2.2], "clearance": 0.3,"#), &HIT);
@@ -84,11 +84,11 @@ fn a_leaning_base_is_as_wide_as_it_is() {
     fails(judged(&leaning("1.2 0 0"), "", &folded(r#""clearance": 0.0485,"#)), &HIT);
 }
 
-/// Neighbours may overlap. A link without a shape separates no neighbours.
+/// Neighbours may overlap. A link without a shape does not separate neighbours.
 #[test]
 fn neighbours_may_meet() {
     let sunk = scara(0.31).replacen("size=\"0.4 0.3 0.3\"", "size=\"0.4 0.3 0.6\"", 1);
-    // Up to 0.45 m high, the base is in the way of the quill, and not of the forearm.
+    // Up to 0.45 m high, the base blocks the quill, but not the forearm.
     fails(judged(&sunk, "", &folded("")), &["link \"quill\""]);
     holds(judged(&sunk, "ignore_contact = [[\"base\", \"quill\"]]", &folded("")));
     let higher = sunk.replacen("0.4 0.3 0.6", "0.4 0.3 0.62", 1);
@@ -97,15 +97,16 @@ fn neighbours_may_meet() {
     // If the upper arm has no shape, base and forearm are neighbours.
     let bare = higher.replacen("size=\"0.6 0.1 0.2\"", "size=\"0 0 0\"", 1);
     holds(judged(&bare, ignored, &folded("")));
-    // A link beside the base is no neighbour of the upper arm: the base is between them.
+    // A link beside the base is not a neighbour of the upper arm: the base is between them.
     let shape =
         r#"<collision> <origin xyz="0.1 -0.2 0.35"/> <geometry> <sphere radius="0.05"/> </geometry> </collision>"#;
     fails(judged(&beside(&scara(0.31), "fixed", shape), "", &folded("")), &["link \"upper\"", "link \"box\""]);
-    // On a joint of its own, its place is unknown.
+    // On a joint of its own, its position is unknown.
     holds(judged(&beside(&scara(0.31), "prismatic", shape), "joints = [\"a\", \"b\"]", &folded("")));
 }
 
-/// The visual shapes of a link count if it has no collision shapes, whatever other links have. A mesh of the base that cannot be read is reported.
+/// The visual shapes of a link count if it has no collision shapes, regardless of other links. An unreadable mesh of
+/// the base is reported.
 #[test]
 fn each_link_has_its_visual_shapes_by_itself() {
     let of = |link: &str, urdf: &str| {
@@ -196,7 +197,7 @@ fn proofs_name_links_that_stand_still() {
     fails(judged(&small, LIMITS, &certificate), &["can come off"]);
 }
 
-/// A carried object must not hit links that stand still.
+/// A carried object must not hit static links.
 #[test]
 fn what_is_carried_stays_off_the_base() {
     let base = r#"<link name="base"> <collision> <origin xyz="2 0.87 0"/> <geometry> <sphere radius="0.04"/> </geometry> </collision> </link>"#;
@@ -228,7 +229,7 @@ fn what_is_carried_stays_off_the_base() {
     fails(carried("0.1", "ignore_contact = [[\"base\", \"head\"]]"), &["what is carried"]);
 }
 
-/// A bar stands in for a link.
+/// A bar replaces a link.
 #[test]
 fn bars_are_kept_apart() {
     let bare = scara(0.2).replacen("<collision>", "<lamp>", 4).replacen("</collision>", "</lamp>", 4);
@@ -242,7 +243,7 @@ fn bars_are_kept_apart() {
     holds(judged(&high("0.4 0.3 0.4"), "bar = 0.05", &folded("")));
 }
 
-/// A SCARA whose elbow goes all round, and whose upper arm is as wide as this.
+/// Returns a SCARA with a continuous elbow, and an upper arm of this width.
 fn turning(lowest: f64, wide: f64) -> String {
     let upper = scara(lowest).replacen("0.6 0.1 0.2", &format!("0.6 {wide} 0.2"), 1);
     upper.replacen("name=\"b\" type=\"revolute\"", "name=\"b\" type=\"continuous\"", 1)
@@ -268,13 +269,13 @@ fn the_upper_arm_is_hit_and_passed_over() {
         holds(fold(&turning(lowest, 0.1), "ignore_contact = [[\"upper\", \"quill\"]]", round, &goal(4.0)));
     }
     holds(fold(&turning(0.45, 0.1), "", round, &goal(4.0)));
-    // 0.45 sin(2.8) - 0.02 - 0.05 = 0.0807 beside it, wherever the shoulder is.
+    // 0.45 sin(2.8) - 0.02 - 0.05 = 0.0807 beside it, for any shoulder.
     for (clearance, is_free) in [(0.08, true), (0.081, false)] {
         let extra = format!("{}\"clearance\": {clearance},", goal(2.8));
         let (code, said) = fold(&turning(0.35, 0.1), "", "[0, -1, 0], [1, 1, 2.8]", &extra);
         assert_eq!(code, if is_free { 0 } else { 3 }, "{clearance}: {said}");
     }
-    // It is let through only if they overlap where the motion begins.
+    // The pair may be ignored only if it overlaps where the motion begins.
     let ignored = format!(r#"{} "ignored": [["quill", "upper"]],"#, goal(4.0));
     fails(fold(&turning(0.35, 0.1), "", round, &ignored), &["do not overlap where the motion begins"]);
     let wide = turning(0.35, 2.5).replacen("0.6 2.5 0.2", "2.5 2.5 0.2", 1);
@@ -283,7 +284,7 @@ fn the_upper_arm_is_hit_and_passed_over() {
     assert!(said.contains("\"quill\" and \"upper\" is ignored"), "{said}");
 }
 
-/// If joint 1 slides, the carriage is an obstacle for what the elbow swings, wherever it is.
+/// If joint 1 slides, the carriage is an obstacle for everything that the elbow moves, at any carriage position.
 #[test]
 fn a_carriage_is_hit_wherever_it_slides() {
     let slides = turning(0.35, 0.1).replacen("name=\"a\" type=\"revolute\"", "name=\"a\" type=\"prismatic\"", 1);
@@ -300,7 +301,7 @@ fn a_carriage_is_hit_wherever_it_slides() {
 
 const UPPER: &str = r#"{"own": "upper", "collision": 0}"#;
 
-/// Whether a part of the upper arm is met depends on the elbow alone: a box may be as wide as the shoulder goes.
+/// Contact with a part of the upper arm depends on the elbow alone, so a box may be as wide as the shoulder's range.
 #[test]
 fn proofs_name_links_that_joint_1_carries() {
     let proof = |boxes: &[f64], shape: &str, part: &str| {
@@ -343,7 +344,8 @@ fn proofs_name_links_that_joint_1_carries() {
     fails(judged(&turning(0.35, 0.5), LIMITS, &ignored), &["may meet link \"upper\""]);
 }
 
-/// What is held rigidly turns with the forearm. What is held level turns beside the upper arm, and needs room all round.
+/// A rigidly held object turns with the forearm. A level object turns relative to the upper arm, and needs space all
+/// around.
 #[test]
 fn what_is_carried_stays_off_the_upper_arm() {
     let carried = |long: f64, elbow: f64, robot: &str| {

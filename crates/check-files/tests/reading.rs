@@ -1,22 +1,22 @@
-//! What the documentation says of how much there is to read.
+//! Checks the documentation's statements about the amount of code to read.
 
 use std::collections::BTreeSet;
 use std::path::Path;
 
-/// Greatest number of lines that an answer about one motion may rest on: as much as can be read in a few days.
+/// Maximum number of lines that an answer about one motion may depend on: as much as can be read in a few days.
 const MOST: usize = 3300;
 
-/// Greatest number of lines of the crate that judges.
+/// Maximum number of lines of the crate that judges.
 const MOST_OF_THE_JUDGE: usize = 3000;
 
-/// Lines of code of a file, without comments and tests.
+/// Counts the lines of code of a file, without comments and tests.
 fn lines(path: &Path) -> usize {
     let text = std::fs::read_to_string(path).unwrap_or_else(|why| panic!("{}: {why}", path.display()));
     let code = text.split("#[cfg(test)]").next().unwrap().lines().map(str::trim);
     code.filter(|line| !line.is_empty() && !line.starts_with("//")).count()
 }
 
-/// All files of a folder, as the table names them.
+/// Returns all files of a folder, named as in the table.
 fn sources(folder: &Path, root: &Path) -> BTreeSet<String> {
     let mut found = BTreeSet::new();
     for entry in std::fs::read_dir(folder).unwrap() {
@@ -30,7 +30,8 @@ fn sources(folder: &Path, root: &Path) -> BTreeSet<String> {
     found
 }
 
-/// The numbers of a table, which names each file of a crate once and is off by no more than a twentieth; and the lines of all files.
+/// Returns the numbers of a table, and the lines of all files. The table must name each file of a crate once, and be
+/// off by at most a twentieth.
 fn numbers(section: &str, folder: &str) -> (Vec<usize>, usize) {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(folder).join("src");
     let heading = format!("| subject | files in `crates/{folder}/src` | lines |\n");
@@ -61,7 +62,7 @@ fn the_page_says_how_much_there_is_to_read() {
     let (judge, all) = numbers(section, "check");
     let (files, _) = numbers(section, "check-files");
     assert!(all <= MOST_OF_THE_JUDGE, "{all} lines judge one motion");
-    // What it says of sums is of the same rows, and no answer about one motion grows beyond what the page says.
+    // Stated sums use the same rows, and no answer about one motion may exceed the number on the page.
     let below: usize = judge[..3].iter().chain(&files[..3]).sum();
     let answers = [(judge[3], "on 2 828 lines"), (judge[4], "on 3 118"), (judge[3] + judge[5], "on 3 294")];
     for (answer, said) in answers {

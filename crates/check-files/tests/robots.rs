@@ -1,5 +1,5 @@
-//! Robots in space, held to kinematics in floating point that share nothing with the checker: planes along any directions, frames turned by
-//! angles and quaternions, joints that are held, and joints that mimic these.
+//! Robots in space, compared with separate floating-point kinematics: planes along any directions, frames turned by
+//! angles and quaternions, held joints, and joints that mimic these.
 
 use cplan_cases as random;
 
@@ -42,7 +42,7 @@ fn vector(dice: &mut Dice, size: f64) -> V {
     [0; 3].map(|_| dice.within(-size, size))
 }
 
-/// A turn, and the attribute of an origin that says it: of any angles up to this.
+/// Returns a random rotation, and the attribute of an origin that states it. The angles are at most `most`.
 fn turn(dice: &mut Dice, most: f64) -> (Turn, String) {
     if most > 1.0 && dice.chance(0.5) {
         let q = [0; 4].map(|_| dice.within(-2.0, 2.0));
@@ -63,24 +63,24 @@ fn turn(dice: &mut Dice, most: f64) -> (Turn, String) {
     };
     (after(&after(&about(2, y), &about(1, p)), &about(0, r)), format!("rpy=\"{r} {p} {y}\""))
 }
-/// Where an arm has its tip, in the plane's coordinates, and its URDF and world.
+/// A random arm: its tip in the plane's coordinates, its URDF and its world.
 struct Drawn {
     urdf: String,
     world: String,
     /// Origins of the joints, and the tip, with both joints at 0.
     at: [[f64; 2]; 3],
-    /// Of each joint whether it slides, and its direction in the plane, or which way it turns.
+    /// For each joint: the direction of its slide in the plane, or the sign of its rotation.
     joints: [Result<[f64; 2], f64>; 2],
 }
 
 impl Drawn {
     fn new(dice: &mut Dice, kind: u64) -> Self {
         let slides = [kind / 2 == 1, kind % 2 == 1];
-        // A mounting on a wall, or one that is to be none.
+        // A mounting on a wall, or one that is level up to tolerances.
         let most = if dice.chance(0.3) { 3e-4 } else { 3.0 };
         let (mounting, mounted) = turn(dice, most);
         let base = vector(dice, 0.5);
-        // Axes as the frame of the mounting has them: along its z, or across that.
+        // Axes in the frame of the mounting: along its z, or perpendicular to it.
         let axis_of = |dice: &mut Dice, slides: bool| {
             let angle = dice.within(-3.0, 3.0);
             let way = if dice.chance(0.7) { 1.0 } else { -1.0 };
@@ -120,7 +120,7 @@ impl Drawn {
             text(tip),
         );
         let world = format!("[robot]\njoints = [\"a\", \"b\"]\nfixed = {{ held = {held} }}\n");
-        // All in the root frame.
+        // Everything in the root frame.
         let axes = axes.map(|axis| turned(&mounting, axis));
         let shifts = plus(plus([0.0; 3], unit(hold), held), unit(follow), by * held + more);
         let second = plus(base, turned(&mounting, plus(elbow, shifts, 1.0)), 1.0);
@@ -155,7 +155,7 @@ impl Drawn {
     }
 }
 
-/// The directions of the plane's coordinates in the root frame.
+/// Returns the directions of the plane's coordinates in the root frame.
 fn coordinates(axes: [V; 2], slides: [bool; 2]) -> [V; 2] {
     let normal = match slides {
         [false, _] => axes[0],
@@ -182,7 +182,7 @@ fn robots_are_where_their_kinematics_have_them() {
         let q = [dice.within(-2.9, 2.9), dice.within(-2.9, 2.9)];
         let [x, y] = drawn.tip(q);
         let (angle, radius) = (dice.within(-3.0, 3.0), dice.within(0.01, 0.3));
-        // Nearer or farther than the sum of the radii by very little.
+        // Slightly nearer or farther than the sum of the radii.
         let apart = 10_f64.powf(dice.within(-9.0, -1.0)) * if dice.chance(0.5) { 1.0 } else { -1.0 };
         let far = 0.1 + radius + apart;
         let [a, b] = [x + far * angle.cos(), y + far * angle.sin()];
@@ -210,7 +210,7 @@ fn robots_are_where_their_kinematics_have_them() {
     assert!(free > 0 && hit > 0, "{free} {hit}");
 }
 
-/// Axes that are farther off one another than what counts as one direction form no plane.
+/// Axes that differ by more than the tolerance of equal directions form no plane.
 #[test]
 fn joints_without_a_common_plane_are_refused() {
     let arm = |second: &str, kind: &str| {

@@ -2,7 +2,7 @@
 
 use cplan_check_files::{CheckError, check};
 
-/// A gantry: the tip is at the joints' values. A small head, on a bridge that is smaller still.
+/// A gantry with the tip at the joints' values. It has a small head, on an even smaller bridge.
 const GANTRY: &str = r#"<robot name="g">
   <link name="base"/>
   <joint name="x" type="prismatic">
@@ -35,7 +35,7 @@ fn certificate(knots: &str, steps: &str) -> String {
     )
 }
 
-/// Whether it holds, by its exit code, and what is said.
+/// Judges a certificate, and returns the exit code and the message.
 fn judged(urdf: &str, world: &str, knots: &str, steps: &str) -> (i32, String) {
     match check(urdf, world, &certificate(knots, steps)) {
         Ok(said) => (0, said),
@@ -44,7 +44,7 @@ fn judged(urdf: &str, world: &str, knots: &str, steps: &str) -> (i32, String) {
     }
 }
 
-/// Of the block that is carried from (1, 1) to (3, 1), in a world with more in it.
+/// Judges the block that is carried from (1, 1) to (3, 1), in a world with additional content.
 fn carried(more: &str) -> (i32, String) {
     judged(GANTRY, &format!("{HEAD}{BLOCK}{more}{STEPS}"), KNOTS, DONE)
 }
@@ -104,7 +104,7 @@ fn everything_is_where_it_is_asked_for_up_to_a_hair() {
     ] {
         fails(at(old, new), "by more than 1e-5");
     }
-    // What is picked aside of where it is asked for lies beside where it is to be.
+    // An object that is picked beside its intended point ends up beside its target.
     fails(
         at(
             "1, 1, 1], [2, 1, 1], [3, 3, 1], [4, 3, 1]",
@@ -126,7 +126,7 @@ fn what_is_carried_stays_off_what_the_arm_alone_passes() {
             format!("[[object]]\nname = \"other\"\ncircle = {{ center = [0, 0], radius = 0.1 }}\nat = [2, {y}]\n");
         assert_eq!(carried(&other).0, code);
     }
-    // 0.1 m from the tip's way: the clearance decides.
+    // 0.1 m from the tip's path: the clearance decides.
     let wall = "[[obstacle]]\npolyline = [[2.5, 0.8], [3.5, 0.8]]\n";
     holds(carried(wall));
     let world = |clearance: &str| format!("clearance = {clearance}\n{HEAD}{BLOCK}{wall}{STEPS}");
@@ -136,7 +136,7 @@ fn what_is_carried_stays_off_what_the_arm_alone_passes() {
 
 #[test]
 fn the_target_may_be_touched_by_the_second_link_alone_and_other_objects_by_none() {
-    // The bridge runs along y = 0. What is carried may meet it.
+    // The bridge runs along y = 0. The carried object may touch it.
     let head = HEAD.replace("wrist =", "own_body = false, wrist =");
     let low = |y: f64| {
         let world = format!("{head}{BLOCK}{STEPS}").replace("[1, 1]", &format!("[1, {y}]"));
@@ -144,13 +144,13 @@ fn the_target_may_be_touched_by_the_second_link_alone_and_other_objects_by_none(
     };
     holds(low(0.2));
     fails(low(0.1), "link \"bridge\", collision 0 is not shown");
-    // From where it was placed the head may go on once, not come back.
+    // The head may leave the place of the released object once, but not return.
     let more = "[[step]]\nmove = { joints = [3, 1] }\n";
     let world = format!("{HEAD}{BLOCK}{STEPS}{more}");
     let knots = format!("{KNOTS}, [6, 3, 2], [7, 3, 1]");
     let done = format!("{DONE}, {{\"step\": 4, \"knots\": [6, 7]}}");
     fails(judged(GANTRY, &world, &knots, &done), "steps[3], step 4: from knot 6 to the next link \"head\"");
-    // The last step may end in what has just been let go of, and not with the bridge in it.
+    // The last step may end inside the released object, but not with the bridge inside it.
     let placed = |y: f64| {
         let steps = STEPS.split("[[step]]\nmove").next().unwrap().replace("[3, 1]", &format!("[3, {y}]"));
         let knots = KNOTS.split(", [4").next().unwrap().replace("[3, 3, 1]", &format!("[3, 3, {y}]"));
@@ -201,7 +201,7 @@ fn the_wrist_turns_what_it_carries() {
     let level = |world: String| judged(GANTRY, &world, KNOTS, &turned("1.5708"));
     fails(level(world("").replace(", wrist = { velocity = 1 }", "")), "there is no wrist");
     fails(level(world("").replace("\"level\"", "\"rigid\"")), "there is no wrist");
-    // A corner sweeps past 0.2236 m from the tip, at the angle of 26.6 degrees from each end.
+    // A corner sweeps past at 0.2236 m from the tip, at 26.6 degrees from each end.
     for (far, is_free) in [(0.2237, true), (0.2235, false)] {
         let [x, y] = [3.0 + far * 0.8, 1.0 + far * 0.6];
         let post = format!("[[obstacle]]\ncircle = {{ center = [{x}, {y}], radius = 1e-9 }}\n");
@@ -216,7 +216,7 @@ fn the_wrist_turns_what_it_carries() {
     holds(judged(GANTRY, &world(""), KNOTS, &before));
 }
 
-/// Two bars of 1 m and 0.8 m, of which the second reaches to the tip.
+/// Returns two bars of 1 m and 0.8 m. The second reaches to the tip.
 fn bars() -> String {
     let link = |name: &str, length: f64| {
         format!(
@@ -240,7 +240,8 @@ fn bars() -> String {
     )
 }
 
-/// Straight out it takes an object at (1.8, 0), and turns a quarter: the object comes to lie a quarter turned at (0, 1.8).
+/// Stretched out, the arm picks an object at (1.8, 0), and turns by a quarter. The object ends up at (0, 1.8), turned
+/// by a quarter.
 #[test]
 fn what_is_held_rigidly_turns_with_the_arm() {
     let world = |angle: &str, post: f64| {
@@ -259,11 +260,11 @@ fn what_is_held_rigidly_turns_with_the_arm() {
     holds(with(&world(", angle = \"90deg\"", 2.2)));
     fails(with(&world(", angle = 1.5708", 2.2).replace("1.5708", "1.5709")), "by more than 1e-5");
     fails(with(&world("", 2.105)), "what is carried");
-    // Kept level by a wrist its end does not get there.
+    // If a wrist keeps it level, its end does not reach there.
     holds(with(&world("", 2.105).replacen("start", "robot.payload = \"level\"\nstart", 1)));
 }
 
-/// Three discs on a pallet go to another, in any order, by pairs.
+/// Three discs on a pallet are moved to another, in any order, by pairs.
 #[test]
 fn pairs_in_free_order() {
     let pallet = |name: &str, y: f64| {
@@ -277,7 +278,7 @@ fn pairs_in_free_order() {
             pallet("tray", 2.0)
         )
     };
-    // Each from above, and back up: nothing lies at y = 3.
+    // Each is reached from above, and the arm returns upwards: nothing lies at y = 3.
     let done = |order: &[usize]| {
         let (mut knots, mut steps) = (vec!["[0, 0, 1]".to_owned(), "[1, 0, 0.5]".into()], Vec::new());
         for &k in order {
@@ -326,10 +327,10 @@ fn repetitions_find_a_new_object_where_it_is_renewed() {
             r#"{{"step": 1, "knots": [0, 1]}}, {{"step": 2, "knots": [1, 2]}}, {{"step": 1, "knots": [2, {last}]}}, {{"step": 2, "knots": [{last}, 8]}}"#
         )
     };
-    // The first lies where the second is to go: they are one object.
+    // The first object lies at the target of the second: they are one object.
     holds(judged(GANTRY, &world("renew = true\n"), again, &steps("5")));
     fails(judged(GANTRY, &world(""), again, &steps("5")), "steps[2], step 1: the motion misses the target");
-    // Without a new one it is picked where it lies.
+    // Without a new object, the same object is picked from where it lies.
     holds(judged(
         GANTRY,
         &world(""),
@@ -338,7 +339,7 @@ fn repetitions_find_a_new_object_where_it_is_renewed() {
     ));
 }
 
-/// The head goes through where the new one lies, which has the number of the one that it has just let go of.
+/// The head passes through the new object, which has the number of the object that was just released.
 #[test]
 fn a_new_object_is_not_the_one_that_was_let_go_of() {
     let side = "[[object]]\nname = \"pin\"\nat = [6, 5]\ncircle = { center = [0, 0], radius = 0.01 }\n";
@@ -350,12 +351,12 @@ fn a_new_object_is_not_the_one_that_was_let_go_of() {
     let knots = "[0, 0, 1], [1, 0, 3], [2, 5, 3], [3, 5, 1], [4, 5, 3], [5, 1, 3], [6, 1, 1], [7, 5, 1], [8, 1, 1]";
     let steps = r#"{"step": 1, "knots": [0, 3]}, {"step": 2, "knots": [3, 6]}, {"step": 3, "knots": [6, 6]},
                    {"step": 1, "knots": [6, 7]}, {"step": 2, "knots": [7, 8]}, {"step": 3, "knots": [8, 8]}"#;
-    // It leaves what it has let go of, and no other.
+    // The head may leave the released object, but no other.
     holds(judged(GANTRY, &world(""), knots, steps));
     fails(judged(GANTRY, &world("renew = true\n"), knots, steps), "link \"head\"");
 }
 
-/// The bridge stands in what is put down on it, before there is a new one elsewhere.
+/// The bridge overlaps the object after it is placed, before a new one appears elsewhere.
 #[test]
 fn what_is_renewed_lies_where_it_was_put_until_the_arm_goes_on() {
     let head = HEAD.replace("wrist =", "own_body = false, wrist =");
@@ -367,7 +368,7 @@ fn what_is_renewed_lies_where_it_was_put_until_the_arm_goes_on() {
     fails(judged(GANTRY, &world, knots, steps), "steps[2], step 1: link \"bridge\", collision 0 is inside obstacle 0");
 }
 
-/// Read as a cubic, a motion that goes on at the end of a step does not stand there.
+/// Read as a cubic, a motion that continues at the end of a step does not rest there.
 #[test]
 fn the_arm_stands_where_a_step_ends() {
     let played = |speed: &str| {
@@ -382,7 +383,8 @@ fn the_arm_stands_where_a_step_ends() {
     assert!(fails("0.5") && fails("1e-300"));
 }
 
-/// The wrist turns what is held about the tip, and the stroke lowers it: both carry the tip, and the wrist's axis goes through it.
+/// The wrist turns the carried object about the tip, and the stroke lowers it: both carry the tip, and the wrist's axis
+/// passes through it.
 #[test]
 fn the_tool_carries_the_tip() {
     let with = |wrist: &str, tip: &str| {
@@ -414,10 +416,10 @@ fn a_stroke_takes_the_tool_through_all_heights() {
     };
     let with = |robot: &str, height: &str| judged(GANTRY, &world(robot, height), KNOTS, DONE);
     let stroke = "stroke = { joint = \"z\" },";
-    // Between where it lies and where it is carried.
+    // Between where the object lies and where it is carried.
     holds(with("", "[0.1, 0.2]"));
     fails(with(stroke, "[0.1, 0.2]"), "what is carried");
-    // The quill's ball is at 0.49 to 0.51, and goes down by 0.3 or as far as is said.
+    // The quill's ball is at heights 0.49 to 0.51, and is lowered by 0.3 or by the stated travel.
     let beneath = |travel: &str| {
         let post = "[[obstacle]]\nheight = [0.3, 0.35]\ncircle = { center = [3, 1], radius = 0.001 }\n";
         let world = world(&format!("stroke = {{ joint = \"z\"{travel} }},"), "[7, 8]").replacen(
@@ -425,7 +427,7 @@ fn a_stroke_takes_the_tool_through_all_heights() {
             &format!("{post}[[step]]"),
             1,
         );
-        // Carried as high as the post the block would meet it.
+        // Carried as high as the post, the block would hit it.
         judged(GANTRY, &world.replace("lift = 0.3", "lift = 0.2"), KNOTS, DONE)
     };
     holds(beneath(", travel = 0.1"));
@@ -435,7 +437,7 @@ fn a_stroke_takes_the_tool_through_all_heights() {
     is_wrong(with("stroke = { joint = \"y\" },", "[0.1, 0.2]"), "does not move the tool along the normal");
 }
 
-/// Whatever way it is lowered, nothing may be where it is going to lie; what is beside that may.
+/// However the object is lowered, its target must be free. Things beside it are allowed.
 #[test]
 fn without_a_stroke_what_is_placed_is_free_where_it_lies() {
     let lying = |at: f64, height: &str| {
@@ -465,13 +467,13 @@ fn objects_that_are_not_convex() {
     let angle = "[[-0.2, -0.2], [0.2, -0.2], [0.2, -0.1], [-0.1, -0.1], [-0.1, 0.2], [-0.2, 0.2]]";
     let with = |more: &str| judged(GANTRY, &format!("{HEAD}{}{more}{STEPS}", block(angle)), KNOTS, DONE);
     holds(with(""));
-    // A long wall over the whole way is in the notch all the time, or in one arm.
+    // A long wall across the whole path is in the notch all the time, or hits one arm.
     let wall = |y: f64| {
         format!("[[obstacle]]\npolygon = [[1.7, {y}], [1.8, {y}], [1.8, {}], [1.7, {}]]\n", y + 0.01, y + 0.01)
     };
     fails(with(&wall(1.1)), "what is carried");
     holds(with(&wall(1.21)));
-    // Small things inside of it, which none of its sides touches.
+    // Small things inside the object. Its sides do not touch them.
     for inside in
         ["circle = { center = [1, 0.85], radius = 0.01 }", "polygon = [[0.99, 0.84], [1.01, 0.84], [1, 0.86]]"]
     {
@@ -481,8 +483,8 @@ fn objects_that_are_not_convex() {
     holds(with("[[obstacle]]\ncircle = { center = [1.05, 1.4], radius = 0.01 }\n"));
 }
 
-/// A block like a C, open to the right, over a rail that it takes into its slot. The arm reaches 1.01 m, so that sides beside right angles give
-/// way by 0.0714 mm.
+/// A block like a C, open to the right, over a rail that fits into its slot. The arm reaches 1.01 m, so sides beside
+/// right angles yield by 0.0714 mm.
 #[test]
 fn what_is_not_convex_presses_no_deeper_than_it_may() {
     let slotted =
@@ -511,7 +513,7 @@ fn what_is_not_convex_presses_no_deeper_than_it_may() {
             assert!(code == if is_free { 0 } else { 3 }, "{y}: {said}");
             assert!(is_free || said.contains("no deeper than it may press into obstacle 0"), "{y}: {said}");
         }
-        // It may touch it, and not hold it inside.
+        // The object may touch the button, but must not contain it.
         let button = "circle = { center = [1, 1.1], radius = 1e-6 }";
         fails(over(&slotted, button, true), "obstacle 0 is inside what is carried");
     }
@@ -549,6 +551,6 @@ fn worlds_that_ask_for_nothing_that_is_known() {
     ] {
         is_wrong(with(old, new), part);
     }
-    // As many repetitions as there can be are not looked for one by one.
+    // Huge numbers of repetitions are not expanded one by one.
     fails(with("[[step]]\npick", "[task]\nrepeat = 900000000000000\n[[step]]\npick"), "there are no more");
 }

@@ -1,4 +1,4 @@
-//! An arm in the plane, as it is read from a robot's file.
+//! A planar arm, as read from a robot's file.
 
 use crate::certificate::Certificate;
 use crate::domain::{Axis, Domain, Range};
@@ -8,57 +8,57 @@ use crate::mover::{Cell, Mover};
 use crate::obstacle::Obstacle;
 use crate::shapes::{Body, Counted, Outline};
 
-/// How a joint moves what it carries, in the plane.
+/// Planar motion that a joint gives to the links beyond it.
 #[derive(Debug, Clone)]
 pub enum Motion {
-    /// By its value, left (1) or right (-1).
+    /// Rotation by the joint's value, to the left (1) or to the right (-1).
     Turn(i32),
-    /// Along a direction of unit length.
+    /// Translation along a direction of unit length.
     Slide(Point),
 }
 
 /// One of the two joints.
 pub struct Joint {
-    /// Its name in the robot's file.
+    /// Name in the robot's file.
     pub name: String,
-    /// How it moves what it carries.
+    /// Motion that the joint gives to the links beyond it.
     pub motion: Motion,
-    /// What holds all its values, ...
+    /// Set of all values of the joint.
     pub axis: Axis,
-    /// ... and what they are known to be within, if they have limits.
+    /// Enclosure of the limits, if the joint has limits.
     pub within: Option<Range>,
 }
 
-/// An arm in the plane. Where its parts are is said for both joints at 0.
+/// A planar arm. All positions are given with both joints at 0.
 pub struct Arm {
     /// The two joints. The first carries the second.
     pub joints: [Joint; 2],
-    /// Origin of the first joint.
+    /// Origin of the first joint, in plane coordinates.
     pub base: Point,
-    /// Origin of the second joint as seen from the first.
+    /// Origin of the second joint, in the frame of the first.
     pub offset: Point,
     /// All values of both joints.
     pub domain: Domain,
-    /// The link whose origin is the tip, ...
+    /// Link whose origin is the tip.
     pub tip_link: String,
-    /// ... and the tip as a body without extent.
+    /// The tip as a body without extent.
     pub tip: Body,
-    /// All that can collide, ...
+    /// All shapes that can collide.
     pub shapes: Vec<Counted>,
-    /// ... shapes of the robot that others of its links can hit: of links that stand still, and of those that joint 1 carries, in the plane where they
-    /// are with joint 1 at zero, ...
+    /// Shapes of the robot that its other links can hit: those of static links, and those that joint 1 carries. The
+    /// latter are placed in the plane as with joint 1 at zero.
     pub bases: Vec<Counted>,
-    /// ... and the obstacles that they make.
+    /// Obstacles made from these shapes.
     pub own: Vec<Obstacle>,
-    /// What is taken to be otherwise than the robot's file has it, in words.
+    /// Sentences for messages: assumptions that differ from the robot's file.
     pub notes: String,
 }
 
 impl Arm {
-    /// Lets the pairs of links collide that the certificate ignores.
+    /// Ignores contact between the pairs of links that the certificate lists.
     ///
     /// # Errors
-    /// When a pair does not overlap where the motion begins.
+    /// If a pair does not overlap where the motion begins.
     pub fn ignore(&mut self, certificate: &Certificate) -> Result<(), CheckError> {
         let first = certificate.motion.as_ref().and_then(|motion| motion.knots.first()?.get(1..3));
         let cell = first.map(|q| Cell::from(&[0, 1].map(|k| [q[k].clone(), q[k].clone()])));

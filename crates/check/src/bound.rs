@@ -1,8 +1,9 @@
-//! That no motion is shorter than some length.
+//! Proof that no motion is shorter than some length.
 //!
-//! Walls are straight segments of configurations all along which a shape is too near a part of an obstacle. A shortest way past
-//! them goes straight from corner to corner, which are ends of walls. Each corner gets a *potential*: no way from the start is claimed to
-//! reach it sooner. It remains to be seen that a straight leg that no wall crosses is at least as long as the potential grows along it.
+//! Walls are straight segments of configurations. All along a wall, a shape is too near a part of an obstacle. A
+//! shortest path around walls runs straight from corner to corner, where corners are ends of walls. Each corner has a
+//! *potential*: a claimed lower bound on the length of any path from the start to it. The check shows that each
+//! straight leg that no wall crosses is at least as long as the potential grows along it.
 
 mod metric;
 mod places;
@@ -19,13 +20,13 @@ use crate::mover::{self, Mover};
 use crate::world::World;
 use plane::Plane;
 
-/// Looks along a wall at the most.
+/// Maximum number of overlap tests along a wall.
 const MOST_LOOKS: usize = 20_000;
 
-/// How often a wall is halved at the most.
+/// Maximum number of times that a wall is halved.
 const MOST_CUTS: u32 = 60;
 
-/// That no motion from the start to a configuration is shorter than a length.
+/// Checks that no motion from the start to a configuration, or to the goal, is shorter than a length.
 pub fn no_shorter(arm: &Arm, world: &World, certificate: &Certificate) -> Result<String, CheckError> {
     let Some(bound) = &certificate.bound else {
         return Err(CheckError::in_file(Input::Certificate, "it has no bound"));
@@ -63,9 +64,11 @@ pub fn no_shorter(arm: &Arm, world: &World, certificate: &Certificate) -> Result
     ))
 }
 
-/// Whether a shape and a part are seen to overlap all along a wall: it is halved until each piece is, as a box, or there were too many looks.
+/// Returns true if a shape and a part provably overlap all along a wall. The wall is halved until the overlap is shown
+/// for each piece, taken as a box, or until there were too many tests.
 ///
-/// A shape that only slides along the wall overlaps another at a convex set of places: then its ends are enough.
+/// If a shape only slides along the wall, the configurations in which it overlaps the part form a convex set. Then the
+/// ends of the wall suffice.
 fn closes(arm: &Arm, wall: &Wall, &Pair { body, part, beside }: &Pair) -> bool {
     let [from, to] = [&wall.from, &wall.to].map(|end| end.each_ref().map(Interval::from));
     let along = minus(&to, &from);
@@ -79,7 +82,7 @@ fn closes(arm: &Arm, wall: &Wall, &Pair { body, part, beside }: &Pair) -> bool {
     let (mut left, mut last) = (vec![(0, 0)], 0);
     for _ in 0..MOST_LOOKS {
         let Some((k, cuts)) = left.pop() else { return true };
-        // What is much longer than the piece before is not looked at.
+        // A piece much longer than the one before is not tested: it would probably fail.
         if cuts + 1 >= last && mover.overlaps(part, &cell(&from, &along, k, cuts)) {
             last = cuts;
         } else if cuts < MOST_CUTS {

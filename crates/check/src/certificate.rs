@@ -18,56 +18,56 @@ use serde::Deserialize;
 use serde::de::IgnoredAny;
 use serde_json::value::RawValue;
 
-/// What certificates of this form begin with.
+/// Value of `format` in certificates of this form.
 pub const FORMAT: &str = "cplan certificate 1";
 
-/// A certificate: what was asked, and the evidence for the answer. Numbers are exact.
+/// A certificate: the query, and the evidence for the answer. Numbers are exact.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Certificate {
     format: String,
-    /// What is certified.
+    /// The statement that is certified.
     pub answer: Answer,
-    /// The SHA-256 of the robot's file that it is about, in hex, ...
+    /// SHA-256 of the robot's file, in hex.
     pub urdf: Option<String>,
-    /// ... of the world's, ...
+    /// SHA-256 of the world file, in hex.
     pub world: Option<String>,
-    /// ... and of those that these name.
+    /// SHA-256 of the files that the robot and the world refer to, in hex.
     pub others: Option<Vec<String>>,
-    /// The two joints, if the world does not say them.
+    /// The two joints, if the world does not name them.
     pub joints: Option<[String; 2]>,
-    /// The start, where it was not the world's own.
+    /// The start, if it is not the world's.
     pub start: Option<[Decimal; 2]>,
-    /// The goal, likewise.
+    /// The goal, if it is not the world's.
     pub goal: Option<[Decimal; 2]>,
-    /// The goal as a place of the tip, likewise.
+    /// The goal as a tip position, if it is not the world's.
     pub goal_tip: Option<Corner>,
-    /// The clearance, likewise.
+    /// The clearance, if it is not the world's.
     pub clearance: Option<Decimal>,
-    /// That there is a motion.
+    /// Evidence for "found": the motion.
     pub motion: Option<Motion>,
-    /// Of a task: which part of it does which step.
+    /// For a task: the part of the motion that executes each step.
     pub steps: Option<Vec<Done>>,
     /// Pairs of links that overlap in every configuration.
     #[serde(default)]
     pub ignored: Vec<[String; 2]>,
-    /// Shapes that evidence names.
+    /// Shapes that the evidence refers to.
     #[serde(default)]
     pub shapes: Vec<ShapeName>,
-    /// Parts that evidence names.
+    /// Parts that the evidence refers to.
     #[serde(default)]
     pub parts: Vec<PartName>,
-    /// That there is no motion; or what is no goal of a bound, because it is not free.
+    /// Evidence that there is no motion. With a bound: configurations excluded from the goal because they are not free.
     pub boxes: Option<Vec<StuckBox>>,
-    /// That none is shorter.
+    /// Evidence that no motion is shorter.
     pub bound: Option<Bound>,
 }
 
 impl Certificate {
-    /// The clearance that is asked for.
+    /// Returns the required clearance.
     ///
     /// # Errors
-    /// A negative one.
+    /// If it is negative.
     pub fn clearance<'a>(&'a self, world: &'a World) -> Result<&'a Decimal, CheckError> {
         let clearance = self.clearance.as_ref().unwrap_or(&world.clearance);
         if *clearance < Decimal::whole(0) {
@@ -77,39 +77,39 @@ impl Certificate {
     }
 }
 
-/// What is certified.
+/// The statement that is certified.
 #[derive(Deserialize, PartialEq)]
 #[serde(rename_all = "snake_case")]
 pub enum Answer {
-    /// A motion.
+    /// There is a motion.
     Found,
-    /// That there is none.
+    /// There is no motion.
     Infeasible,
-    /// That none is shorter.
+    /// No motion is shorter.
     NoShorter,
 }
 
-/// A result of cplan, as far as it matters here.
+/// The part of a cplan result that matters here.
 #[derive(Deserialize)]
 struct Containing<'a> {
     #[serde(borrow)]
     certificate: &'a RawValue,
 }
 
-/// A proof that a task is infeasible, which earlier versions of cplan wrote.
+/// A proof that a task is infeasible, as earlier versions of cplan wrote it.
 #[derive(Deserialize)]
 struct TaskProof {
     #[serde(rename = "cases")]
     _cases: IgnoredAny,
 }
 
-/// Reads a certificate, or the one in a result of cplan.
+/// Reads a certificate, or the certificate within a result of cplan.
 ///
 /// # Errors
-/// What is none, or of another form; a proof that a task is infeasible.
+/// If the text is not a certificate, has another format, or is a proof that a task is infeasible.
 pub fn read(text: &str) -> Result<Certificate, CheckError> {
     let text = serde_json::from_str::<Containing>(text).map_or(text, |result| result.certificate.get());
-    // Such a proof has keys elsewhere, too, that are unknown by now.
+    // Such a proof also has other keys that are unknown today.
     if serde_json::from_str::<TaskProof>(text).is_ok() {
         let message = "it has \"cases\" that prove a task infeasible: the checker does not judge proofs about tasks; \
                        the result of cplan states the reason";

@@ -1,4 +1,4 @@
-//! The shapes and the parts of obstacles that evidence names, and whether they overlap.
+//! The shapes and the obstacle parts that evidence refers to, and whether they overlap.
 
 use crate::arm::Arm;
 use crate::certificate::{Certificate, PartName, ShapeName, StuckBox};
@@ -13,39 +13,40 @@ use crate::world::World;
 
 mod own;
 
-/// The link that a part is of, if it is of the robot; its shape and its heights.
+/// A part before growing: its link if it belongs to the robot, its shape and its heights.
 type Evident = (Option<Owner>, Shape, Option<Range>);
 
-/// Hint for parts that name nothing, or too much.
+/// Hint for parts that refer to nothing, or to more than one thing.
 const PART: &str = "a part names an obstacle, or by \"own\" a link of the robot and one of its shapes";
 
-/// A part of an obstacle, or a link of the robot, that evidence names, grown by the clearance.
+/// A part of an obstacle or a link of the robot that evidence refers to, grown by the clearance.
 struct Part {
-    /// The link that it is of, if it is of the robot.
+    /// The link, if the part belongs to the robot.
     link: Option<Owner>,
     shape: Shape,
     heights: Option<Range>,
 }
 
-/// A shape and a part that can meet.
+/// A shape and a part that can collide.
 pub struct Pair<'a> {
     pub body: &'a Body,
     pub part: &'a Shape,
-    /// The link that the part is of, if it is of the robot: then [`Cell::beside`] is the box to look in.
+    /// The link, if the part belongs to the robot. Then the overlap must be tested in the box that [`Cell::beside`]
+    /// returns.
     pub beside: Option<&'a Owner>,
 }
 
-/// All shapes and parts that a certificate names.
+/// All shapes and parts that a certificate refers to.
 pub struct Contacts<'a> {
     shapes: Vec<&'a Counted>,
     parts: Vec<Part>,
 }
 
 impl<'a> Contacts<'a> {
-    /// Finds all shapes and parts that a certificate names.
+    /// Finds all shapes and parts that a certificate refers to.
     ///
     /// # Errors
-    /// The first name that stands for none.
+    /// Names the first reference that matches nothing.
     pub fn new(
         arm: &'a Arm,
         world: &World,
@@ -64,10 +65,10 @@ impl<'a> Contacts<'a> {
         Ok(Self { shapes, parts })
     }
 
-    /// Checks that all over each box its shape touches its part or is nearer to it than the clearance.
+    /// Checks that all over each box, the box's shape touches its part or is nearer to it than the clearance.
     ///
     /// # Errors
-    /// The first box of which this is not seen.
+    /// Names the first box for which this is not shown.
     pub fn hold(&self, arm: &Arm, stuck: &[StuckBox], boxes: &[Rectangle]) -> Result<(), CheckError> {
         for (number, (stuck, ranges)) in stuck.iter().zip(boxes).enumerate() {
             let Pair { body, part, beside } = self.pair(stuck.shape, stuck.part, || format!("box {number}"))?;
@@ -78,10 +79,10 @@ impl<'a> Contacts<'a> {
         Ok(())
     }
 
-    /// Finds a shape and a part that can meet; `who` names the box or wall in messages.
+    /// Finds a shape and a part that can collide. `who` names the box or wall in messages.
     ///
     /// # Errors
-    /// Numbers that are not in the lists, and pairs that never meet or may meet.
+    /// If a number is not in the lists, or if the pair never meets or is allowed to.
     pub fn pair(&self, shape: usize, part: usize, who: impl Fn() -> String) -> Result<Pair<'_>, CheckError> {
         let fails = |why: &str| CheckError::fails(format!("{}{why}", who()));
         let (Some(shape), Some(part)) = (self.shapes.get(shape), self.parts.get(part)) else {
@@ -115,7 +116,7 @@ fn part_of(world: &World, number: usize, obstacle: usize, name: &PartName) -> Re
     Ok((None, shape, standing.heights.clone()))
 }
 
-/// Finds a shape by the name that evidence gives it.
+/// Finds a shape by the name that evidence uses for it.
 fn shape<'a>(arm: &'a Arm, name: &ShapeName) -> Result<&'a Counted, CheckError> {
     let (kind, number) = match (name.collision, name.visual, name.bar) {
         (Some(number), None, None) => ("collision", number),

@@ -1,47 +1,47 @@
-//! Curves of joint values in Bezier form, and what holds a stretch of them.
+//! Curves of joint values in Bezier form, and enclosures of their stretches.
 
 use crate::decimal::Decimal;
 use crate::interval::{BITS, Interval, Point};
 use num_bigint::BigInt;
 
-/// Joint values are multiples of `2^-FINE` here, ...
+/// Joint values are multiples of `2^-FINE` here.
 pub const FINE: u32 = 72;
 
-/// ... and below `2^LARGEST`, so that no sum or product below overflows.
+/// Joint values are below `2^LARGEST`, so that no sum or product overflows.
 pub const LARGEST: u32 = 28;
 
-/// Shares of a chord are multiples of `2^-SHARE`.
+/// Fractions of a chord are multiples of `2^-SHARE`.
 const SHARE: u32 = 20;
 
-/// Curves are halved no more often than this.
+/// Maximum number of times that curves are halved.
 pub const HALVINGS: u32 = 40;
 
-/// What rounding does to a control point: at first less than two units, in each halving at most one unit a step, five in all, and less than
-/// one in what is computed of it here.
+/// Rounding error of a control point. It is less than two units initially, plus at most one unit per step of a halving
+/// (five in all), plus less than one unit for the computations here.
 const ROUNDED: i128 = 3 + 5 * HALVINGS as i128;
 
 /// Both joints' values.
 pub type Values = [i128; 2];
 
-/// What is played between two knots.
+/// The motion between two knots.
 #[derive(Clone)]
 pub struct Piece {
     /// The knot at which it begins.
     pub knot: usize,
-    /// For each way to read the knots, its control points.
+    /// Control points for each interpolation.
     pub curves: Vec<Vec<Values>>,
-    /// When it begins and ends, seconds after the motion began.
+    /// Begin and end, seconds after the start of the motion.
     pub time: [Decimal; 2],
 }
 
 impl Piece {
-    /// The same with joint 1 at zero.
+    /// Returns the same piece with joint 1 at zero.
     pub fn of_second(&self) -> Self {
         let curve = |curve: &Vec<Values>| curve.iter().map(|[_, second]| [0, *second]).collect();
         Self { curves: self.curves.iter().map(curve).collect(), ..self.clone() }
     }
 
-    /// Both halves of it (de Casteljau).
+    /// Returns both halves of it (de Casteljau).
     pub fn halves(&self) -> [Self; 2] {
         let halves: Vec<[Vec<Values>; 2]> = self.curves.iter().map(|curve| halves(curve)).collect();
         let [begin, end] = &self.time;
@@ -69,7 +69,8 @@ fn halves(curve: &[Values]) -> [Vec<Values>; 2] {
     [first, second]
 }
 
-/// All configurations `middle + t half + b` with `t` from -1 to 1 and `b` in neither joint more than `beside` from 0.
+/// All configurations `middle + t half + b`, where `t` is from -1 to 1 and `b` is at most `beside` from 0 in each
+/// joint.
 pub struct Tube {
     /// The configuration in its middle.
     pub middle: Point,
@@ -78,8 +79,8 @@ pub struct Tube {
 }
 
 impl Tube {
-    /// One that holds pieces that follow one another: their control points, and so their convex hull. That it holds these is made
-    /// sure of; the chord and the place beside it of which each counts are chosen, well or not.
+    /// Makes a tube that contains consecutive pieces: it contains their control points, and so their convex hull. The
+    /// containment is exact. Chord and sideways extent are heuristic and affect only the tightness.
     pub fn around(pieces: &[Piece]) -> Self {
         let points = || pieces.iter().flat_map(|piece| piece.curves.iter().flatten());
         let end = |curve: &Vec<Values>| *curve.last().expect("a curve has points");
@@ -101,13 +102,13 @@ impl Tube {
         Self { middle: exactly(middle), half: exactly(half), beside: exactly(beside.map(|b| b + ROUNDED)) }
     }
 
-    /// A single configuration.
+    /// Makes a tube around a single configuration.
     pub fn still(middle: Point) -> Self {
         let zero = || [0, 0].map(Interval::whole);
         Self { middle, half: zero(), beside: zero() }
     }
 
-    /// The greatest `abs(g1 d1 + g2 d2)` for deviations `d` from the middle.
+    /// Returns the greatest `abs(g1 d1 + g2 d2)` for deviations `d` from the middle.
     pub fn greatest(&self, g: &Point) -> Interval {
         let along = &(&g[0] * &self.half[0]) + &(&g[1] * &self.half[1]);
         let beside = &(&g[0].abs() * &self.beside[0]) + &(&g[1].abs() * &self.beside[1]);
@@ -119,7 +120,7 @@ impl Tube {
 mod tests {
     use super::*;
 
-    /// The value of a curve at a share of it, in floating point.
+    /// Evaluates a curve at a fraction `t`, in floating point.
     fn at(curve: &[Values], t: f64) -> [f64; 2] {
         let mut points: Vec<[f64; 2]> = curve.iter().map(|p| p.map(|c| c as f64 / 2f64.powi(FINE as i32))).collect();
         while points.len() > 1 {

@@ -8,11 +8,11 @@ use std::fmt;
 use std::ops::{Add, Mul, Neg, Sub};
 use std::str::FromStr;
 
-/// Digits that a number may be written with, and its largest exponent: far beyond those of a double, and small enough to
-/// compute with.
+/// Maximum number of digits, and maximum exponent, of a number. Both are far beyond those of a double, and small enough
+/// to compute with.
 const MOST_DIGITS: usize = 1100;
 
-/// Numbers of robots and worlds are below `10^15`: none means more, and what is computed of many would take long if it did.
+/// Numbers of robots and worlds must be below `10^15`. Larger ones have no meaning, and could make computations slow.
 const LARGEST: u32 = 15;
 
 /// `mantissa * 10^-scale`: every decimal, and so every dyadic number. Sums and products are exact.
@@ -23,15 +23,15 @@ pub struct Decimal {
 }
 
 impl Decimal {
-    /// `mantissa / 2^bits`.
+    /// Makes `mantissa / 2^bits`.
     pub fn dyadic(mantissa: &BigInt, bits: u32) -> Self {
         Self { mantissa: mantissa * BigInt::from(5).pow(bits), scale: bits }
     }
 
-    /// A number of a robot or a world.
+    /// Reads a number of a robot or a world.
     ///
     /// # Errors
-    /// What is none, or too large.
+    /// If the text is not a number, or if the number is too large.
     pub fn read(text: &str) -> Result<Self, String> {
         let number: Self = text.parse()?;
         let largest = Self { mantissa: BigInt::from(10).pow(LARGEST), scale: 0 };
@@ -41,36 +41,36 @@ impl Decimal {
         }
     }
 
-    /// A whole number.
+    /// Makes a whole number.
     pub fn whole(n: i32) -> Self {
         Self { mantissa: n.into(), scale: 0 }
     }
 
-    /// The middle of two numbers.
+    /// Returns the middle of two numbers.
     pub fn middle(a: &Self, b: &Self) -> Self {
         let Self { mantissa, scale } = a + b;
         Self { mantissa: mantissa * 5, scale: scale + 1 }
     }
 
-    /// `10^-digits`.
+    /// Makes `10^-digits`.
     pub fn power_of_ten(digits: u32) -> Self {
         Self { mantissa: 1.into(), scale: digits }
     }
 
-    /// Whether it is greater than 0, 0 or less.
+    /// Returns the sign.
     pub fn sign(&self) -> Sign {
         self.mantissa.sign()
     }
 
-    /// The greatest multiple of `2^-bits` that is not above the number, in that unit.
+    /// Returns the greatest multiple of `2^-bits` that is not above the number, in that unit.
     pub fn floor(&self, bits: u32) -> BigInt {
         let (numerator, denominator) = (&self.mantissa << bits, BigInt::from(10).pow(self.scale));
         let quotient = &numerator / &denominator;
-        // Division goes towards 0.
+        // Division rounds towards 0.
         if &quotient * denominator > numerator { quotient - 1 } else { quotient }
     }
 
-    /// Both mantissas in the finer of the two units.
+    /// Returns both mantissas in the finer of the two units.
     fn aligned(&self, other: &Self) -> (BigInt, BigInt) {
         let scale = self.scale.max(other.scale);
         let of = |number: &Self| match scale - number.scale {
@@ -84,7 +84,7 @@ impl Decimal {
 impl FromStr for Decimal {
     type Err = String;
 
-    /// Digits with an optional sign, point and exponent, as in TOML, JSON and XML.
+    /// Parses digits with an optional sign, point and exponent, as in TOML, JSON and XML.
     fn from_str(text: &str) -> Result<Self, String> {
         let wrong = || format!("\"{text}\" is not a decimal number");
         let (number, exponent) = text.split_once(['e', 'E']).unwrap_or((text, "0"));
@@ -111,7 +111,7 @@ impl FromStr for Decimal {
 }
 
 impl<'de> Deserialize<'de> for Decimal {
-    /// A number of JSON, by its text.
+    /// Reads a JSON number by its text.
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let text = <&RawValue>::deserialize(deserializer)?;
         text.get().parse().map_err(serde::de::Error::custom)

@@ -1,10 +1,10 @@
-//! The configuration space: values of the joints, and what is one of them.
+//! The configuration space: values of the joints, and which values are the same angle.
 
 use crate::decimal::Decimal;
 use crate::interval::{BITS, Interval};
 use num_bigint::BigInt;
 
-/// Enclosures of half a turn reach `2^-SEAM` beyond what is known of it.
+/// Enclosures of half a turn reach `2^-SEAM` beyond the known digits of pi.
 const SEAM: u32 = 100;
 
 /// All values from the first to the second.
@@ -13,7 +13,7 @@ pub type Range = [Decimal; 2];
 /// All configurations from one corner to another, joint by joint.
 pub type Rectangle = [Range; 2];
 
-/// Whether a rectangle is part of another.
+/// Returns true if a rectangle is part of another.
 pub fn within(part: &Rectangle, whole: &Rectangle) -> bool {
     (0..2).all(|k| whole[k][0] <= part[k][0] && part[k][1] <= whole[k][1])
 }
@@ -21,25 +21,25 @@ pub fn within(part: &Rectangle, whole: &Rectangle) -> bool {
 /// The values of a joint.
 #[derive(Debug, Clone)]
 pub enum Axis {
-    /// Between limits.
+    /// Values between limits.
     Line(Range),
-    /// All angles: values that differ by whole turns are one.
+    /// All angles. Values that differ by whole turns are the same angle.
     Circle,
 }
 
-/// The configuration space as a rectangle of the plane, and what is one on its border.
+/// The configuration space as a rectangle of the plane, with the identification of opposite borders.
 #[derive(Debug)]
 pub struct Domain {
-    /// A range that holds all values. A circle's goes from a little below -pi to a little above pi.
+    /// A range that contains all values. The range of a circle reaches from slightly below -pi to slightly above pi.
     pub ranges: Rectangle,
-    /// Enclosures of a circle's -pi and pi, which are one angle.
+    /// Enclosures of a circle's -pi and pi, which are the same angle.
     pub seams: [Option<[Range; 2]>; 2],
 }
 
 impl Domain {
-    /// The domain of two joints.
+    /// Makes the domain of two joints.
     pub fn new(axes: [&Axis; 2]) -> Self {
-        // So wide that they hold half a turn in degrees.
+        // The enclosures are wide enough to contain half a turn in degrees.
         let pi = Interval::pi().widened(&(BigInt::from(1) << (BITS - SEAM)));
         let turn = [(-&pi).ends(), pi.ends()];
         Self {
@@ -51,7 +51,8 @@ impl Domain {
         }
     }
 
-    /// A value's enclosure within the domain, whole turns taken off. None if it is outside, or too near a seam to say.
+    /// Returns a value's enclosure within the domain, without whole turns. Returns `None` if the value is outside, or
+    /// too near a seam to decide.
     pub fn wrapped(&self, axis: usize, value: &Range) -> Option<Range> {
         let within = |[low, high]: &Range| self.ranges[axis][0] <= *low && *high <= self.ranges[axis][1];
         if within(value) {

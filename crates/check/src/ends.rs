@@ -1,4 +1,4 @@
-//! Where motions begin and end: what is asked.
+//! Start and goal of the query.
 
 use crate::arm::Arm;
 use crate::certificate::Certificate;
@@ -15,25 +15,25 @@ pub use region::{FEW_PARTS, MOST_PARTS};
 /// The start or the goal.
 pub struct End {
     what: &'static str,
-    /// Where it is.
+    /// The configuration, tip position or area.
     pub at: Goal,
-    /// What the certificate says of it in place of the world, in words.
+    /// Description for messages, if the certificate replaces the world's end.
     own: String,
 }
 
 impl End {
-    /// The start: the certificate's, else the world's.
+    /// Returns the start: the certificate's, or else the world's.
     ///
     /// # Errors
-    /// When there is none.
+    /// If there is no start.
     pub fn start(certificate: &Certificate, world: &World) -> Result<Self, CheckError> {
         Self::of("start", certificate.start.as_ref().map(exactly), world.start.as_ref())
     }
 
-    /// The goal, likewise.
+    /// Returns the goal: the certificate's, or else the world's.
     ///
     /// # Errors
-    /// When there is none, or two.
+    /// If there is no goal, or if there are two.
     pub fn goal(certificate: &Certificate, world: &World) -> Result<Self, CheckError> {
         let own = match (&certificate.goal, &certificate.goal_tip) {
             (Some(_), Some(_)) => return Err(CheckError::in_file(Input::Certificate, "it has two goals")),
@@ -52,7 +52,7 @@ impl End {
         Ok(Self { what, at, own: said })
     }
 
-    /// It in words, as far as it is not the world's.
+    /// Describes the end in words, as far as it differs from the world's.
     pub fn named(&self, arm: &Arm) -> String {
         match self.at {
             Goal::Joints(_) => self.own.clone(),

@@ -7,43 +7,43 @@ use thiserror::Error;
 pub enum Input {
     /// The robot.
     Urdf,
-    /// Its surroundings, and what is asked.
+    /// The robot's surroundings and the query.
     World,
-    /// What is to be checked.
+    /// The certificate to check.
     Certificate,
 }
 
 /// Why a certificate is not accepted.
 #[derive(Debug, Clone, Error, PartialEq)]
 pub enum CheckError {
-    /// A file cannot be read, or says what the checker does not know.
+    /// A file cannot be read, or contains something that the checker does not know.
     #[error("{message}")]
     Input {
-        /// Which file.
+        /// The file.
         input: Input,
-        /// The line, from 1, where that is known.
+        /// Line number, from 1, where known.
         line: Option<usize>,
-        /// What is wrong, and what to do.
+        /// Description of the problem, and what to do about it.
         message: String,
     },
-    /// The certificate proves nothing: the part of it that fails.
+    /// The certificate proves nothing. The message names the part that fails.
     #[error("{0}")]
     Fails(String),
 }
 
 impl CheckError {
-    /// Bad input, the byte `at` of the text.
+    /// Makes an error for input that is wrong at byte `at` of the text.
     pub fn at(input: Input, text: &str, at: usize, message: impl Into<String>) -> Self {
         let line = text.as_bytes()[..at.min(text.len())].iter().filter(|b| **b == b'\n').count() + 1;
         Self::Input { input, line: Some(line), message: message.into() }
     }
 
-    /// Bad input as a whole.
+    /// Makes an error for a file as a whole.
     pub fn in_file(input: Input, message: impl Into<String>) -> Self {
         Self::Input { input, line: None, message: message.into() }
     }
 
-    /// A part of the certificate that does not hold.
+    /// Makes an error for a part of the certificate that does not hold.
     ///
     /// # Errors
     /// Always.

@@ -1,4 +1,4 @@
-//! Whether shapes stay off the sides of obstacles while the arm moves along curves.
+//! Checks that shapes keep away from the sides of obstacles while the arm moves along curves.
 
 mod chain;
 mod guess;
@@ -18,23 +18,23 @@ use std::borrow::Cow;
 use std::cell::OnceCell;
 use std::rc::Rc;
 
-/// Shapes keep farther than the clearance by this many units, at the least: `2^-96`.
+/// Returns the margin by which shapes must exceed the clearance: `2^-96`, in units of [`Interval`].
 pub fn guard() -> BigInt {
     BigInt::from(1) << (BITS - 96)
 }
 
-/// Directions that may separate are written with so many binary digits, all that a double has: what is left out counts as often as an obstacle is
-/// larger than the distance to it.
+/// Number of binary digits of separating directions: all that a double has. The rounding error matters in proportion to
+/// the size of an obstacle relative to its distance.
 const DIGITS: u32 = 52;
 
-/// Parts of a motion that are looked at before the checker gives up: some minutes' worth.
+/// Number of tested parts of a motion after which the checker gives up. This takes some minutes.
 const MOST_PARTS: usize = 1_000_000;
 
-/// A shape that is carried, and a disc round its core.
+/// A shape that the arm moves, with an enclosing disc around its core.
 pub struct Solid {
     on: On,
     shape: Shape,
-    /// How far it keeps off.
+    /// Required distance.
     kept: BigInt,
     corners: Vec<Terms>,
     center: Terms,
@@ -43,7 +43,8 @@ pub struct Solid {
     ring: Vec<usize>,
 }
 
-/// A side of an obstacle, or a convex shape that is one as a whole, its corners in order, as seen from the plane and from either link.
+/// A side of an obstacle, or a whole convex shape with its corners in order, as seen from the plane and from either
+/// link.
 #[derive(Clone)]
 pub struct Side {
     shape: Shape,
@@ -52,20 +53,20 @@ pub struct Side {
     extent: BigInt,
 }
 
-/// What shapes keep off: what stands, or in its own frame what moves.
+/// Something that shapes keep away from: static, or given in its own moving frame.
 pub enum Edge {
-    /// It stands.
+    /// A static side.
     Still(Side),
-    /// It moves.
+    /// A moving side, in the frame of its obstacle.
     Moving(Shape, Rc<dyn Course>),
 }
 
-/// A point of a tube's middle, and how it moves within the tube.
+/// A point in the middle of a tube, and its motion within the tube.
 struct Moving {
     at: Point,
-    /// By each joint.
+    /// Rate of change with each joint.
     rates: [Point; 2],
-    /// A bound on what is left of its motion beyond these.
+    /// Upper bound on the remainder of the motion beyond these rates.
     bend: Interval,
 }
 
@@ -77,7 +78,7 @@ struct Posture<'a> {
     turns: [[Interval; 2]; 3],
     /// The greatest deviation of these angles.
     deviations: [Interval; 3],
-    /// The same of the joints' values.
+    /// Greatest deviations of the joints' values.
     each: [Interval; 2],
 }
 
@@ -85,18 +86,18 @@ struct Posture<'a> {
 struct Placed<'a> {
     solid: &'a Solid,
     center: Moving,
-    /// A bound on how far the centre moves.
+    /// Upper bound on the displacement of the centre.
     motion: BigInt,
     corners: OnceCell<Vec<Moving>>,
 }
 
-/// A stretch of a motion: whole pieces, or a part of one that was halved so often.
+/// A stretch of a motion: whole pieces, or a part of a piece with the number of times it was halved.
 enum Stretch {
     Pieces(usize, usize),
     Part(Piece, u32),
 }
 
-/// What was not shown: from this knot to the next, of this shape and this edge.
+/// A gap in the evidence: the knot where the stretch begins, the shape and the edge.
 pub struct Open {
     /// The knot.
     pub knot: usize,
@@ -111,7 +112,7 @@ fn perpendicular([x, y]: &Point) -> Point {
 }
 
 impl Solid {
-    /// A shape that is to keep farther than `kept` units from sides.
+    /// Makes a shape that must keep farther than `kept` units away from sides.
     pub fn new(chain: &Chain, on: On, shape: &Shape, kept: &BigInt) -> Self {
         let (center, extent) = disc(&shape.points);
         Self {
@@ -125,14 +126,14 @@ impl Solid {
         }
     }
 
-    /// A corner of it at a configuration.
+    /// Returns the position of its first corner in a configuration.
     pub fn corner_at(&self, chain: &Chain, values: &Point) -> Point {
         chain.still(&self.corners[0], values)
     }
 }
 
 impl Edge {
-    /// What holds it all over a span of time.
+    /// Returns an enclosure of the edge over a span of time.
     pub fn during(&self, chain: &Chain, time: [&Decimal; 2]) -> Cow<'_, Side> {
         match self {
             Self::Still(side) => Cow::Borrowed(side),
@@ -142,20 +143,20 @@ impl Edge {
 }
 
 impl Side {
-    /// A shape as what moves by a chain sees it.
+    /// Computes how a chain's links see a shape.
     pub fn new(chain: &Chain, shape: &Shape) -> Self {
         let (center, extent) = disc(&shape.points);
         let seen = [0, 1].map(|link| shape.points.iter().map(|p| chain.seen(link, p)).collect());
         Self { shape: shape.clone(), seen, center, extent }
     }
 
-    /// A point of it.
+    /// Returns one of its points.
     pub fn point(&self) -> &Point {
         &self.shape.points[0]
     }
 }
 
-/// A point amid some, and a bound on their distance from there.
+/// Returns a point in the middle of some points, and an upper bound on their distance from it.
 fn disc(points: &[Point]) -> (Point, BigInt) {
     let middle = |k: usize| {
         let values = || points.iter().map(|p| p[k].middle().0);
@@ -184,7 +185,7 @@ impl<'a> Posture<'a> {
         Self { chain, tube, turns: [first, second, both], deviations, each }
     }
 
-    /// Which of the angles a vector turns by.
+    /// Returns the index of the angle by which a vector turns.
     fn angle(by: [bool; 2]) -> Option<usize> {
         match by {
             [false, false] => None,
@@ -194,7 +195,8 @@ impl<'a> Posture<'a> {
         }
     }
 
-    /// A point by Taylor's formula about the middle: `docs/certificate_checks.md` has the bound.
+    /// Expands a point by Taylor's formula about the middle. The bound on the remainder is derived in
+    /// `docs/certificate_checks.md`.
     fn moving(&self, terms: &[Term]) -> Moving {
         let zero = || [0, 0].map(Interval::whole);
         let mut moving = Moving { at: zero(), rates: [zero(), zero()], bend: Interval::whole(0) };
@@ -232,15 +234,15 @@ impl<'a> Posture<'a> {
         moving
     }
 
-    /// A bound on how far a point moves within the tube.
+    /// Returns an upper bound on the displacement of a point within the tube.
     fn motion(&self, moving: &Moving) -> BigInt {
         let [first, second] = &moving.rates;
         let across = [0, 1].map(|k| self.tube.greatest(&[first[k].clone(), second[k].clone()]));
         (&length(&across) + &moving.bend).upper
     }
 
-    /// Whether all over the tube the moving points stay on the one side of a line across `n`, the still ones on the other, and the two
-    /// farther from one another than that.
+    /// Returns true if a line across `n` separates the moving points from the still ones all over the tube, with more
+    /// than `apart` between the two sets.
     fn separates(&self, n: &Point, moving: &[Moving], still: &[Point], apart: &BigInt) -> bool {
         let size = length(n);
         let reached = moving.iter().map(|point| {
@@ -258,7 +260,7 @@ impl<'a> Posture<'a> {
         Placed { solid, motion: self.motion(&center), center, corners: OnceCell::new() }
     }
 
-    /// Whether it is shown that a shape keeps off a side all over the tube.
+    /// Returns true if a shape provably keeps away from a side all over the tube.
     fn keeps_off(&self, placed: &Placed, side: &Side) -> bool {
         let solid = placed.solid;
         let apart = &solid.kept + &solid.shape.radius.upper + &side.shape.radius.upper;
@@ -268,7 +270,7 @@ impl<'a> Posture<'a> {
             return true;
         }
         let corners = placed.corners.get_or_init(|| solid.corners.iter().map(|c| self.moving(c)).collect());
-        // As seen from the shape, however far from the origin that is.
+        // Coordinates relative to the shape stay accurate far from the origin.
         let seen = |p: &Point| rough(&minus(p, &placed.center.at));
         let here: Vec<[f64; 2]> = solid.ring.iter().map(|i| seen(&corners[*i].at)).collect();
         let there: Vec<[f64; 2]> = side.shape.points.iter().map(seen).collect();
@@ -279,7 +281,7 @@ impl<'a> Posture<'a> {
         if self.separates(&exact([x, y]), corners, &side.shape.points, &apart) {
             return true;
         }
-        // The same seen from the link: the side moves, towards the shape.
+        // Try the same from the link's point of view: there the side moves towards the shape.
         let On::Link(link) = solid.on else { return false };
         let by = [0, 1].map(|k| k <= link && matches!(self.chain.motions[k], Motion::Turn(_)));
         let [sine, cosine] = Self::angle(by).map_or([0.0, 1.0], |which| rough(&self.turns[which]));
@@ -289,11 +291,10 @@ impl<'a> Posture<'a> {
     }
 }
 
-/// Whether on pieces that follow one another each of the pairs of a shape and an edge keeps as far off as the shape is to; else where that
-/// is not shown first.
+/// Checks that each pair of a shape and an edge keeps the shape's required distance, along consecutive pieces.
 ///
 /// # Errors
-/// The stretch, the shape and the edge.
+/// Returns the first stretch, shape and edge for which this is not shown.
 pub fn keep_off(
     chain: &Chain,
     pieces: &[Piece],

@@ -8,8 +8,8 @@ use std::sync::OnceLock;
 /// Ends are multiples of `2^-BITS`.
 pub const BITS: u32 = 192;
 
-/// All numbers from `lower` to `upper`, in units of `2^-BITS`. What is computed of enclosures encloses what is computed of
-/// the numbers in them.
+/// All numbers from `lower` to `upper`, in units of `2^-BITS`. The result of an operation on enclosures encloses the
+/// results of the operation on all numbers in them.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Interval {
     /// The least.
@@ -21,71 +21,71 @@ pub struct Interval {
 /// A point or a vector in the plane.
 pub type Point = [Interval; 2];
 
-/// `a >> bits`, upwards.
+/// Returns `a >> bits`, rounded up.
 fn shifted_up(a: &BigInt, bits: u32) -> BigInt {
     -(-a >> bits)
 }
 
-/// `a / b` for `b > 0`, downwards.
+/// Returns `a / b` for `b > 0`, rounded down.
 fn divided_down(a: &BigInt, b: &BigInt) -> BigInt {
     let quotient = a / b;
     if &quotient * b > *a { quotient - 1 } else { quotient }
 }
 
-/// `a / b` for `b > 0`, upwards.
+/// Returns `a / b` for `b > 0`, rounded up.
 fn divided_up(a: &BigInt, b: &BigInt) -> BigInt {
     -divided_down(&-a, b)
 }
 
 impl Interval {
-    /// A whole number.
+    /// Makes a whole number.
     pub fn whole(n: i32) -> Self {
         Self::exactly(BigInt::from(n) << BITS)
     }
 
-    /// A multiple of the unit.
+    /// Makes a multiple of the unit.
     pub fn exactly(n: BigInt) -> Self {
         Self { lower: n.clone(), upper: n }
     }
 
-    /// All numbers from the first to the second.
+    /// Encloses all numbers from the first to the second.
     pub fn around([low, high]: &[Decimal; 2]) -> Self {
         Self { lower: low.floor(BITS), upper: Self::from(high).upper }
     }
 
-    /// Whether it holds this one number and no other.
+    /// Returns true if it contains exactly this one number.
     pub fn is_whole(&self, n: i32) -> bool {
         *self == Self::whole(n)
     }
 
-    /// The larger end of its absolute value.
+    /// Returns the larger end of its absolute value.
     pub fn magnitude(&self) -> BigInt {
         (-&self.lower).max(self.upper.clone())
     }
 
-    /// A number in its middle, and how far its ends are from there at most.
+    /// Returns a number in its middle, and the maximum distance of its ends from there.
     pub fn middle(&self) -> (BigInt, BigInt) {
         let middle = (&self.lower + &self.upper) >> 1u32;
         let radius = &self.upper - &middle;
         (middle, radius)
     }
 
-    /// The ends as decimals.
+    /// Returns the ends as decimals.
     pub fn ends(&self) -> [Decimal; 2] {
         [&self.lower, &self.upper].map(|end| Decimal::dyadic(end, BITS))
     }
 
-    /// The half of it.
+    /// Returns half of it.
     pub fn half(&self) -> Self {
         self.in_halves(1)
     }
 
-    /// What comes of halving it so often.
+    /// Halves it `times` times.
     pub fn in_halves(&self, times: u32) -> Self {
         Self { lower: &self.lower >> times, upper: shifted_up(&self.upper, times) }
     }
 
-    /// The absolute value.
+    /// Returns the absolute value.
     pub fn abs(&self) -> Self {
         match (self.lower.sign(), self.upper.sign()) {
             (Sign::Minus, Sign::Plus) => Self { lower: BigInt::ZERO, upper: self.magnitude() },
@@ -94,19 +94,19 @@ impl Interval {
         }
     }
 
-    /// The root; of what is below 0, 0.
+    /// Returns the root; 0 for numbers below 0.
     pub fn sqrt(&self) -> Self {
         let root = |n: &BigInt| if n.sign() == Sign::Plus { (n << BITS).sqrt() } else { BigInt::ZERO };
         Self { lower: root(&self.lower), upper: root(&self.upper) + 1 }
     }
 
-    /// The quotient by a positive whole number.
+    /// Returns the quotient by a positive whole number.
     pub fn over(&self, n: u32) -> Self {
         let n = BigInt::from(n);
         Self { lower: divided_down(&self.lower, &n), upper: divided_up(&self.upper, &n) }
     }
 
-    /// The quotient by what is positive.
+    /// Returns the quotient by a positive enclosure.
     pub fn divided(&self, by: &Self) -> Self {
         assert!(by.lower.sign() == Sign::Plus, "a quotient by what may be 0");
         let (lower, upper) = (&self.lower << BITS, &self.upper << BITS);
@@ -115,22 +115,23 @@ impl Interval {
         Self { lower: divided_down(&lower, least), upper: divided_up(&upper, most) }
     }
 
-    /// It, and all that is within `by` units.
+    /// Returns the enclosure widened by `by` units on both sides.
     pub fn widened(&self, by: &BigInt) -> Self {
         Self { lower: &self.lower - by, upper: &self.upper + by }
     }
 
-    /// The part of it that is from -1 to 1.
+    /// Returns the part of it from -1 to 1.
     fn within_one(self) -> Self {
         let [least, most] = [-1, 1].map(|n| BigInt::from(n) << BITS);
         Self { lower: self.lower.max(least), upper: self.upper.min(most) }
     }
 
-    /// Sine and cosine.
+    /// Computes sine and cosine.
     ///
-    /// Both change by no more than the angle does, so that those of the middle, widened, enclose all. Halved until it is
-    /// below 1/16, the angle goes into Taylor's series, whose terms alternate and decrease; then it is doubled again. Numbers are cut off
-    /// after each step, and how far they may be from what they stand for is counted in units.
+    /// Both change by at most as much as the angle. So their values at the middle, widened by the radius, enclose all
+    /// values. The angle is halved until it is below 1/16, and inserted into Taylor's series, whose terms alternate and
+    /// decrease. Then the result is doubled again. Numbers are truncated after each step, and `error` counts their
+    /// maximum deviation in units.
     pub fn sin_cos(&self) -> [Self; 2] {
         let (middle, radius) = self.middle();
         if middle.sign() == Sign::NoSign {
@@ -141,8 +142,9 @@ impl Interval {
         let halvings = (angle.bits() + 4).saturating_sub(u64::from(BITS)) as u32;
         let x = &angle >> halvings;
         let square = (&x * &x) >> BITS;
-        // A term is made of the one before, less than a 256th of it, and of a square that is cut off; cut off twice itself, it is off by two
-        // units or little less. Two terms more pay for what is left out and for the angle's own unit.
+        // Each term is computed from the one before (it is less than a 256th of that) and from a truncated square. It
+        // is truncated twice itself, and so is off by at most about two units. Two extra terms account for the
+        // truncated series and for the angle's own unit.
         let series = |first: &BigInt, from: u32| {
             let (mut sum, mut term, mut terms) = (first.clone(), first.clone(), 2_u32);
             for n in (from..).step_by(2) {
@@ -162,7 +164,7 @@ impl Interval {
         let ((mut sine, sine_error), (mut cosine, cosine_error)) = (series(&x, 2), series(&one, 1));
         let mut error = BigInt::from(sine_error.max(cosine_error));
         for _ in 0..halvings {
-            // With factors of at most 1 products are off by as much as both together, here twice.
+            // With factors of at most 1, a product is off by at most the sum of both errors, here twice.
             [sine, cosine] = [(&sine * &cosine) >> (BITS - 1), ((&cosine * &cosine) >> (BITS - 1)) - &one]
                 .map(|value| value.clamp(none.clone(), one.clone()));
             error = (error << 2u32) + 1;
@@ -173,7 +175,7 @@ impl Interval {
         [sine, cosine].map(|value| Self::exactly(value).widened(&(&radius + &error)).within_one())
     }
 
-    /// Pi, by Machin's formula: `16 atan(1/5) - 4 atan(1/239)`.
+    /// Returns pi, by Machin's formula: `16 atan(1/5) - 4 atan(1/239)`.
     pub fn pi() -> &'static Self {
         static PI: OnceLock<Interval> = OnceLock::new();
         PI.get_or_init(|| {
@@ -226,7 +228,8 @@ impl Mul for &Interval {
     type Output = Interval;
     fn mul(self, other: Self) -> Interval {
         let is_negative = |n: &BigInt| n.sign() == Sign::Minus;
-        // Where neither holds 0, or only as its lower end, signs tell which ends make the least product and which the greatest.
+        // If neither contains 0, or only as its lower end, the signs determine which ends give the least and the
+        // greatest product.
         let negative = [self, other].map(|factor| is_negative(&factor.lower));
         if [self, other].map(|factor| is_negative(&factor.upper)) == negative {
             let [(a, b), (c, d)] = [(self, negative[1]), (other, negative[0])].map(|(factor, is_turned)| {
@@ -246,58 +249,58 @@ impl Mul for &Interval {
     }
 }
 
-/// Two times a number.
+/// Returns twice a number.
 pub fn twice(a: &Interval) -> Interval {
     a + a
 }
 
-/// The sum of two vectors.
+/// Returns the sum of two vectors.
 pub fn sum(a: &Point, b: &Point) -> Point {
     [&a[0] + &b[0], &a[1] + &b[1]]
 }
 
-/// The difference of two vectors.
+/// Returns the difference of two vectors.
 pub fn minus(a: &Point, b: &Point) -> Point {
     [&a[0] - &b[0], &a[1] - &b[1]]
 }
 
-/// A vector times a number.
+/// Returns a vector times a number.
 pub fn times(a: &Point, factor: &Interval) -> Point {
     [&a[0] * factor, &a[1] * factor]
 }
 
-/// A vector turned by an angle, given its sine and cosine.
+/// Turns a vector by an angle, given its sine and cosine.
 pub fn turned([x, y]: &Point, [sine, cosine]: &[Interval; 2]) -> Point {
     [&(x * cosine) - &(y * sine), &(x * sine) + &(y * cosine)]
 }
 
-/// One turn and another, by their sines and cosines.
+/// Returns the composition of two turns, given by sine and cosine.
 pub fn both_turns([s, c]: &[Interval; 2], [t, d]: &[Interval; 2]) -> [Interval; 2] {
     [&(s * d) + &(c * t), &(c * d) - &(s * t)]
 }
 
-/// The scalar product of two vectors.
+/// Returns the scalar product of two vectors.
 pub fn dot(a: &Point, b: &Point) -> Interval {
     &(&a[0] * &b[0]) + &(&a[1] * &b[1])
 }
 
-/// The length of a vector.
+/// Returns the length of a vector.
 pub fn length([x, y]: &Point) -> Interval {
     let [x, y] = [x.abs(), y.abs()];
     (&(&x * &x) + &(&y * &y)).sqrt()
 }
 
-// Guesses in floating point say where to look, and decide nothing.
+// Guesses in floating point only direct the search. They decide nothing.
 
-/// Units of guesses.
+/// Binary digits of guesses after the point.
 const ROUGH: u32 = 44;
 
-/// A number of units, about; not a number where it is too large.
+/// Converts a number of units to floating point, approximately. Returns NaN if it is too large.
 pub fn roughly(n: &BigInt) -> f64 {
     i64::try_from(n >> (BITS - ROUGH)).map_or(f64::NAN, |n| n as f64 / (1u64 << ROUGH) as f64)
 }
 
-/// A point, about.
+/// Converts a point to floating point, approximately.
 pub fn rough(p: &Point) -> [f64; 2] {
     p.each_ref().map(|c| roughly(&c.lower))
 }
@@ -310,7 +313,7 @@ mod tests {
         Interval::from(&text.parse::<Decimal>().unwrap())
     }
 
-    /// Whether it holds the number that begins with these digits, and is no wider than `2^-155`.
+    /// Returns true if the enclosure contains the number that begins with these digits, and is no wider than `2^-155`.
     fn holds(interval: &Interval, digits: &str) -> bool {
         let [low, high] = interval.ends();
         let from: Decimal = digits.parse().unwrap();
@@ -336,7 +339,7 @@ mod tests {
         assert!(holds(&sine, "0") && holds(&cosine, "-1"));
         let [sine, cosine] = (-&pi.over(4)).sin_cos();
         assert!(holds(&(&sine * &cosine), "-0.5") && holds(&(&sine + &cosine), "0"));
-        // Nothing is known of angles without end, soon.
+        // The enclosure of a huge angle contains no information about its sine.
         let [sine, _] = Interval::exactly(BigInt::from(-7).pow(1100)).sin_cos();
         assert_eq!(sine.abs().upper, Interval::whole(1).upper);
         let turns = &(pi * &Interval::whole(200)) + &pi.half();

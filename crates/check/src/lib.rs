@@ -1,21 +1,22 @@
-//! The judge of certificates about one motion of an arm, in exact arithmetic.
+//! Checks certificates about one motion of an arm, in exact arithmetic.
 //!
-//! [`judge`] gets an [`Arm`], a [`World`] and a [`Certificate`], and says whether the
-//! certificate proves its answer: a motion is free, there is none, or none is shorter. Decimals are taken as they are written, roots,
-//! sines and cosines are enclosed by numbers below and above. It shares no code with the planner and reads no files: `cplan-check-files`
-//! reads robots, worlds and maps, and judges tasks on top of it. In cplan's repository, `docs/certificate_checks.md` has
-//! the conditions that are checked and why they suffice. In reading order:
+//! [`judge`] takes an [`Arm`], a [`World`] and a [`Certificate`], and decides whether the certificate proves its
+//! answer: a motion is free, there is no motion, or no motion is shorter than a length. Decimals are taken exactly as
+//! written. Roots, sines and cosines are enclosed between a lower and an upper bound. This crate shares no code with
+//! the planner and reads no files: `cplan-check-files` reads robots, worlds and maps, and judges tasks on top of it. In
+//! cplan's repository, `docs/certificate_checks.md` lists the conditions that are checked and explains why they
+//! suffice. In reading order:
 //!
 //! | modules | subject |
 //! |---|---|
 //! | [`decimal`], [`interval`] | numbers |
 //! | [`overlap`], [`polygon`] | shapes |
 //! | [`domain`], [`curve`] | configurations and motions |
-//! | [`arm`], [`shapes`], [`obstacle`], [`world`], [`certificate`] | what is judged |
+//! | [`arm`], [`shapes`], [`obstacle`], [`world`], [`certificate`] | input of the checks |
 //! | [`ends`] | start and goal |
 //! | [`motion`], [`scene`], [`free`] | a motion is free |
 //! | `infeasible`, `sweep` | boxes separate start and goal |
-//! | `bound` | walls bar what is shorter |
+//! | `bound` | walls block all shorter motions |
 //! | `mover`, `contacts` | boxes and walls collide |
 #![forbid(unsafe_code)]
 
@@ -47,10 +48,11 @@ use arm::Arm;
 use certificate::{Answer, Certificate};
 use world::World;
 
-/// Checks what a certificate says of one motion. What it proves is returned in words.
+/// Checks a certificate about one motion. Returns the proven statement as a sentence.
 ///
 /// # Errors
-/// [`CheckError::Fails`] with the first part that does not hold, [`CheckError::Input`] for what the checker does not know.
+/// [`CheckError::Fails`] names the first part that does not hold. [`CheckError::Input`] reports input that the checker
+/// does not know.
 pub fn judge(arm: &Arm, world: &World, certificate: &Certificate) -> Result<String, CheckError> {
     match &certificate.answer {
         Answer::Found if certificate.bound.is_some() => {

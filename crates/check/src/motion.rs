@@ -13,10 +13,10 @@ use crate::scene::{Part, Present, stay_off};
 use crate::shapes::Counted;
 use crate::world::World;
 
-/// How often a piece is halved to see whether it keeps the limits.
+/// Maximum number of times that a piece is halved to check the limits.
 const HALVINGS: u32 = 40;
 
-/// Control points are given times this, so that they are decimals.
+/// Factor of control points: it turns them into decimals.
 pub const SIXTY: i32 = 60;
 
 impl Interpolation {
@@ -29,7 +29,7 @@ impl Interpolation {
         }
     }
 
-    /// Numbers of a knot that it needs.
+    /// Returns how many numbers of a knot it needs.
     fn columns(self) -> usize {
         match self {
             Self::Linear => 3,
@@ -38,7 +38,7 @@ impl Interpolation {
         }
     }
 
-    /// Sixty times the control points of a joint between two knots.
+    /// Computes the control points of a joint between two knots, times sixty.
     fn control(self, a: &[Decimal], b: &[Decimal], joint: usize) -> Vec<Decimal> {
         let h = &b[0] - &a[0];
         let value = |knot: &[Decimal]| &knot[1 + joint] * &Decimal::whole(SIXTY);
@@ -62,13 +62,13 @@ impl Interpolation {
 }
 
 impl Motion {
-    /// How many knots it has, and how it is read.
+    /// Describes the number of knots and the interpolations in words.
     pub fn in_words(&self) -> String {
         let read: Vec<&str> = self.interpolation.iter().map(|way| way.name()).collect();
         format!("{} knots, read as {}", self.knots.len(), read.join(" or "))
     }
 
-    /// Whether the arm stands still from a knot to the next, however it is read.
+    /// Returns true if the arm is at rest from a knot to the next, in each interpolation.
     pub fn stands(&self, knot: usize) -> bool {
         let [from, to] = [knot, knot + 1].map(|knot| &self.knots[knot]);
         let stands = |way: &Interpolation, joint: usize| {
@@ -79,7 +79,8 @@ impl Motion {
     }
 }
 
-/// That a motion leads from the start to the goal within the limits, and keeps farther than the clearance from all obstacles, its own links among them.
+/// Checks that a motion leads from the start to the goal within the limits, and keeps farther than the clearance from
+/// all obstacles, including the arm's own links.
 pub fn found(arm: &Arm, world: &World, certificate: &Certificate) -> Result<String, CheckError> {
     let clearance = certificate.clearance(world)?;
     let Some(motion) = &certificate.motion else {
@@ -99,7 +100,7 @@ pub fn found(arm: &Arm, world: &World, certificate: &Certificate) -> Result<Stri
     ))
 }
 
-/// What can be seen of the knots by themselves.
+/// Checks conditions on the knots alone: their number, columns and times.
 pub fn well_formed(interpolation: &[Interpolation], knots: &[Vec<Decimal>]) -> Result<(), CheckError> {
     let bad = |message: String| Err(CheckError::in_file(Input::Certificate, message));
     let Some(columns) = interpolation.iter().map(|way| way.columns()).max() else {
@@ -117,7 +118,7 @@ pub fn well_formed(interpolation: &[Interpolation], knots: &[Vec<Decimal>]) -> R
     }
 }
 
-/// What is played after a knot; with one knot alone, that.
+/// Returns the motion from a knot to the next. Returns a motion at rest if there is only one knot.
 pub fn piece(
     arm: &Arm,
     interpolation: &[Interpolation],
@@ -147,13 +148,15 @@ pub fn piece(
     Ok(Piece { knot, curves, time })
 }
 
-/// A sixtieth of a number in units of curves, to within less than two; none if it is too large.
+/// Returns a sixtieth of a number in units of curves, with an error of less than two units. Returns `None` if the
+/// number is too large.
 pub fn fine(sixty: &Decimal) -> Option<i128> {
     let fine = sixty.floor(FINE) / SIXTY;
     (fine.bits() < u64::from(FINE + LARGEST)).then(|| i128::try_from(fine).ok()).flatten()
 }
 
-/// Whether a curve stays between two numbers, ends included: its control points do, or those of its halves.
+/// Returns true if a curve stays between two numbers, ends included. It tests the control points of the curve or of its
+/// halves.
 fn stays_within(control: &[Decimal], low: &Decimal, high: &Decimal, halvings: u32) -> bool {
     let is_within = |value: &Decimal| low <= value && value <= high;
     if control.iter().all(is_within) {
@@ -177,7 +180,7 @@ fn stays_within(control: &[Decimal], low: &Decimal, high: &Decimal, halvings: u3
     [first, second].iter().all(|half| stays_within(half, low, high, halvings - 1))
 }
 
-/// That all shapes keep off all obstacles.
+/// Checks that all shapes keep away from all obstacles.
 fn stays_off(
     arm: &Arm,
     world: &World,

@@ -1,4 +1,4 @@
-//! Where the arm's shapes are, and how far they can move.
+//! Positions of the arm's shapes, and bounds on their displacement.
 
 use crate::arm::{Arm, Motion};
 use crate::decimal::Decimal;
@@ -9,7 +9,7 @@ use crate::shapes::{Body, Owner};
 use num_bigint::BigInt;
 use std::cell::RefCell;
 
-/// A box of configurations by its middle and half its sides.
+/// A box of configurations, by its middle and half its sides.
 #[derive(Clone)]
 pub struct Cell {
     middle: [Interval; 2],
@@ -17,7 +17,8 @@ pub struct Cell {
 }
 
 impl Cell {
-    /// The box in which to look for contact with a link of the robot: if joint 1 carries it, joint 1 is at zero.
+    /// Returns the box in which to test contact with a link of the robot. If joint 1 carries the link, joint 1 is set
+    /// to zero.
     pub fn beside(mut self, link: Option<&Owner>) -> Self {
         if link.is_some_and(|link| link.is_carried) {
             (self.middle[0], self.half[0]) = (Interval::whole(0), Interval::whole(0));
@@ -25,7 +26,7 @@ impl Cell {
         self
     }
 
-    /// What a straight segment covers from `k / 2^cuts` to `(k + 1) / 2^cuts` of its length.
+    /// Returns the box around the part of a straight segment from `k / 2^cuts` to `(k + 1) / 2^cuts` of its length.
     pub fn of_segment(from: &Point, along: &Point, k: i64, cuts: u32) -> Self {
         let middle = sum(from, &times(along, &Interval::exactly(BigInt::from(2 * k + 1) << (BITS - cuts - 1))));
         Self { middle, half: along.each_ref().map(|along| along.abs().in_halves(cuts + 1)) }
@@ -40,13 +41,14 @@ impl From<&Rectangle> for Cell {
     }
 }
 
-/// What moves by no more than this when it turns by up to an angle at distance 1: the chord, which grows until half a turn.
+/// Returns an upper bound on the displacement of a point at distance 1 that turns by up to an angle: the chord, which
+/// grows up to half a turn.
 fn chord(angle: &Interval) -> Interval {
     if angle.upper >= Interval::pi().lower {
         return Interval::whole(2);
     }
     if angle.upper < Interval::whole(1).in_halves(4).lower {
-        // Its series alternates: so far it is longer.
+        // The series alternates, so that this partial sum is an upper bound.
         let square = angle * angle;
         let cubed = (&square * angle).over(24);
         return &(angle - &cubed) + &(&cubed * &square).over(80);
@@ -56,7 +58,7 @@ fn chord(angle: &Interval) -> Interval {
 }
 
 impl Arm {
-    /// What a joint does at a value: the sine and cosine by which it turns, and by how much it slides.
+    /// Returns the displacement by a joint at a value: sine and cosine of its turn, and its slide.
     fn displaced(&self, joint: usize, value: &Interval) -> [Point; 2] {
         let [none, one] = [0, 1].map(Interval::whole);
         match &self.joints[joint].motion {
@@ -66,20 +68,21 @@ impl Arm {
     }
 }
 
-/// A body, where it is and how far it gets in boxes, by what does not depend on the box.
+/// A body with everything about its position and displacement that does not depend on the box.
 pub struct Mover<'a> {
     arm: &'a Arm,
     body: &'a Body,
-    /// Its corners, about.
+    /// Approximate corners.
     rough: Vec<[f64; 2]>,
-    /// The first joint at the value that it had last: many boxes have it in common.
+    /// The displacement by the first joint at its latest value, which many boxes share.
     first: RefCell<(Interval, [Point; 2])>,
-    /// How far the second joint is from the first, and the body's points from the joint that moves it last.
+    /// Distance of the second joint from the first. `reach`: distance of the body's points from the joint that moves
+    /// the body last.
     offset: Interval,
     reach: Interval,
 }
 
-/// The greatest length of some vectors.
+/// Returns the greatest length of some vectors.
 fn reach(points: &[Point]) -> Interval {
     points.iter().map(|p| length(p).upper).max().map_or(Interval::whole(0), Interval::exactly)
 }
@@ -92,7 +95,7 @@ impl<'a> Mover<'a> {
         Self { arm, body, rough, first, offset: length(&arm.offset), reach: reach(&body.shape.points) }
     }
 
-    /// The body's shape in the middle of a box, in plane coordinates.
+    /// Returns the body's shape in the middle of a box, in plane coordinates.
     fn placed(&self, cell: &Cell) -> Shape {
         let Self { arm, body, first, .. } = self;
         let (value, first) = &mut *first.borrow_mut();
@@ -111,9 +114,10 @@ impl<'a> Mover<'a> {
         Shape { points: body.shape.points.iter().map(point).collect(), radius: body.shape.radius.clone() }
     }
 
-    /// No point of the body is farther than this from where it is in the middle of a box, while the joints stay within the box.
+    /// Returns an upper bound on the displacement of the body's points from their positions in the middle of a box,
+    /// while the joints stay within the box.
     ///
-    /// Of a convex hull it is a corner that moves farthest: where a point is depends on it affinely.
+    /// In a convex hull, a corner moves farthest: the position of a point depends on it affinely.
     pub fn farthest(&self, cell: &Cell) -> BigInt {
         let Self { arm, body, offset, reach: own, .. } = self;
         let half = &cell.half;
@@ -125,7 +129,7 @@ impl<'a> Mover<'a> {
                 &(offset * &chord(&half[0])) + &(own * &chord(&(&half[0] + &half[1])))
             }
             (Motion::Turn(_), Some(Motion::Slide(direction))) => {
-                // The second joint first, then the turn at the farther of the ends of the slide: distance is convex.
+                // Move the second joint first, and then turn at the farther end of the slide: distance is convex.
                 let slide = [&cell.middle[1] - &half[1], &cell.middle[1] + &half[1]];
                 let ends = slide.map(|value| sum(&arm.offset, &times(direction, &value)));
                 let points = &body.shape.points;
@@ -138,13 +142,14 @@ impl<'a> Mover<'a> {
         bound.upper
     }
 
-    /// Whether the body is seen to overlap a shape all over a box.
+    /// Returns true if the body provably overlaps a shape all over a box.
     pub fn overlaps(&self, shape: &Shape, cell: &Cell) -> bool {
         let farthest = self.farthest(cell);
         self.seems_to_overlap(shape, cell, &farthest) && overlap_by_more_than(&self.placed(cell), shape, &farthest)
     }
 
-    /// A guess in floating point, which spares looks in vain: no more than whether to look depends on it.
+    /// Guesses in floating point whether the exact test can succeed. A wrong guess costs only time or an inconclusive
+    /// answer.
     fn seems_to_overlap(&self, shape: &Shape, cell: &Cell, farthest: &BigInt) -> bool {
         let mut placed = self.rough.clone();
         for joint in (0..=self.body.link).rev() {
@@ -169,9 +174,10 @@ impl<'a> Mover<'a> {
 }
 
 impl Arm {
-    /// Rectangles that hold all configurations that put the tip at a place, but what is left out. The domain is cut in four, again and again;
-    /// parts are dropped that are left out, or in whose middle the tip is farther from the place than it can move within. Parts that touch
-    /// are put together; what a cut makes more of than `most` is not cut.
+    /// Returns rectangles that contain all configurations that put the tip at a position, except for excluded parts.
+    /// The domain is cut into four repeatedly. Parts are dropped if they are excluded, or if the tip in their middle is
+    /// farther from the position than it can move within them. Cutting stops when it would give more than `most` parts.
+    /// Parts that touch are merged.
     pub fn places(&self, place: &Point, most: usize, is_left_out: impl Fn(&Rectangle) -> bool) -> Vec<Rectangle> {
         let mover = Mover::new(self, &self.tip);
         let is_far = |rectangle: &Rectangle| {
@@ -208,15 +214,16 @@ impl Arm {
     }
 }
 
-/// Whether two ranges have a number in common.
+/// Returns true if two ranges have a number in common.
 fn touch(a: &Range, b: &Range) -> bool {
     a[0] <= b[1] && b[0] <= a[1]
 }
 
-/// The least range that holds two.
+/// Returns the smallest range that contains two ranges.
 fn hull(a: &Range, b: &Range) -> Range {
     [(&a[0]).min(&b[0]).clone(), (&a[1]).max(&b[1]).clone()]
 }
 
-/// How often the domain is cut where the tip may be at a place: a part in 10^12 of each range is left.
+/// Maximum number of times that the domain is cut to find configurations for a tip position. This leaves a `10^-12`
+/// part of each range.
 const MOST_CUTS: u32 = 40;

@@ -1,4 +1,4 @@
-//! Obstacles: convex parts of them, and what a shape has to stay off.
+//! Obstacles: their convex parts, and the sides that shapes must keep away from.
 
 use crate::decimal::Decimal;
 use crate::domain::Range;
@@ -11,61 +11,63 @@ use num_bigint::{BigInt, Sign};
 use std::borrow::Cow;
 use std::rc::Rc;
 
-/// An obstacle, as it stands in the file.
+/// An obstacle, as given in the file.
 #[derive(Clone)]
 pub struct Obstacle {
     /// Its name, if it has one.
     pub name: Option<String>,
-    /// The link, if it is part of the robot.
+    /// The link, if the obstacle is part of the robot.
     pub own: Option<Owner>,
     /// Its outline, in its frame.
     pub outline: Outline,
-    /// Where its frame's origin lies, ...
+    /// Origin of its frame, in plane coordinates.
     pub at: Point,
-    /// ... and sine and cosine of how the frame is turned.
+    /// Sine and cosine of the frame's orientation.
     pub turn: Point,
-    /// Its extent along the plane's normal; none: everywhere.
+    /// Extent along the plane's normal; `None` if unlimited.
     pub heights: Option<Range>,
-    /// How its frame moves, if it does: then the place is that where it would stand if its motion did not say.
+    /// Motion of its frame, if it moves. Then `at` and `turn` are only the pose that the file states apart from the
+    /// motion.
     pub course: Option<Rc<dyn Course>>,
 }
 
-/// What an obstacle covers.
+/// The region that an obstacle covers.
 #[derive(Clone)]
 pub enum Outline {
-    /// What its rings surround an odd number of times.
+    /// All points that the rings surround an odd number of times.
     Polygon(Vec<Vec<Corner>>),
     /// Segments from each point to the next.
     Polyline(Vec<Corner>),
-    /// A disc; of radius 0 a point.
+    /// A disc; a point if the radius is 0.
     Circle(Corner, Decimal),
-    /// Squares of a picture, or why they are not known.
+    /// Squares of a picture, or the reason why they are not known.
     Squares(Result<Rc<dyn Squares>, CheckError>),
     /// A link of the robot.
     Own(Shape),
 }
 
-/// How the frame of an obstacle moves.
+/// The motion of an obstacle's frame.
 pub trait Course {
-    /// Returns where the frame's origin is at a time, and sine and cosine of how the frame is turned.
+    /// Returns the frame's origin at a time, and the sine and cosine of its orientation.
     fn place(&self, time: &Decimal) -> [Point; 2];
 
-    /// Returns what holds a shape of the frame all over a span of time.
+    /// Returns an enclosure of a shape of the frame over a span of time.
     fn during(&self, shape: &Shape, span: [&Decimal; 2]) -> Shape;
 }
 
 /// Squares of a picture, in the frame of its obstacle.
 pub trait Squares {
-    /// Returns the corners of the rectangle of solid squares that are nearest to four points; none if there is no such rectangle.
+    /// Returns the corners of the rectangle of solid squares that are nearest to four points. Returns `None` if there
+    /// is no such rectangle.
     fn part(&self, given: &[Point]) -> Option<Vec<Point>>;
 
-    /// Returns the border between what is solid and what is not, in straight pieces.
+    /// Returns the border between solid and free squares, in straight pieces.
     ///
     /// # Errors
-    /// More pieces than can be looked at.
+    /// If there are more pieces than the checker can handle.
     fn border(&self) -> Result<Vec<[Point; 2]>, CheckError>;
 
-    /// Whether a point that is off the border is in something solid.
+    /// Returns true if a point is inside something solid. The point must not lie on the border.
     fn holds(&self, p: &Point) -> bool;
 }
 
@@ -81,7 +83,7 @@ impl Obstacle {
         Self { name: Some(name), own: Some(owner), outline: Outline::Own(shape), at, turn, heights, course: None }
     }
 
-    /// Whether joint 1 carries it.
+    /// Returns true if joint 1 carries it.
     pub fn is_carried(&self) -> bool {
         self.own.as_ref().is_some_and(|own| own.is_carried)
     }
@@ -94,12 +96,12 @@ impl Obstacle {
         }
     }
 
-    /// The same elsewhere, where it stands.
+    /// Returns the same obstacle at another pose, as a static obstacle.
     pub fn moved(self, at: Point, turn: Point) -> Self {
         Self { at, turn, course: None, ..self }
     }
 
-    /// The same where it is at a time.
+    /// Returns the same obstacle at its pose at a time.
     pub fn at_time(&self, time: &Decimal) -> Cow<'_, Self> {
         self.course.as_ref().map_or(Cow::Borrowed(self), |course| {
             let [at, turn] = course.place(time);
@@ -107,22 +109,23 @@ impl Obstacle {
         })
     }
 
-    /// A point of its frame in its place.
+    /// Converts a point of its frame to plane coordinates.
     pub fn placed(&self, p: &Point) -> Point {
         sum(&self.at, &turned(p, &self.turn))
     }
 
-    /// A point of the plane in its frame.
+    /// Converts a point of the plane to coordinates of its frame.
     fn own(&self, p: &Point) -> Point {
         let [sine, cosine] = &self.turn;
         turned(&minus(p, &self.at), &[-sine, cosine.clone()])
     }
 
-    /// A convex part of it, in its place: a disc all of it, of a polyline two points that follow one another, of a polygon
-    /// a convex polygon within, of a picture a rectangle of solid squares. Its corners are the obstacle's that are nearest to the given points.
+    /// Returns a convex part of the obstacle, in plane coordinates. The part of a circle is the whole disc. The part of
+    /// a polyline is one of its segments. The part of a polygon is a convex polygon within it. The part of a picture is
+    /// a rectangle of solid squares. Its corners are the corners of the obstacle that are nearest to the given points.
     ///
     /// # Errors
-    /// Why it is no such part; as [`CheckError::Input`] if the obstacle is not known.
+    /// If there is no such part, with the reason. [`CheckError::Input`] if the obstacle is not known.
     pub fn part(&self, given: &[Corner]) -> Result<Shape, CheckError> {
         if self.course.is_some() {
             return CheckError::fails("it moves, and is not always there");
@@ -151,7 +154,7 @@ impl Obstacle {
                 }
             }
             Outline::Polygon(rings) => {
-                // Corners between others on a line say nothing.
+                // Ignore corners that lie on a line between others.
                 let part = hull(named(&rings.iter().flatten().collect::<Vec<_>>()));
                 match polygon::holds(rings, &part) {
                     true => Ok(shape(&part, thin)),
@@ -170,11 +173,12 @@ impl Obstacle {
         }
     }
 
-    /// The segments of its border, or its disc, or a link's shape, in their places; of what moves in its own frame. What is connected, touches none of them and is not inside is off
-    /// the obstacle.
+    /// Returns the segments of its border, its disc, or the link's shape. Those of a static obstacle are in plane
+    /// coordinates, those of a moving obstacle in its own frame. A connected set that does not touch them and is not
+    /// inside the obstacle is off the obstacle.
     ///
     /// # Errors
-    /// An obstacle that the checker does not know, or that is none.
+    /// If the checker does not know the obstacle, or if it has too few points.
     pub fn sides(&self) -> Result<Vec<Shape>, CheckError> {
         let placed = |p: &Point| if self.course.is_some() { p.clone() } else { self.placed(p) };
         let side = |points: &[Point], radius: Interval| Shape { points: points.iter().map(placed).collect(), radius };
@@ -198,11 +202,11 @@ impl Obstacle {
         }
     }
 
-    /// Whether a point is inside that is farther than this from all of its border. None if the point is not known well enough
-    /// to say.
+    /// Returns true if a point is inside the obstacle. The point must be farther than `farther` from the border.
+    /// Returns `None` if the point is not known precisely enough to decide.
     pub fn surrounds(&self, at: &Point, farther: &BigInt) -> Option<bool> {
         let own = self.own(at).map(|c| c.middle());
-        // What stands in for the point is nearer to it than any ring.
+        // The midpoint that stands in for the point is nearer to it than any border.
         let is_near = own.iter().map(|(_, radius)| radius).sum::<BigInt>() < *farther;
         let own = own.map(|(middle, _)| middle);
         is_near.then(|| match &self.outline {
@@ -213,7 +217,7 @@ impl Obstacle {
     }
 }
 
-/// Which of the places is nearest, as the middles of their enclosures have it.
+/// Returns the index of the nearest place, judged by the middles of the enclosures.
 fn nearest(places: &[Point], to: &Point) -> Option<usize> {
     let distance = |place: &Point| {
         let [x, y] = [0, 1].map(|k| (&place[k] - &to[k]).middle().0);

@@ -1,4 +1,4 @@
-//! How deep two convex shapes overlap.
+//! Overlap depth of two convex shapes.
 
 use crate::interval::{Interval, Point};
 use num_bigint::BigInt;
@@ -16,7 +16,8 @@ pub struct Shape {
 /// A point in units.
 pub type Exact = [BigInt; 2];
 
-/// What differences, products and comparisons are exact of: large integers, and small ones as long as they are small.
+/// Numbers with exact differences, products and comparisons: big integers, and machine integers as long as they do not
+/// overflow.
 pub trait Integer: Clone + Ord + Default {
     /// The difference.
     fn minus(&self, other: &Self) -> Self;
@@ -53,7 +54,7 @@ fn minus<T: Integer>(u: &[T; 2], v: &[T; 2]) -> [T; 2] {
     [u[0].minus(&v[0]), u[1].minus(&v[1])]
 }
 
-/// The corners of the convex hull, turning left; no three in a line (Andrew 1979).
+/// Returns the corners of the convex hull, turning left, with no three on a line (Andrew 1979).
 pub fn hull<T: Integer>(mut points: Vec<[T; 2]>) -> Vec<[T; 2]> {
     points.sort();
     points.dedup();
@@ -71,13 +72,13 @@ pub fn hull<T: Integer>(mut points: Vec<[T; 2]>) -> Vec<[T; 2]> {
             }
             ring.push(p.clone());
         }
-        // Where one half ends the other begins.
+        // The last point of one half is the first point of the other.
         ring.pop();
     }
     ring
 }
 
-/// Whether the origin is nearer than `distance` to the segment from `p` to `q`.
+/// Returns true if the origin is nearer than `distance` to the segment from `p` to `q`.
 fn is_near<T: Integer>(p: &[T; 2], q: &[T; 2], distance: &T) -> bool {
     let (along, square) = (minus(q, p), distance.times(distance));
     let at = T::default().minus(&dot(p, &along));
@@ -92,14 +93,15 @@ fn is_near<T: Integer>(p: &[T; 2], q: &[T; 2], distance: &T) -> bool {
     }
 }
 
-/// Whether the convex hull of some points, its corners turning left, reaches beyond the origin by more than `needed` in every direction.
+/// Returns true if a convex hull, given by its corners turning left, reaches beyond the origin by more than `needed` in
+/// every direction.
 fn reaches<T: Integer>(ring: &[[T; 2]], needed: &T) -> bool {
     let zero = T::default();
     let edges = || ring.iter().zip(ring.iter().cycle().skip(1));
     if *needed < zero && edges().any(|(p, q)| is_near(p, q, &zero.minus(needed))) {
         return true;
     }
-    // The origin is inside, and from each side farther than is needed.
+    // Here the origin must be inside, and farther from each side than needed.
     let is_deep = |(p, q): (&[T; 2], &[T; 2])| {
         let (area, along) = (cross(p, q), minus(q, p));
         let is_beyond = || area.times(&area) > needed.times(needed).times(&dot(&along, &along));
@@ -108,7 +110,7 @@ fn reaches<T: Integer>(ring: &[[T; 2]], needed: &T) -> bool {
     ring.len() > 2 && edges().all(is_deep)
 }
 
-/// Points in the middle of a shape's, and how far one is from there at most.
+/// Returns points in the middle of the shape's points, and the maximum distance of a point from its middle.
 fn middles(shape: &Shape) -> (Vec<Exact>, BigInt) {
     let mut error = BigInt::ZERO;
     let middle = |p: &Point| {
@@ -119,13 +121,13 @@ fn middles(shape: &Shape) -> (Vec<Exact>, BigInt) {
     (shape.points.iter().map(middle).collect(), error)
 }
 
-/// Whether in every direction the shape `a` reaches beyond where `b` begins by more than `depth`: no translation of `a` by
-/// `depth` or less takes it off `b`.
+/// Returns true if the shape `a` overlaps `b` by more than `depth`: no translation of `a` by `depth` or less separates
+/// it from `b`.
 ///
-/// With `M` the convex hull of all differences of a point of `b` and one of `a`, and `r` the sum of the radii, that means: in
-/// every direction `M` reaches beyond the origin by more than `depth - r`. For exact points in the middle of the enclosures
-/// that is decided without rounding, with `error`, the farthest that a difference is from there, added to what is asked for. Most
-/// of it is decided by the first digits.
+/// Let `M` be the convex hull of all differences of a point of `b` and a point of `a`, and let `r` be the sum of the
+/// radii. Then the condition means: in every direction `M` reaches beyond the origin by more than `depth - r`. The test
+/// uses exact points in the middle of the enclosures, without rounding. It adds `error`, the maximum distance of a
+/// difference from its middle, to the required depth. In most cases the leading digits decide.
 pub fn overlap_by_more_than(a: &Shape, b: &Shape, depth: &BigInt) -> bool {
     let [(a_middles, a_error), (b_middles, b_error)] = [a, b].map(middles);
     let error = a_error + b_error;
@@ -136,14 +138,15 @@ pub fn overlap_by_more_than(a: &Shape, b: &Shape, depth: &BigInt) -> bool {
     let [a_first, b_first] =
         [&a_middles, &b_middles].map(|points| points.iter().map(|p| p.each_ref().map(first)).collect::<Vec<_>>());
     let (ring, about) = (hull(differences(&b_first, &a_first)), first(&needed));
-    // Either coordinate of a difference is off by less than one.
+    // Each coordinate of a difference is off by less than one.
     if reaches(&ring, &(about + 3)) {
         return true;
     }
     reaches(&ring, &(about - 2)) && reaches(&hull(differences(&b_middles, &a_middles)), &needed)
 }
 
-/// Whether it seems that the convex hulls of some points overlap by more than a depth: of their first digits, in doubt yes.
+/// Returns true if the convex hulls of some points seem to overlap by more than a depth. It uses their leading digits
+/// only, and returns true if in doubt.
 pub fn seem_to_overlap(a: &[[f64; 2]], b: &[[f64; 2]], depth: f64) -> bool {
     let all = || a.iter().chain(b).flatten().chain([&depth]);
     let most = all().fold(0.0_f64, |most, c| most.max(c.abs()));
@@ -152,10 +155,10 @@ pub fn seem_to_overlap(a: &[[f64; 2]], b: &[[f64; 2]], depth: f64) -> bool {
     all().any(|c| !c.is_finite()) || reaches(&hull(differences(&b, &a)), &(first(depth) - 3))
 }
 
-/// So many first digits leave squares of products in 128 bits.
+/// Number of leading digits for which squares of products fit in 128 bits.
 const FIRST_BITS: u64 = 28;
 
-/// All differences of two points.
+/// Returns all differences of two points.
 fn differences<T: Integer>(from: &[[T; 2]], to: &[[T; 2]]) -> Vec<[T; 2]> {
     from.iter().flat_map(|p| to.iter().map(move |q| minus(p, q))).collect()
 }
@@ -174,7 +177,7 @@ mod tests {
         Shape { points: numbers.chunks(2).map(|p| [p[0].clone(), p[1].clone()]).collect(), radius: of(radius) }
     }
 
-    /// The depth is this number: a little less is proven, a little more is not.
+    /// Asserts that the depth is this number: slightly less is proven, slightly more is not.
     fn has_depth(a: &Shape, b: &Shape, depth: &str) {
         let little = of("1e-50").upper;
         for (a, b) in [(a, b), (b, a)] {

@@ -1,30 +1,31 @@
-//! Whether a convex polygon is part of a polygon, without rounding.
+//! Exact test whether a convex polygon is part of a polygon.
 
 use crate::decimal::Decimal;
 use num_bigint::Sign;
 
-/// Coordinates as they are written.
+/// Coordinates exactly as written.
 pub type Corner = [Decimal; 2];
 
-/// On which side of the line from `a` to `b` a point lies: plus on the left.
+/// Returns the side of the line from `a` to `b` on which a point lies: plus on the left.
 pub fn side(a: &Corner, b: &Corner, p: &Corner) -> Sign {
     let cross = |u: &Corner, v: &Corner| &(&u[0] * &v[1]) - &(&u[1] * &v[0]);
     let from_a = |p: &Corner| [&p[0] - &a[0], &p[1] - &a[1]];
     cross(&from_a(b), &from_a(p)).sign()
 }
 
-/// Corner and next corner, all round.
+/// Iterates over each corner and the next one, all around the ring.
 pub fn edges(ring: &[Corner]) -> impl Iterator<Item = (&Corner, &Corner)> {
     ring.iter().zip(ring.iter().cycle().skip(1))
 }
 
-/// Whether each side has all other corners on its left. A corner that comes twice is on the line of a side.
+/// Returns true if each side has all other corners on its left. A repeated corner lies on the line of a side and so
+/// gives false.
 pub fn is_convex(ring: &[Corner]) -> bool {
     let others = |from: usize| (2..ring.len()).map(move |k| &ring[(from + k) % ring.len()]);
     ring.len() > 2 && edges(ring).enumerate().all(|(from, (a, b))| others(from).all(|p| side(a, b, p) == Sign::Plus))
 }
 
-/// Whether a point that lies on no ring is surrounded by them an odd number of times.
+/// Returns true if the rings surround a point an odd number of times. The point must not lie on a ring.
 pub fn surrounds(rings: &[Vec<Corner>], point: &Corner) -> bool {
     let crosses = |&(a, b): &(&Corner, &Corner)| match (a[1] <= point[1], b[1] <= point[1]) {
         (true, false) => side(a, b, point) == Sign::Plus,
@@ -34,10 +35,11 @@ pub fn surrounds(rings: &[Vec<Corner>], point: &Corner) -> bool {
     rings.iter().flat_map(|ring| edges(ring)).filter(crosses).count() % 2 == 1
 }
 
-/// Whether `part`, whose corners turn left, is convex and part of what the rings surround.
+/// Returns true if `part`, whose corners turn left, is convex and lies within the region that the rings surround.
 ///
-/// No ring enters the part's inside: a line separates each of its sides from there, along one of the part's sides or along
-/// itself. So the inside belongs to the polygon as a whole or not at all, which one point of it decides.
+/// No ring enters the interior of the part: for each side of a ring, a line separates it from that interior. That line
+/// runs along a side of the part or along the side of the ring. So the interior belongs to the polygon entirely or not
+/// at all, and one of its points decides which.
 pub fn holds(rings: &[Vec<Corner>], part: &[Corner]) -> bool {
     let misses = |u: &Corner, v: &Corner| {
         let outside = |a, b| [u, v].iter().all(|p| side(a, b, p) != Sign::Plus);
@@ -80,7 +82,7 @@ mod tests {
         ] {
             assert!(!holds(&l, &ring(outside)), "{outside}");
         }
-        // There and back between corners of two diamonds, through another corner and the room between them.
+        // Runs back and forth between corners of two diamonds, through another corner and the gap between them.
         let diamonds = [ring("0 0  0.5 -1  1 0  0.5 1"), ring("2 0  2.5 -1  3 0  2.5 1")];
         assert!(!holds(&diamonds, &ring("0 0  2 0  0 0  2 0")));
         assert!(!holds(&[ring("-9 -9  9 -9  9 9  -9 9")], &ring("0 3  -2 -3  3 1  -3 1  2 -3")));

@@ -1,4 +1,4 @@
-//! Shapes that are carried, among obstacles.
+//! Moving shapes among obstacles.
 
 use crate::curve::Piece;
 use crate::error::CheckError;
@@ -8,31 +8,31 @@ use crate::obstacle::Obstacle;
 use crate::overlap::Shape;
 use std::rc::Rc;
 
-/// A shape that is carried.
+/// A shape that the arm moves.
 pub struct Part<'a> {
-    /// Its name, in words.
+    /// Name for messages.
     pub name: String,
-    /// How far it has to keep, in words.
+    /// Required distance, in words for messages.
     pub keeps: &'a str,
     /// Its shape.
     pub solid: &'a Solid,
-    /// Of each obstacle, whether they can meet.
+    /// For each obstacle, whether the two can collide.
     pub meets: Vec<bool>,
 }
 
-/// An obstacle in its place, or on its way.
+/// An obstacle at its place, or on its trajectory.
 pub struct Present {
     /// The obstacle.
     pub obstacle: Obstacle,
-    /// What shapes keep off, to keep off it.
+    /// The edges that shapes must keep away from to avoid the obstacle.
     pub edges: Vec<Edge>,
 }
 
 impl Present {
-    /// An obstacle as what moves by a chain sees it.
+    /// Prepares an obstacle for checks against shapes that move with a chain.
     ///
     /// # Errors
-    /// As [`Obstacle::sides`].
+    /// Same as [`Obstacle::sides`].
     pub fn new(chain: &Chain, obstacle: Obstacle) -> Result<Self, CheckError> {
         let edge = |side: Shape| match &obstacle.course {
             None => Edge::Still(Side::new(chain, &side)),
@@ -43,11 +43,11 @@ impl Present {
     }
 }
 
-/// That all parts keep off all obstacles that they can meet on pieces that follow one another; `from` is where they begin. Obstacles
-/// that are none have their numbers.
+/// Checks that all parts keep away from all obstacles that they can collide with, along consecutive pieces. `from` is
+/// the first configuration. Absent obstacles keep their numbers.
 ///
 /// # Errors
-/// The first stretch, part and obstacle of which it is not shown.
+/// Names the first stretch, part and obstacle for which this is not shown.
 pub fn stay_off(
     chain: &Chain,
     pieces: &[Piece],
@@ -71,7 +71,7 @@ pub fn stay_off(
         None => format!("obstacle {number}"),
     };
     let solids: Vec<&Solid> = parts.iter().map(|part| part.solid).collect();
-    // Where what joint 1 carries is, seen from what joint 2 carries, depends on joint 2 alone.
+    // Relative to what joint 2 carries, the position of what joint 1 carries depends on joint 2 alone.
     let is_carried = |number: usize| obstacles[number].as_ref().is_some_and(|present| present.obstacle.is_carried());
     let (turning, standing) = pairs.into_iter().partition(|[_, edge]| is_carried(owners[*edge]));
     let of_second: Vec<Piece> = pieces.iter().map(Piece::of_second).collect();
@@ -84,7 +84,7 @@ pub fn stay_off(
             called(owners[edge])
         ))
     })?;
-    // Off all borders all the time, it is inside an obstacle if it is at first.
+    // A part that never touches a border is inside an obstacle only if it is inside initially.
     let time = &pieces[0].time[0];
     for part in parts {
         let corner = part.solid.corner_at(chain, from);

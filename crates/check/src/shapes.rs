@@ -9,47 +9,47 @@ use crate::overlap::Shape;
 use std::collections::BTreeSet;
 use std::fmt;
 
-/// Least overlap of the heights of two links that can collide, metres: `10^-9`. Links often lie on one another.
+/// Least overlap of the heights of two links that can collide, metres: `10^-9`. Links often rest on one another.
 const TOUCHING: u32 = 9;
 
-/// What an outline is to be, where it is not the projection itself.
+/// The approximation of a projection.
 #[derive(Clone, Copy, PartialEq)]
 pub enum Outline {
     /// Part of the projection.
     Within,
-    /// All of it, and maybe more.
+    /// A superset of the projection.
     Around,
 }
 
-/// A collision shape in the plane, as seen from the origin of its joint.
+/// A collision shape in the plane, relative to the origin of its joint.
 #[derive(Clone)]
 pub struct Body {
-    /// 0 or 1: the last joint that moves it. No matter of what stands still.
+    /// The last joint that moves it, 0 or 1. Meaningless for static links.
     pub link: usize,
-    /// What it covers.
+    /// The region that it covers.
     pub shape: Shape,
-    /// Its extent along the normal; none: everywhere.
+    /// Extent along the normal; `None` if unlimited.
     pub heights: Option<[Interval; 2]>,
 }
 
 impl Body {
-    /// Its heights and others; none where one of them is everywhere.
+    /// Returns its heights and others. Returns `None` if one of them is unlimited.
     fn beside(&self, heights: Option<&Range>) -> Option<(&[Interval; 2], [Interval; 2])> {
         Some((self.heights.as_ref()?, heights?.each_ref().map(Interval::from)))
     }
 
-    /// Whether its heights and these are known to have some in common.
+    /// Returns true if its heights and these certainly overlap.
     pub fn is_at(&self, heights: Option<&Range>) -> bool {
         self.beside(heights).is_none_or(|(own, [low, high])| own[0].upper <= high.lower && low.upper <= own[1].lower)
     }
 
-    /// Whether its heights and these are known to have none in common.
+    /// Returns true if its heights and these certainly do not overlap.
     pub fn passes(&self, heights: Option<&Range>) -> bool {
         self.beside(heights).is_some_and(|(own, [low, high])| own[1].upper < low.lower || high.upper < own[0].lower)
     }
 
-    /// Returns the heights at which other links can collide with a link that is an obstacle for them: at least those with
-    /// [`Outline::Around`], at most those with [`Outline::Within`].
+    /// Returns the heights at which other links can collide with a link that is an obstacle for them.
+    /// [`Outline::Around`] gives a superset of these heights, [`Outline::Within`] a subset.
     pub fn kept(&self, outline: Outline) -> Option<Range> {
         let by = Interval::from(&Decimal::power_of_ten(TOUCHING));
         let [low, high] = self.heights.as_ref()?;
@@ -58,24 +58,24 @@ impl Body {
     }
 }
 
-/// A shape that counts, or a layer of one.
+/// A shape that is considered for collisions, or a layer of one.
 #[derive(Clone)]
 pub struct Counted {
-    /// The link that it belongs to.
+    /// Name of the link that it belongs to.
     pub link: String,
-    /// `collision`, `visual` or `bar`, ...
+    /// `collision`, `visual` or `bar`.
     pub kind: &'static str,
-    /// ... and its number among those of its kind that the link has, without those that have no size.
+    /// Number among the link's shapes of that kind, not counting those without size.
     pub number: usize,
-    /// The last of the two joints that moves it; none if it stands still.
+    /// The last of the two joints that moves it; `None` if it is static.
     pub last: Option<usize>,
     /// Number of the layer, counted from the lowest, if the shape is cut.
     pub layer: Option<usize>,
-    /// At least what it covers, ...
+    /// A superset of the covered region.
     pub around: Body,
-    /// ... and at most.
+    /// A subset of the covered region.
     pub within: Body,
-    /// Links that it may touch.
+    /// Links that it is allowed to touch.
     pub ignored: BTreeSet<String>,
 }
 
@@ -96,7 +96,7 @@ impl Counted {
         Owner { link: self.link.clone(), is_carried: self.last.is_some() }
     }
 
-    /// Whether a body, which is this shape or its sweep by the tool, must keep off an obstacle.
+    /// Returns true if a body must keep away from an obstacle. The body is this shape, or its sweep by the tool.
     pub fn meets(&self, body: &Body, obstacle: &Obstacle) -> bool {
         let is_free = obstacle.own.as_ref().is_some_and(|own| self.ignored.contains(&own.link));
         !is_free && !body.passes(obstacle.heights.as_ref())
@@ -108,14 +108,15 @@ impl Counted {
 pub struct Owner {
     /// Its name.
     pub link: String,
-    /// Whether joint 1 carries it. Then its place is that with joint 1 at zero, and so is that of what can meet it.
+    /// True if joint 1 carries it. Then its position is given with joint 1 at zero, and so is that of anything that can
+    /// collide with it.
     pub is_carried: bool,
 }
 
-/// Finds a shape by its link, kind and number; if it is cut, the layer that contains a height.
+/// Finds a shape by its link, kind and number. If the shape is cut, finds the layer that contains a height.
 ///
 /// # Errors
-/// When there is none, or several layers and no height.
+/// If there is no such shape, or if it has several layers and no height is given.
 pub fn named<'s>(
     all: &'s [Counted],
     (link, kind, number): (&str, &str, usize),

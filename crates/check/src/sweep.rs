@@ -1,27 +1,28 @@
-//! Whether boxes separate configurations from one another.
+//! Checks whether boxes separate configurations from one another.
 
 use crate::decimal::Decimal;
 use crate::domain::{Domain, Range, Rectangle};
 use std::collections::BTreeSet;
 
-/// More gaps are not looked at: they take some hundred megabytes.
+/// Maximum number of gaps. This many take some hundred megabytes.
 const MOST_GAPS: usize = 1 << 22;
 
-/// Strips within a seam's enclosure, of which each is held against each of those at the other end.
+/// Maximum number of strips within a seam's enclosure. Each of them is compared with each strip at the other end.
 const MOST_AT_A_SEAM: usize = 100;
 
-/// What closed boxes leave of a domain: strips of the first joint between the boxes' sides, and in each the open gaps of the
-/// second.
+/// The domain without the closed boxes: strips of the first joint between the boxes' sides, and in each strip the open
+/// gaps of the second joint.
 struct Gaps {
-    /// One between each value of the first joint and the next.
+    /// The strips, one between each value of the first joint and the next.
     strips: Vec<Strip>,
-    /// Groups of gaps that belong together: each one's representative; while they are joined, one nearer to it.
+    /// For each gap, the representative of its group of connected gaps. While groups are being joined: a gap nearer to
+    /// the representative.
     group: Vec<usize>,
-    /// Where boxes or the domain end, ascending.
+    /// Values at which boxes or the domain end, ascending.
     values: [Vec<Decimal>; 2],
 }
 
-/// Gaps beside one another: from and to, by rank, and the number of the first of them.
+/// The gaps within one strip: the ranks of their ends, and the number of the first gap.
 struct Strip {
     first: usize,
     gaps: Vec<[usize; 2]>,
@@ -71,8 +72,8 @@ impl Gaps {
         Some(gaps)
     }
 
-    /// Puts gaps together between which a free motion may lead: those of strips side by side that overlap; and across a seam
-    /// those that reach its enclosures on both sides.
+    /// Joins gaps between which a free motion may lead: overlapping gaps of neighbouring strips, and gaps that reach
+    /// the enclosures of a seam on both sides.
     fn join(&mut self, domain: &Domain) {
         for right in 1..self.strips.len() {
             self.join_strips(right - 1, right);
@@ -91,7 +92,7 @@ impl Gaps {
                 let Strip { first, gaps } = &self.strips[strip];
                 let bottom = gaps.iter().filter(|[from, _]| *from < below).count();
                 let top = gaps.iter().filter(|[_, to]| *to >= above).count();
-                // Each of the lowest with each of the highest.
+                // Join each of the lowest gaps with each of the highest.
                 if bottom > 0 && top > 0 {
                     let all = (*first..first + bottom).chain(first + gaps.len() - top..first + gaps.len());
                     all.collect::<Vec<_>>().windows(2).for_each(|pair| self.unite(pair[0], pair[1]));
@@ -115,7 +116,7 @@ impl Gaps {
         }
     }
 
-    /// Strips whose closure meets a range.
+    /// Returns the strips whose closure meets a range.
     fn strips_that_meet(&self, [low, high]: &Range) -> std::ops::Range<usize> {
         let values = &self.values[0];
         let from = values.partition_point(|v| v < low).saturating_sub(1);
@@ -135,7 +136,7 @@ impl Gaps {
         self.group[a.max(b)] = a.min(b);
     }
 
-    /// The groups of which some lies in a rectangle, borders included.
+    /// Returns the groups with a gap that meets a rectangle, borders included.
     fn groups_that_meet(&self, [first, [low, high]]: &Rectangle) -> impl Iterator<Item = usize> {
         let values = &self.values[1];
         let (low, high) = (values.partition_point(|v| v < low), values.partition_point(|v| v <= high));
@@ -148,27 +149,28 @@ impl Gaps {
     }
 }
 
-/// The part of a box in the domain; none if it has no inside there.
+/// Returns the part of a box within the domain. Returns `None` if that part has no interior.
 fn clipped(stuck: &Rectangle, domain: &[Range; 2]) -> Option<Rectangle> {
     let part = [0, 1].map(|k| [(&stuck[k][0]).max(&domain[k][0]).clone(), (&stuck[k][1]).min(&domain[k][1]).clone()]);
     part.iter().all(|[low, high]| low < high).then_some(part)
 }
 
-/// What boxes leave of a domain that a motion from the start may come to.
+/// The gaps that a motion from the start may reach.
 pub struct Reached {
     gaps: Gaps,
     groups: BTreeSet<usize>,
 }
 
 impl Reached {
-    /// By a start in the domain. None if the boxes leave more gaps than can be looked at.
+    /// Computes the gaps reachable from a start in the domain. Returns `None` if the boxes leave more gaps than the
+    /// checker can handle.
     pub fn new(domain: &Domain, boxes: &[Rectangle], start: &Rectangle) -> Option<Self> {
         let gaps = Gaps::new(domain, boxes)?;
         let groups = gaps.groups_that_meet(start).collect();
         Some(Self { gaps, groups })
     }
 
-    /// Whether some of it lies in a rectangle of the domain, borders included.
+    /// Returns true if some reachable gap meets a rectangle of the domain, borders included.
     pub fn meets(&self, rectangle: &Rectangle) -> bool {
         self.gaps.groups_that_meet(rectangle).any(|group| self.groups.contains(&group))
     }
@@ -212,10 +214,10 @@ mod tests {
         for slit in ["0.3000000000000000000000000000000001", "0.31"] {
             assert!(!separates([line(), line()], &[["0", "0.1", "-5", "0.3"], ["0.05", "0.2", slit, "9"]]), "{slit}");
         }
-        // Side by side they close; that their ends are written in different ways does not matter.
+        // Adjacent boxes close the gap, even if their common end is written differently.
         assert!(separates([line(), line()], &[["0", "0.10", "-5", "0.3"], ["1e-1", "0.2", "0.3", "9"]]));
         assert!(!separates([line(), line()], &[["0", "0.1", "-5", "0.3"], ["0.1000000001", "0.2", "0.3", "9"]]));
-        // Up to just before the limit is not enough, nor is a wall without thickness or turned inside out.
+        // A wall that stops just before the limit is not enough, nor is one without thickness or with swapped ends.
         assert!(!separates([line(), line()], &[["0", "0.1", "-2", "2.0999999999999999999"]]));
         assert!(!separates([line(), line()], &[["0", "0", "-2", "2.1"]]));
         assert!(!separates([line(), line()], &[["0.1", "0", "-2", "2.1"]]));
@@ -237,12 +239,12 @@ mod tests {
             assert!(!separates([Axis::Circle, second.clone()], &[wall]));
             assert!(separates([Axis::Circle, second], &[wall, other]));
         }
-        // Across the second joint's seam: a roof alone does not keep a circle in.
+        // Across the second joint's seam: a lid alone does not confine a joint that turns endlessly.
         let roofed = [["-9", "9", "0.7", "0.8"], ["0", "0.1", "-4", "0.75"]];
         assert!(separates([line(), line()], &roofed));
         let short = [["-9", "9", "0.7", "0.8"], ["0", "0.1", "-3.1", "0.75"]];
         assert!(!separates([line(), Axis::Circle], &short));
-        // Up to what a double takes for pi is a slit; beyond it is none.
+        // A wall that ends at the double nearest to pi leaves a slit. One that ends beyond pi leaves none.
         let up_to = |pi| separates([line(), Axis::Circle], &[["0", "0.1", "-3.2", pi]]);
         assert!(!up_to("3.141592653589793") && up_to("3.1415926535897936"));
     }

@@ -1,38 +1,39 @@
-//! What stands around the arm, and what is asked.
+//! The world around the arm, and the start and goal of the query.
 
 use crate::decimal::Decimal;
 use crate::domain::Range;
 use crate::obstacle::Obstacle;
 use crate::polygon::Corner;
 
-/// What stands around the arm, and what is asked.
+/// The world around the arm, and the start and goal of the query.
 #[derive(Default)]
 pub struct World {
-    /// Where the arm is, if the world says it.
+    /// Start of the arm, if the world file states one.
     pub start: Option<Goal>,
-    /// Where the arm is to go, if the world says it.
+    /// Goal of the arm, if the world file states one.
     pub goal: Option<Goal>,
-    /// How far the arm keeps from obstacles, metres.
+    /// Required distance between the arm and obstacles, metres.
     pub clearance: Decimal,
-    /// Obstacles that stand: those of the file, then the map's walls, then the objects where they lie at first, or move.
+    /// Static obstacles: those of the file, then the map's walls, then the objects at their initial poses. Objects may
+    /// also move.
     pub obstacles: Vec<Obstacle>,
-    /// Obstacles of the file that move.
+    /// Moving obstacles of the file.
     pub movers: Vec<Obstacle>,
 }
 
-/// Where the arm is, or is to go.
+/// A start or a goal of the arm.
 #[derive(Clone)]
 pub enum Goal {
-    /// Values of the joints.
+    /// Joint values.
     Joints([Range; 2]),
-    /// A place of the tip, in whatever configuration.
+    /// A tip position, in any configuration.
     Tip(Corner),
-    /// Rectangles of the tip by opposite corners, any of which will do.
+    /// Rectangles for the tip, given by opposite corners; any of them satisfies the goal.
     Areas(Vec<[Corner; 2]>),
 }
 
 impl World {
-    /// All obstacles, those that move last.
+    /// Iterates over all obstacles, moving obstacles last.
     pub fn all(&self) -> impl Iterator<Item = &Obstacle> {
         self.obstacles.iter().chain(&self.movers)
     }

@@ -1,4 +1,4 @@
-//! Judges an arm and a world that are made as data: no file is read.
+//! Judges an arm and a world that are built as data, without files.
 
 use cplan_check::arm::{Arm, Joint, Motion};
 use cplan_check::decimal::Decimal;
@@ -19,7 +19,7 @@ fn point(x: i32, y: i32) -> Point {
     [x, y].map(Interval::whole)
 }
 
-/// Two bars of 1 m and of 0.1 m width, of which the second can turn by no more than 1 rad.
+/// Makes an arm of two bars, 1 m long and 0.1 m wide. The second joint turns by at most 1 rad.
 fn arm() -> Arm {
     let joint = |name: &str, far: &str| {
         let range = [&format!("-{far}"), far].map(number);
@@ -59,7 +59,7 @@ fn arm() -> Arm {
     }
 }
 
-/// A post before the first bar, from one side of it to the other.
+/// Makes a world with a post that blocks the first bar: start and goal are on opposite sides.
 fn world() -> World {
     let joints = |q: [&str; 2]| Some(Goal::Joints(q.map(|value| [number(value), number(value)])));
     let outline = Outline::Circle([number("0.9"), number("0")], number("0.2"));
@@ -81,7 +81,7 @@ fn boxes_separate_the_ends() {
     }"#;
     let proven = r#"no motion of "j1" and "j2" leads from the start to the goal with clearance 0"#;
     assert_eq!(judged(text), Ok(proven.into()));
-    // Wider than the post; not from end to end.
+    // A box wider than the post allows, and one that does not reach across the domain.
     for (from, to, why) in [("0.1, 1]", "0.3, 1]", "come off"), ("0.1, 1]", "0.1, 0.9]", "do not separate")] {
         let Err(CheckError::Fails(message)) = judged(&text.replace(from, to)) else { panic!("{to} holds") };
         assert!(message.contains(why), "{message}");

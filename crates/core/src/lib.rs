@@ -1,10 +1,10 @@
 //! The core planner: from an arm among obstacles to a certified path.
 //!
 //! - [`space`]: joint values, axes that are intervals or circles, paths.
-//! - [`model`]: joints, links, the arm, obstacles, and the scene: which pairs of shapes can meet.
+//! - [`model`]: joints, links, the arm, obstacles, and the scene with the pairs of shapes that can meet.
 //! - [`cspace`]: C-obstacles as slices, polygons or cells, each with its kind of proof.
 //! - [`waves`]: waves and classical searches over the free cells of a grid.
-//! - [`planner`]: the trait `Planner` and the four planners of the mission.
+//! - [`planner`]: the trait `Planner` and four planners: visibility graph, trapezoids, wavefront, harmonic field.
 //! - [`check`]: the judge, which certifies paths and proofs on the shapes themselves.
 
 pub mod space;

@@ -7,7 +7,7 @@ use crate::Point;
 use crate::map::Map;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-/// More chords than this a curve does not have: its tolerance is finer than anyone can mean.
+/// Greatest number of chords of a curve; a finer tolerance would be a mistake.
 const MOST_CHORDS: f64 = 1e5;
 
 /// A curve that would need too many chords.
@@ -20,12 +20,12 @@ fn chords(bend: f64, range: f64, tolerance: f64) -> Result<usize, TooFine> {
     if count <= MOST_CHORDS { Ok(count as usize) } else { Err(TooFine) }
 }
 
-/// Points of a curve by its parameter from 0 to 1, without the first, the last among them.
+/// Returns points of a curve at parameters from 0 to 1, without the first and with the last.
 fn along(count: usize, at: impl Fn(f64) -> Point) -> impl Iterator<Item = Point> {
     (1..=count).map(move |k| at(k as f64 / count as f64))
 }
 
-/// Points `center + u cos t + v sin t`.
+/// The ellipse of points `center + u cos t + v sin t`.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Ellipse {
     pub center: Point,
@@ -49,13 +49,13 @@ impl Ellipse {
 
     /// Returns the length of its long half axis.
     fn longest(self) -> f64 {
-        // No direction is stretched by more than both together.
+        // No direction is stretched by more than both vectors together.
         let square: f64 = [self.u, self.v].iter().flatten().map(|x| x * x).sum();
         let cross = self.u[0] * self.v[1] - self.u[1] * self.v[0];
         (square / 2.0 + ((square * square / 4.0 - cross * cross).max(0.0)).sqrt()).sqrt()
     }
 
-    /// Points of the arc from parameter `from` on by `by`, without the first.
+    /// Returns the points of the arc from parameter `from` over the range `by`, without the first.
     pub fn arc(self, from: f64, by: f64, tolerance: f64) -> Result<impl Iterator<Item = Point>, TooFine> {
         let count = chords(self.longest(), by.abs(), tolerance)?.max((by.abs() / FRAC_PI_2).ceil() as usize);
         Ok(along(count, move |part| self.at(from + by * part)))
@@ -83,7 +83,7 @@ impl Bow {
     pub fn new(a: Point, b: Point, bulge: f64) -> Option<Self> {
         let [dx, dy] = [b[0] - a[0], b[1] - a[1]];
         let middle = [(a[0] + b[0]) / 2.0, (a[1] + b[1]) / 2.0];
-        // From the middle of the chord to the centre, in chords to the left of it.
+        // Distance from the middle of the chord to the centre, as a multiple of the chord, to the left.
         let aside = (1.0 - bulge * bulge) / (4.0 * bulge);
         let center = [middle[0] - dy * aside, middle[1] + dx * aside];
         let is_bent = bulge != 0.0 && a != b && center.iter().all(|x| x.is_finite());
@@ -144,7 +144,7 @@ pub(crate) struct Spline {
     pub weights: Vec<f64>,
 }
 
-/// Halvings of a span before a spline is given up.
+/// Greatest number of halvings of a span before the spline is refused.
 const MOST_HALVINGS: u32 = 14;
 
 impl Spline {
@@ -174,7 +174,7 @@ impl Spline {
                     distance(m, a, b) <= tolerance / 2.0
                 })
             };
-            // Fewer than four would not see a curve that is the same on both sides of its middle.
+            // With fewer than four, a curve that is symmetric about its middle would look straight.
             let count = (2..MOST_HALVINGS).map(|k| 1_usize << k).find(fits).ok_or(TooFine)?;
             points.extend(along(count, at));
         }

@@ -1,14 +1,14 @@
-//! Why a file is no drawing.
+//! The reason why a file cannot be read as a drawing.
 
-/// Why a file is no drawing.
+/// The reason why a file cannot be read as a drawing.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{message}")]
 pub struct Error {
-    /// From 1, in formats that have lines.
+    /// Line number from 1, in formats that have lines.
     pub line: Option<usize>,
-    /// What is wrong.
+    /// The defect.
     pub message: String,
-    /// What to do about it.
+    /// A hint.
     pub cure: String,
 }
 

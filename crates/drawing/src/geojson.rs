@@ -34,7 +34,7 @@ const LISTS: &str = "features, geometries and rings stand in lists, as positions
 const NUMBERS: &str = "write both coordinates as numbers, without quotes";
 const HEIGHT: &str = "write heights as numbers, without quotes, or leave the height out";
 
-/// Greatest height, metres: no arm is anywhere near.
+/// Greatest height, metres: far beyond any arm.
 const HIGHEST: f64 = 1e6;
 
 struct Reader {
@@ -145,7 +145,7 @@ impl Reader {
             .map(|(i, point)| {
                 let numbers = point.as_array().map(|p| p.iter().map(Value::as_f64).collect::<Vec<_>>());
                 match numbers.as_deref() {
-                    // A third one is a height above the plane.
+                    // A third coordinate is a height above the plane.
                     Some([Some(x), Some(y), ..]) => Ok::<Point, Error>(self.map.point([*x, *y])),
                     _ => Err(wrong(&format!("{at}[{i}]"), "expected a position: [x, y]", NUMBERS)),
                 }

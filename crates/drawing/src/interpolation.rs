@@ -1,5 +1,5 @@
-//! Interpolating splines, as CAD programs draw a spline that is given only by its fit points: cubic, parametrised by
-//! chord length, with continuous curvature.
+//! Interpolating splines for curves that a file gives only by their fit points, as in CAD programs: cubic, parametrised
+//! by chord length, with continuous curvature.
 
 use crate::Point;
 

@@ -1,21 +1,21 @@
-//! Ends that meet, two at a time.
+//! Joins curves whose ends meet, two at a time.
 
 use crate::Point;
 use std::collections::HashMap;
 
-/// A chain of open curves, or of one.
+/// A chain of one or more open curves.
 #[derive(Debug, PartialEq)]
 pub(crate) struct Chain {
     /// Indices of the curves, in order along the chain.
     pub curves: Vec<usize>,
-    /// Without the last point if that is the first.
+    /// Points of the chain; without the last one if it equals the first.
     pub points: Vec<Point>,
     pub is_closed: bool,
     /// Greatest gap between the ends of joined neighbours.
     pub gap: f64,
 }
 
-/// Places where curves end: those nearer than `reach` are one.
+/// Places where curves end. Ends nearer than `reach` share a place.
 struct Places {
     reach: f64,
     cells: HashMap<[i64; 2], Vec<usize>>,
@@ -44,7 +44,8 @@ fn apart(a: Point, b: Point) -> f64 {
     (a[0] - b[0]).hypot(a[1] - b[1])
 }
 
-/// Joins curves at places where two of them end; where three do nobody can say which belong together. Each has two points or more.
+/// Joins curves at places where exactly two of them end; where three end, the partners are ambiguous. Each curve has
+/// two points or more.
 pub(crate) fn joined(curves: &[Vec<Point>], reach: f64) -> Vec<Chain> {
     let mut places = Places { reach, cells: HashMap::new(), at: Vec::new() };
     let ends: Vec<[usize; 2]> =
@@ -99,7 +100,7 @@ fn chain(
             _ => break,
         };
     }
-    // Two points there and back surround nothing.
+    // Two points, there and back, surround no area.
     if place == begin && at_place[place].len() == 2 && chain.points.len() > 3 {
         let last = chain.points.pop().expect("two points or more");
         chain.gap = chain.gap.max(apart(last, chain.points[0]));

@@ -96,7 +96,7 @@ pub fn read(bytes: &[u8], format: Format, settings: &Settings) -> Result<Drawing
     }
 }
 
-/// Bytes as UTF-8, without a byte order mark.
+/// Returns bytes as UTF-8, without a byte order mark.
 fn text(bytes: &[u8]) -> Result<&str, Error> {
     let text = std::str::from_utf8(bytes).map_err(|error| {
         let line = bytes[..error.valid_up_to()].iter().filter(|&&byte| byte == b'\n').count() + 1;

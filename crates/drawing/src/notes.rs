@@ -6,7 +6,7 @@ use std::fmt;
 /// A remark about an element that was left out or changed.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Note {
-    /// Its kind, such as `TEXT: left out`.
+    /// Kind of the note, such as `TEXT: left out`.
     pub message: String,
     /// Number of occurrences.
     pub count: usize,
@@ -26,10 +26,10 @@ impl fmt::Display for Note {
     }
 }
 
-/// More kinds than this are counted as one: nobody reads them.
+/// Greatest number of kinds; all further ones are counted as one, because nobody would read them.
 const MOST_KINDS: usize = 48;
 
-/// Notes, and whose they are: counted by both.
+/// Notes with their owners, counted by both.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Notes {
     counted: Vec<(Vec<String>, Note)>,
@@ -38,7 +38,7 @@ pub struct Notes {
 }
 
 impl Notes {
-    /// Notes something of the whole drawing, and the line that it is in.
+    /// Adds a note about the whole drawing, with its line.
     pub fn add(&mut self, message: impl Into<String>, line: Option<usize>) {
         self.add_of(Vec::new(), message, line);
     }

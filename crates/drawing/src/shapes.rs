@@ -1,69 +1,69 @@
-//! What a drawing shows.
+//! The content of a drawing.
 
 use crate::Notes;
 
 /// Coordinates, metres.
 pub type Point = [f64; 2];
 
-/// Corners in order, each once: the last is joined to the first.
+/// Corners in order, each once: a side joins the last corner to the first.
 pub type Ring = Vec<Point>;
 
-/// What a file shows.
+/// The content of a file.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Drawing {
-    /// In the order of the file; what was joined stands where its first piece does.
+    /// Shapes in the order of the file; joined shapes have the position of their first piece.
     pub shapes: Vec<Shape>,
-    /// What was not taken, or not as it is written.
+    /// Content that was left out or changed.
     pub notes: Notes,
 }
 
-/// Something drawn.
+/// A shape of the drawing.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Shape {
-    /// The feature's name, the id of the element or of what it is in, or the block that it comes in with.
+    /// The feature's name, the id of the element or of a group around it, or the name of the block that contains it.
     pub name: Option<String>,
-    /// The layer that it lies on.
+    /// The layer of the shape.
     pub layer: Option<String>,
-    /// Where it is.
+    /// The geometry.
     pub geometry: Geometry,
-    /// Its extent across the plane, metres.
+    /// Extent across the plane, metres.
     pub height: Option<[f64; 2]>,
-    /// The layer that hides it: its own, if that is off or frozen, or a frozen one that it is inserted on.
+    /// The layer that hides it: its own, if that is off or frozen, or a frozen one of an insertion.
     pub hidden_by: Option<String>,
-    /// What it is in the file's own words.
+    /// The kind of shape, in the file's own words.
     pub kind: String,
-    /// Where it begins, in formats that have lines.
+    /// The line of its beginning, in formats that have lines.
     pub line: Option<usize>,
-    /// Where it is inserted, if it comes in with a block.
+    /// The frame of its block, if it is part of one.
     pub frame: Option<Frame>,
 }
 
 impl Shape {
-    /// All that it may be asked for by: its layer, its name, what hides it.
+    /// Returns all names by which a user may select it: its layer, its name, and the layer or group that hides it.
     #[must_use]
     pub fn called(&self) -> Vec<String> {
         [&self.layer, &self.name, &self.hidden_by].into_iter().flatten().cloned().collect()
     }
 }
 
-/// Where the outermost block that a shape comes in with is inserted, and how it is turned.
+/// The place and orientation at which a shape's outermost block is inserted.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Frame {
     /// The insertion point.
     pub at: Point,
-    /// Counter-clockwise, radians.
+    /// Angle, counter-clockwise, radians.
     pub angle: f64,
 }
 
 impl Frame {
-    /// Where a point of the frame lies.
+    /// Returns the drawing's coordinates of a point in the frame.
     #[must_use]
     pub fn placed(&self, [x, y]: Point) -> Point {
         let (sin, cos) = self.angle.sin_cos();
         [cos * x - sin * y + self.at[0], sin * x + cos * y + self.at[1]]
     }
 
-    /// A point as seen from the frame.
+    /// Returns a point as seen from the frame.
     #[must_use]
     pub fn local(&self, p: Point) -> Point {
         let (sin, cos) = self.angle.sin_cos();
@@ -72,23 +72,23 @@ impl Frame {
     }
 }
 
-/// Where a shape is.
+/// The geometry of a shape.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Geometry {
-    /// What is inside the outer ring and in no hole; directions mean nothing.
+    /// The region inside the outer ring and outside the holes; directions do not matter.
     Polygon {
-        /// As it is drawn; it may cross itself.
+        /// The ring as drawn; it may cross itself.
         outer: Ring,
-        /// What they surround is free.
+        /// Rings around free space.
         holes: Vec<Ring>,
     },
-    /// No area: at least two points, neighbours in different places.
+    /// A line without area: at least two points, neighbours in different places.
     Polyline(Vec<Point>),
     /// A disc.
     Circle {
-        /// Its centre.
+        /// The centre.
         center: Point,
-        /// Above 0.
+        /// The radius; above 0.
         radius: f64,
     },
 }

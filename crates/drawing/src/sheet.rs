@@ -8,16 +8,16 @@ use crate::notes::Notes;
 use crate::{Drawing, Error, Frame, Geometry, Point, Ring, Settings, Shape};
 use std::collections::BTreeMap;
 
-/// More points a drawing does not have: neither a planner nor a person could make use of it.
+/// Greatest number of points of a drawing; more would be of no use to a planner or a person.
 pub const MOST_POINTS: usize = 1 << 21;
 
-/// Greatest coordinate, metres: beyond it numbers lose what tolerances are about.
+/// Greatest coordinate, metres: beyond it, numbers are coarser than tolerances.
 const LARGEST: f64 = 1e12;
 
-/// Ends that are nearer than this were meant to meet, metres: turns and scales are rounded.
+/// Ends that are nearer than this meet, metres: rotations and scales are rounded.
 const ROUNDING: f64 = 1e-9;
 
-/// Whose a shape is.
+/// The origin of a shape in the file.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Origin {
     pub name: Option<String>,
@@ -59,7 +59,7 @@ impl Sheet {
         self.notes.add_of(origin.called(), message, origin.line);
     }
 
-    /// Says that something is not taken.
+    /// Notes that an element is left out.
     pub fn leave_out(&mut self, what: &str, origin: &Origin) {
         self.note(format!("{what}: left out"), origin);
     }
@@ -71,7 +71,7 @@ impl Sheet {
         Error::new(origin.line, message, "take a larger tolerance, or look whether the unit is meant")
     }
 
-    /// Chords of a curve, or the error that there would be too many.
+    /// Returns the chords of a curve, or the error that there would be too many.
     pub fn chords<T>(&self, chords: Result<T, TooFine>, origin: &Origin) -> Result<T, Error> {
         chords.map_err(|TooFine| self.too_fine(origin))
     }
@@ -149,7 +149,7 @@ impl Sheet {
         self.closed(ring, origin)
     }
 
-    /// Holds coordinates to a range and, all together, to a number.
+    /// Checks the range of coordinates, and their total number.
     fn counted<'a>(&mut self, points: impl Iterator<Item = &'a Point>, origin: &Origin) -> Result<(), Error> {
         for point in points {
             self.points += 1;
@@ -207,7 +207,7 @@ impl Sheet {
     }
 }
 
-/// Points without those that repeat the one before them; of a ring the first follows the last.
+/// Removes points that repeat the previous one; in a ring the first follows the last.
 pub(crate) fn once(mut points: Vec<Point>, is_ring: bool) -> Vec<Point> {
     points.dedup();
     while is_ring && points.len() > 1 && points.first() == points.last() {

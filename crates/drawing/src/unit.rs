@@ -10,7 +10,7 @@ pub struct Unit {
     metres: f64,
 }
 
-/// A word that is no unit.
+/// The error for a word that is no unit.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("\"{0}\" is not a known unit; the units are {names}", names = NAMES.map(|unit| unit.name).join(", "))]
 pub struct UnknownUnit(String);

@@ -1,38 +1,39 @@
-//! What an arm weighs, and the torques that move it.
+//! Masses of an arm, and the torques that move it.
 //!
-//! For a body of mass `m` whose centre of mass is at `p` and that turns by `theta`, with inertia `I` about its centre and the plane's
-//! normal, joint `k` has to bring
+//! Let a body of mass `m` have its centre of mass at `p`, orientation `theta`, and inertia `I` about its centre and the
+//! plane's normal. Its contribution to the torque of joint `k` is
 //!
 //! ```text
 //! tau_k = m dp/dq_k . (p'' - g) + I dtheta/dq_k theta''
 //! ```
 //!
-//! and the sum of that over all bodies (d'Alembert; Siciliano, Sciavicco, Villani, Oriolo, *Robotics*, 2009, section 7.1). Torques in N m of
-//! joints that turn, forces in N of those that slide. Friction, gears and the rotors' own inertia are not in it.
+//! and the torque is the sum over all bodies (d'Alembert; Siciliano, Sciavicco, Villani, Oriolo, *Robotics*, 2009,
+//! section 7.1). Revolute joints have torques in N m, prismatic joints have forces in N. Friction, gears and the
+//! inertia of the rotors are not included.
 
 use cplan_core::model::{Arm, Body, Dynamics, Grip, JointType, Payload, Scene};
 use cplan_core::space::Configuration;
 use cplan_geometry::{Convex, Point, Vector, perpendicular};
 
-/// Greatest magnitudes of a curve's derivatives by its parameter, joint by joint, over a part of it.
+/// Greatest magnitudes of a curve's derivatives by its parameter over a part of the curve, for each joint.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rates {
     /// Of the first derivative.
     pub first: [f64; 2],
-    /// Of the second.
+    /// Of the second derivative.
     pub second: [f64; 2],
-    /// Of the third.
+    /// Of the third derivative.
     pub third: [f64; 2],
 }
 
-/// Second derivatives of the parts of a torque along a curve, by its parameter, at the most: of each joint.
+/// Upper bounds on the second derivatives of the parts of a torque by the parameter of a curve, for each joint.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Curvature {
-    /// Of what the first derivative of the curve asks for, as an acceleration.
+    /// For the torque of an acceleration equal to the curve's first derivative.
     pub inertial: [f64; 2],
-    /// Of what its second derivative and the square of the first do.
+    /// For the torque of the curve's second derivative and the square of its first.
     pub bent: [f64; 2],
-    /// Of what it takes to hold the arm.
+    /// For the torque that holds the arm at rest.
     pub holding: [f64; 2],
 }
 
@@ -48,16 +49,16 @@ pub fn joined(a: &Body, b: &Body) -> Body {
     Body { mass, center, inertia: about(a) + about(b) }
 }
 
-/// Spreads a mass evenly over pieces that do not overlap. Pieces that are rounded off count as their cores but for discs.
+/// Spreads a mass evenly over pieces that do not overlap. Rounded pieces count as their cores, except for discs.
 #[must_use]
 pub fn spread(mass: f64, pieces: &[Convex]) -> Body {
     let sheets = pieces.iter().map(sheet).fold(Body::NONE, |sum, piece| joined(&sum, &piece));
-    // Of sheets the mass is their area.
+    // For pieces of density 1, the mass is the area.
     let density = if sheets.mass > 0.0 { mass / sheets.mass } else { 0.0 };
     Body { mass, inertia: density * sheets.inertia, ..sheets }
 }
 
-/// A piece of density 1.
+/// Returns a piece as a body of density 1.
 fn sheet(piece: &Convex) -> Body {
     let core = piece.core();
     if let [center] = core[..] {
@@ -65,7 +66,8 @@ fn sheet(piece: &Convex) -> Body {
         let mass = std::f64::consts::PI * square;
         return Body { mass, center, inertia: mass * square / 2.0 };
     }
-    // A fan of triangles; a triangle's inertia about its centre is a thirty-sixth of its mass times the sum of the squares of its sides.
+    // A fan of triangles. The inertia of a triangle about its centre is its mass times the sum of its squared sides,
+    // divided by 36.
     let triangles = core.windows(2).skip(1).map(|side| {
         let corners = [core[0], side[0], side[1]];
         let [a, b, c] = [corners[1] - corners[0], corners[2] - corners[0], corners[2] - corners[1]];
@@ -76,21 +78,22 @@ fn sheet(piece: &Convex) -> Body {
     triangles.fold(Body::NONE, |sum, triangle| joined(&sum, &triangle))
 }
 
-/// Lets motions keep within the joints' efforts, which take the place of accelerations that nobody gives; where nothing is known of
-/// masses and efforts, nothing changes.
+/// Makes motions respect the joints' efforts, which replace unspecified accelerations. Changes nothing if masses and
+/// efforts are unknown.
 pub fn keep_efforts(arm: &mut Arm) {
     let Some(mut dynamics) = arm.dynamics else { return };
     dynamics.limits = true;
     let greatest = Torques { arm, dynamics }.greatest_accelerations();
     for (k, joint) in arm.joints.iter_mut().enumerate().filter(|(k, _)| dynamics.assumed[*k]) {
-        // From one top speed to the other the jerk takes it no farther than this.
+        // Upper bound on the acceleration reached with this jerk between one top speed and the opposite one.
         let by_jerk = joint.jerk.map_or(f64::MAX, |jerk| (2.0 * jerk * joint.velocity).sqrt());
         joint.acceleration = greatest[k].min(by_jerk);
     }
     arm.dynamics = Some(dynamics);
 }
 
-/// What a payload adds to link 2, in the link's frame. What a wrist keeps level does not turn: its mass counts at the tip.
+/// Returns the body that a payload adds to link 2, in the link's frame. A payload that a wrist keeps level does not
+/// turn: its mass acts at the tip.
 fn carried(arm: &Arm, payload: &Payload) -> Body {
     match payload.grip {
         Grip::Rigid(in_link) => {
@@ -101,17 +104,17 @@ fn carried(arm: &Arm, payload: &Payload) -> Body {
     }
 }
 
-/// An arm and all that its joints move: the torques of its motions.
+/// An arm with everything its joints move, to compute the torques of its motions.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Torques<'a> {
-    /// The arm whose joints bring them.
+    /// The arm.
     pub arm: &'a Arm,
-    /// What the arm and its payload weigh, and the efforts.
+    /// Masses of the arm and its payload, and the efforts.
     pub dynamics: Dynamics,
 }
 
 impl<'a> Torques<'a> {
-    /// Those of a scene's arm with what it carries, if motions have to keep within its efforts.
+    /// Returns the torques of a scene's arm and load. Returns `None` if motions need not respect its efforts.
     #[must_use]
     pub fn limited(scene: &'a Scene) -> Option<Self> {
         let arm = scene.arm();
@@ -122,22 +125,22 @@ impl<'a> Torques<'a> {
         Some(Self { arm, dynamics })
     }
 
-    /// Torques of a motion at `q` with these speeds and accelerations of the joints.
+    /// Computes the torques of a motion at `q` with these joint speeds and accelerations.
     #[must_use]
     pub fn torque(&self, q: Configuration, velocity: Configuration, acceleration: Configuration) -> Configuration {
         let here = self.at(q);
         here.inertial(acceleration) + here.centrifugal(velocity) + here.holding()
     }
 
-    /// What all torques at a configuration depend on.
+    /// Computes everything that all torques in a configuration depend on.
     #[must_use]
     pub fn at(&self, q: Configuration) -> TorquesAt<'_> {
         let columns = [0, 1].map(|link| self.arm.jacobian(link, self.dynamics.bodies[link].center, q));
         TorquesAt { torques: self, columns }
     }
 
-    /// How fast torques change by the time along a part of a motion, at the most: no farther from `middle` than `reach` seconds, with these
-    /// derivatives.
+    /// Returns an upper bound on the rate of change of torques along a part of a motion. The part stays within `reach`
+    /// seconds of `middle` and has these derivatives.
     #[must_use]
     pub fn change(&self, middle: Configuration, reach: f64, rates: &Rates) -> [f64; 2] {
         let mut change = [0.0; 2];
@@ -153,14 +156,15 @@ impl<'a> Torques<'a> {
         change
     }
 
-    /// How far torques are from linear on a part of a curve without third derivatives: no farther from `middle` than `reach` of the parameter.
+    /// Returns upper bounds on the curvature of torques along a part of a curve without third derivatives. The part
+    /// stays within `reach` of `middle`, measured in the parameter.
     #[must_use]
     pub fn curvature(&self, middle: Configuration, reach: f64, rates: &Rates) -> Curvature {
         let mut curvature = Curvature::default();
         for (link, body) in self.dynamics.bodies.iter().enumerate() {
             let Bounds { column, way } = bounds(self.arm, link, body.center, middle, reach, rates);
             for (k, column) in column.iter().enumerate() {
-                // The second derivative of a product of a column and a derivative of the way.
+                // The second derivative of the product of a column and a derivative of the curve.
                 let of = |n: usize| column[2] * way[n] + 2.0 * column[1] * way[n + 1] + column[0] * way[n + 2];
                 curvature.inertial[k] += body.mass * of(0);
                 curvature.bent[k] += body.mass * of(1);
@@ -170,7 +174,7 @@ impl<'a> Torques<'a> {
         curvature
     }
 
-    /// Bounds on the magnitudes of the inertia matrix's entries, wherever the arm is.
+    /// Returns upper bounds on the magnitudes of the inertia matrix's entries in all configurations.
     #[must_use]
     pub fn greatest_inertia(&self) -> [[f64; 2]; 2] {
         let mut greatest = [[0.0; 2]; 2];
@@ -185,7 +189,8 @@ impl<'a> Torques<'a> {
         greatest
     }
 
-    /// Accelerations that no motion within speeds and efforts exceeds, wherever the arm is; infinite where a joint moves nothing.
+    /// Returns upper bounds on the accelerations of motions within speeds and efforts, in all configurations. They are
+    /// infinite for a joint that moves no mass.
     #[must_use]
     pub fn greatest_accelerations(&self) -> [f64; 2] {
         let mut pull = self.dynamics.effort;
@@ -199,7 +204,7 @@ impl<'a> Torques<'a> {
         [0, 1].map(|k| (inertia[1 - k][1 - k] * pull[k] + inertia[0][1] * pull[1 - k]) / determinant)
     }
 
-    /// A lower bound on the determinant of the inertia matrix, wherever the arm is.
+    /// Returns a lower bound on the determinant of the inertia matrix in all configurations.
     #[must_use]
     pub fn least_determinant(&self) -> f64 {
         use JointType::{Prismatic, Revolute};
@@ -216,16 +221,16 @@ impl<'a> Torques<'a> {
     }
 }
 
-/// Torques at a configuration.
+/// Torques in a configuration.
 #[derive(Debug, Clone, Copy)]
 pub struct TorquesAt<'a> {
     torques: &'a Torques<'a>,
-    /// Of each link's centre of mass its derivative by each joint.
+    /// For each link, the derivative of its centre of mass by each joint.
     columns: [[Vector; 2]; 2],
 }
 
 impl TorquesAt<'_> {
-    /// What accelerations alone ask for: the inertia matrix times them.
+    /// Computes the torques of accelerations alone: the inertia matrix times the accelerations.
     #[must_use]
     pub fn inertial(&self, acceleration: Configuration) -> Configuration {
         self.sum(|link, [first, second]| {
@@ -235,19 +240,19 @@ impl TorquesAt<'_> {
         })
     }
 
-    /// What speeds alone ask for: centrifugal and Coriolis forces.
+    /// Computes the torques of speeds alone: centrifugal and Coriolis forces.
     #[must_use]
     pub fn centrifugal(&self, velocity: Configuration) -> Configuration {
         self.sum(|link, columns| (bending(self.torques.arm, link, velocity, columns), 0.0))
     }
 
-    /// What it takes to hold the arm at rest against gravity.
+    /// Computes the torques that hold the arm at rest against gravity.
     #[must_use]
     pub fn holding(&self) -> Configuration {
         self.sum(|_, _| (-self.torques.dynamics.gravity, 0.0))
     }
 
-    /// Torques for accelerations of each link's centre of mass and of its turning.
+    /// Computes the torques for given accelerations of each link's centre of mass and orientation.
     fn sum(&self, accelerations: impl Fn(usize, [Vector; 2]) -> (Vector, f64)) -> Configuration {
         let mut torque = Configuration::zeros();
         for (link, (body, columns)) in self.torques.dynamics.bodies.iter().zip(self.columns).enumerate() {
@@ -260,7 +265,7 @@ impl TorquesAt<'_> {
     }
 }
 
-/// Acceleration of a link's centre of mass while the joints' speeds stay as they are.
+/// Returns the acceleration of a link's centre of mass at constant joint speeds.
 fn bending(arm: &Arm, link: usize, v: Configuration, columns: [Vector; 2]) -> Vector {
     use JointType::{Prismatic, Revolute};
     let [first, second] = arm.joints.each_ref().map(|joint| joint.joint_type);
@@ -283,7 +288,7 @@ fn bending(arm: &Arm, link: usize, v: Configuration, columns: [Vector; 2]) -> Ve
     }
 }
 
-/// By how much a link turns with each joint: none if that joint does not turn it.
+/// Returns the derivative of a link's orientation by each joint: `None` for a joint that does not turn it.
 fn turns(arm: &Arm, link: usize) -> [Option<f64>; 2] {
     [0, 1].map(|k| match arm.joints[k].joint_type {
         JointType::Revolute { sign } if k <= link => Some(sign),
@@ -291,25 +296,27 @@ fn turns(arm: &Arm, link: usize) -> [Option<f64>; 2] {
     })
 }
 
-/// Likewise, 1 or 0.
+/// Returns 1 for each joint that turns a link, else 0.
 fn is_turned(arm: &Arm, link: usize) -> [f64; 2] {
     turns(arm, link).map(|turn| f64::from(u8::from(turn.is_some())))
 }
 
-/// Bounds on magnitudes along a part of a curve, for a point of a link.
+/// Upper bounds on magnitudes along a part of a curve, for a point of a link.
 struct Bounds {
-    /// Of the point's derivative by each joint, and of the first two derivatives of that along the curve.
+    /// For each joint: bounds on the point's derivative by the joint, and on the first two derivatives of that along
+    /// the curve.
     column: [[f64; 3]; 2],
-    /// Of the first four derivatives of the point along the curve; of the fourth where the curve has no third derivative.
+    /// Bounds on the first four derivatives of the point along the curve. The fourth is valid if the curve has no third
+    /// derivative.
     way: [f64; 4],
 }
 
-/// The same wherever the arm is, at constant speeds up to its top speeds.
+/// Returns such bounds for all configurations, at constant speeds up to the top speeds.
 fn everywhere(arm: &Arm, link: usize, point: Point) -> Bounds {
     let velocity = arm.joints.each_ref().map(|joint| joint.velocity);
     let domains = arm.joints.each_ref().map(|joint| joint.range.domain());
     let middle = Configuration::from(domains.map(|(lower, upper)| f64::midpoint(lower, upper)));
-    // No joint gets farther from the middle than in so many seconds at its top speed.
+    // Time after which every joint could have moved from the middle to an end of its range at top speed.
     let time = (0..2).map(|k| (domains[k].1 - domains[k].0) / 2.0 / velocity[k]).fold(0.0, f64::max);
     bounds(arm, link, point, middle, time, &Rates { first: velocity, second: [0.0; 2], third: [0.0; 2] })
 }
@@ -318,7 +325,7 @@ fn bounds(arm: &Arm, link: usize, point: Point, middle: Configuration, reach: f6
     use JointType::{Prismatic, Revolute};
     const STILL: [f64; 3] = [0.0; 3];
     let Rates { first: v, second: a, third: j } = *rates;
-    // Derivatives of a lever that turns, by those of its angle.
+    // Derivatives of a turning lever, from those of its angle.
     let lever = |length: f64, v: f64, a: f64, j: f64| {
         let fourth = v * v * v * v + 6.0 * v * v * a + 3.0 * a * a;
         [v, v * v + a, v * v * v + 3.0 * v * a + j, fourth].map(|by| length * by)
@@ -342,7 +349,7 @@ fn bounds(arm: &Arm, link: usize, point: Point, middle: Configuration, reach: f6
         (Revolute { .. }, Prismatic { direction }) => {
             let r = (arm.offset + direction * middle[1] + point.coords).norm() + v[1] * reach;
             let turned = lever(1.0, v[0], a[0], j[0]);
-            // Of a product of a lever that turns and a length that changes.
+            // Derivatives of the product of a turning lever and a changing length.
             let mixed = [
                 0.0,
                 2.0 * turned[0] * v[1],

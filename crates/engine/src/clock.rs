@@ -4,7 +4,7 @@ use cplan_interrupt::Instant;
 use cplan_solver::Stages;
 use std::time::Duration;
 
-/// Stages in the order in which they end, each with the time since the one before.
+/// Stages in the order in which they ended, each with the time since the previous one.
 #[derive(Debug, Clone)]
 pub struct Clock {
     last: Instant,
@@ -12,19 +12,19 @@ pub struct Clock {
 }
 
 impl Clock {
-    /// Begins with stages that are over.
+    /// Starts the clock after these completed stages.
     #[must_use]
     pub fn after(stages: Vec<(&'static str, Duration)>) -> Self {
         Self { last: Instant::now(), stages }
     }
 
-    /// The time since the last stage ended was this one's.
+    /// Ends a stage: adds the time since the last stage ended.
     pub fn stage(&mut self, name: &'static str) {
         self.stages.push((name, self.last.elapsed()));
         self.last = Instant::now();
     }
 
-    /// The solver's own stages.
+    /// Adds the solver's own stages.
     pub fn solved(&mut self, stages: &Stages) {
         let Stages { build, query, certify, prove, bound } = *stages;
         for (name, time) in
@@ -37,7 +37,7 @@ impl Clock {
         self.last = Instant::now();
     }
 
-    /// All stages that have ended.
+    /// Returns all stages that have ended.
     #[must_use]
     pub fn stages(&self) -> &[(&'static str, Duration)] {
         &self.stages

@@ -1,15 +1,15 @@
-//! The fastest motion among several ways.
+//! The fastest motion along several paths.
 
 use cplan_core::model::MotionProblem;
 use cplan_core::space::Metric;
 use cplan_motion::{Fastest, Limits, Timed, TimingError, least_duration};
 use cplan_solver::{BoundedPath, Criterion, Options, bound, solve};
 
-/// Share of the least time by which its lower bound may be too low, for the ways that it is a bound on.
+/// Tolerance of the lower bound on path length that bounds the least time, as a share.
 const GAP: f64 = 1e-3;
 
-/// The fastest motion found: along the path that the planner answers with, and along those that are shortest by length and by time at top
-/// speed, if it is a planner that can be asked for them; and a lower bound on the time of every motion.
+/// Returns the fastest motion found, and a lower bound on the duration of every motion. Tries the planner's path, and,
+/// if the planner takes a criterion, the shortest paths by length and by time at top speed.
 pub(super) fn fastest(
     problem: &MotionProblem,
     path: &BoundedPath,

@@ -6,7 +6,7 @@ use cplan_fields::{EquationChoice, FieldChoice, FieldPlanner};
 use cplan_motion::FieldReport;
 use cplan_solver::{Answer, Space};
 
-/// The field that was asked for and what came of it.
+/// Reports the settings of the field, and how its computation ended.
 pub(super) fn field_report<F>(planner: &FieldPlanner, answer: &Answer<F>) -> FieldReport {
     let limits = if planner.limits == Limits::High { "high" } else { "reflecting" };
     let base = match planner.field {

@@ -11,11 +11,11 @@ use cplan_solver::{Answer, BoundedPath, Options};
 pub struct Motion {
     /// The path that it follows, without blends.
     pub path: BoundedPath,
-    /// The path with its blends, and when the arm is where.
+    /// The path with its blends, and its timing.
     pub timed: Timed,
-    /// How far it is from the fastest at the most, if that was asked for.
+    /// The bound on its distance from the fastest motion, if that was requested.
     pub fastest: Option<Fastest>,
-    /// How it gets by what moves, if anything does.
+    /// How it passes moving obstacles, if there are any.
     pub timing: Option<Timing>,
 }
 
@@ -26,7 +26,7 @@ impl AsRef<BoundedPath> for Motion {
 }
 
 impl Motion {
-    /// Drives along a path. Among what moves it may be that no timing is found: why, in words.
+    /// Times the motion along a path. With moving obstacles there may be no timing; then returns the reason, in words.
     fn along(
         problem: &MotionProblem,
         path: BoundedPath,
@@ -43,7 +43,7 @@ impl Motion {
             match in_time(problem, &taken, timed, options, &Demand::ALONE)? {
                 Ok(found) => {
                     let InTime { timed: waiting, figures } = found;
-                    // The bound stays; the duration has its waits now.
+                    // The bound is unchanged, but the duration now includes the waits.
                     let duration = waiting.trajectory.duration();
                     fastest = fastest.map(|fastest| Fastest::new(duration, fastest.lower_bound));
                     (timed, timing) = (waiting, Some(figures));
@@ -57,10 +57,10 @@ impl Motion {
     }
 }
 
-/// Drives along the path of an answer, if it has one.
+/// Times the motion along the path of an answer, if it has one.
 ///
 /// # Errors
-/// A motion that lasts too long, or has too many samples.
+/// Fails if the motion lasts too long, or has too many samples.
 pub(super) fn driven(
     problem: &MotionProblem,
     answer: Answer,

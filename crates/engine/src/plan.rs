@@ -1,4 +1,4 @@
-//! The front door: from a problem and options to a plan.
+//! The main entry point: makes a plan from a problem and options.
 
 use super::clock::Clock;
 use super::motion::{Motion, driven};
@@ -15,39 +15,40 @@ use cplan_text::percent;
 use std::borrow::Cow;
 use thiserror::Error;
 
-/// Why there is no plan, not even one that says "unknown".
+/// Reason why there is no plan, not even one with the status "unknown".
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum PlanError {
-    /// Options that make no sense, or not for this problem.
+    /// Options that are invalid, or unsuitable for this problem.
     #[error("{0}")]
     Options(String),
-    /// Options that ask of the robot what its file does not say.
+    /// Options that need properties of the robot that its file lacks.
     #[error("{0}")]
     Robot(String),
-    /// The trajectory cannot be made as asked.
+    /// The trajectory cannot be made as requested.
     #[error(transparent)]
     Timing(#[from] TimingError),
-    /// Joints that messages cannot name as asked, or accelerations that would mislead their readers.
+    /// Joints that messages cannot name as requested, or accelerations that would mislead their readers.
     #[error(transparent)]
     Joints(#[from] MessageError),
 }
 
-/// Why something cannot be done: proven.
+/// Proof that a problem has no solution.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Refutation<'a> {
-    /// Of a motion: boxes of configurations that collide separate start and goals.
+    /// For a motion: boxes of colliding configurations separate the start from the goals.
     Motion(&'a CheckedProof),
-    /// Of a task: a step that cannot be done, nor can the task in any other way.
+    /// For a task: a step that cannot be done, nor can the task by any other choice.
     Step(&'a FailedStep),
 }
 
-/// All that is known of a problem: the outcome, and what can be printed, written and drawn of it.
+/// The result of planning a problem: the outcome, and everything that can be printed, written and drawn.
 ///
-/// It is made by [`plan`] and immutable. [`Plan::outcome`] has the answer itself; `to_json`, `svg`, `html`, `bytes`, `save` and
-/// `summary` are what the program writes.
+/// [`plan`] makes it, and it is immutable. [`Plan::outcome`] returns the answer itself; `to_json`, `svg`, `html`,
+/// `bytes`, `save` and `summary` return the program's output.
 ///
-/// It is data for serde: the problem, the options and the result. Nothing that such data states is believed; reading plans again, and
-/// refuses a result that differs, but for the times that it took. So a plan that is read is as certified as one that was just made.
+/// Plans support serde, as the problem, the options and the result. The stated result is never trusted: deserializing
+/// plans again, and refuses a result that differs, except in the measured times. So a deserialized plan is as certified
+/// as a new one.
 ///
 /// ```
 /// use cplan_core::model::{Arm, Obstacle, Workspace};
@@ -75,7 +76,7 @@ pub struct Plan {
     clock: Clock,
 }
 
-/// What was planned, with the limits asked for, and its answer.
+/// The planned problem, with the overridden limits, and its answer.
 #[derive(Debug, Clone)]
 #[expect(clippy::large_enum_variant, reason = "a plan has one, in a box")]
 pub enum Detail {
@@ -83,27 +84,29 @@ pub enum Detail {
     Motion {
         /// The problem.
         problem: MotionProblem,
-        /// Its answer.
+        /// The answer.
         answer: Answer<Motion>,
     },
     /// A sequence of steps.
     Task {
         /// The task.
         task: Task,
-        /// Its answer.
+        /// The answer.
         answer: TaskAnswer,
     },
 }
 
-/// Plans: a certified motion, a proof that there is none, or neither within the options' effort. Milliseconds, as a rule.
+/// Plans a problem. The result is a certified motion, a proof that no motion exists, or neither within the options'
+/// effort. Usually takes milliseconds.
 ///
 /// # Errors
-/// Options that make no sense; a motion that lasts too long for its samples; accelerations that were asked for and jump.
+/// Fails if options are invalid, if a motion lasts too long for its samples, or if accelerations are requested and
+/// jump.
 pub fn plan(problem: &Problem, options: &Options) -> Result<Plan, PlanError> {
     plan_with(problem, options, &mut |_| ())
 }
 
-/// The same; `progress` hears of long work, and of what may surprise, in lines of text.
+/// Plans like [`plan`]. Long computations, and surprising results, are reported to `progress` in lines of text.
 ///
 /// # Errors
 /// As [`plan`].
@@ -171,7 +174,7 @@ fn plan_motion(
     Ok(Detail::Motion { problem, answer })
 }
 
-/// Plans the steps of a task. Messages can name the robot's joints then.
+/// Plans the steps of a task. Checks that messages can name the robot's joints.
 fn plan_task(
     task: &Task,
     robot: &RobotJoints,
@@ -194,7 +197,7 @@ fn plan_task(
     Ok(Detail::Task { task, answer })
 }
 
-/// The joints that messages name.
+/// Returns the joints that messages name.
 pub(super) fn named<'a>(problem: &'a Problem, options: &Options) -> Cow<'a, RobotJoints> {
     match options.joints {
         NamedJoints::All => Cow::Borrowed(&problem.robot().joints),
@@ -206,7 +209,7 @@ pub(super) fn named<'a>(problem: &'a Problem, options: &Options) -> Cow<'a, Robo
 }
 
 impl Plan {
-    /// Returns the answer: a certified motion; a proof that there is none; or why neither is known.
+    /// Returns the answer: a certified motion, a proof that there is no motion, or the reason why neither is known.
     #[must_use]
     pub fn outcome(&self) -> Outcome<&Trajectory, Refutation<'_>> {
         let reason = || self.reason().unwrap_or_default();
@@ -224,7 +227,7 @@ impl Plan {
         }
     }
 
-    /// Which of the three answers it is.
+    /// Returns the status: found, infeasible or unknown.
     #[must_use]
     pub fn status(&self) -> Status {
         match &*self.detail {
@@ -233,25 +236,25 @@ impl Plan {
         }
     }
 
-    /// The motion, if there is one.
+    /// Returns the motion, if there is one.
     #[must_use]
     pub fn trajectory(&self) -> Option<&Trajectory> {
         self.outcome().found().copied()
     }
 
-    /// What was asked.
+    /// Returns the problem.
     #[must_use]
     pub fn problem(&self) -> &Problem {
         &self.problem
     }
 
-    /// How it was asked.
+    /// Returns the options.
     #[must_use]
     pub fn options(&self) -> &Options {
         &self.options
     }
 
-    /// The time that each stage took, in the order in which they ended.
+    /// Returns the time of each stage, in the order in which they ended.
     #[must_use]
     pub fn timings(&self) -> &[(&'static str, std::time::Duration)] {
         self.clock.stages()
@@ -275,20 +278,22 @@ impl Plan {
         &self.detail
     }
 
-    /// How the planner came to its answer; of single motions. Some of it is computed for this alone.
+    /// Returns the replay of how the planner came to its answer. `None` for tasks. Some of the data is computed only
+    /// for the replay.
     #[must_use]
     pub fn replay(&self) -> Option<Replay> {
         self.motion().map(|(problem, answer)| Replay::new(problem, &self.options, answer))
     }
 
-    /// How the planner came to the motions of a task, which are planned again for this; none among what moves, where ways are tried in time.
+    /// Returns the replay of how the planner came to the motions of a task, which are planned again for it. `None` with
+    /// moving obstacles, where paths are tried in time.
     #[must_use]
     pub fn task_replay(&self) -> Option<TaskReplay> {
         let standing = self.task().filter(|(task, _)| !task.has_movers());
         standing.map(|(task, answer)| TaskReplay::new(task, &self.options, answer))
     }
 
-    /// The arm, with the limits asked for.
+    /// Returns the arm, with the overridden limits.
     #[must_use]
     pub fn arm(&self) -> &Arm {
         match &*self.detail {

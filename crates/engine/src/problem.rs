@@ -1,4 +1,4 @@
-//! What is asked: a motion, or a sequence of steps, of a robot in a world.
+//! Problems: a motion, or a sequence of steps, of a robot in a world.
 
 use cplan_core::model::{Arm, MotionProblem, MotionProblemError, Scene, SceneError, Workspace};
 use cplan_core::space::{Configuration, GoalSet};
@@ -11,24 +11,25 @@ use std::sync::Arc;
 use std::time::Duration;
 use thiserror::Error;
 
-/// A robot, its world, and what it is to do there: a motion from a start to a goal, or the steps of a task. Checked, and
-/// cheap to clone. For serde it is its model; what is read is checked as what is made in code, and numbers keep all their bits.
+/// A robot, its world, and its task there: a motion from a start to a goal, or a sequence of steps. It is checked, and
+/// cheap to clone. With serde it is stored as its model. Deserialized problems are checked like those made in code, and
+/// numbers keep all their bits.
 #[derive(Debug, Clone)]
 pub struct Problem {
     content: Arc<MotionOrTask>,
     robot: Arc<RobotReport>,
     notes: Arc<[String]>,
-    /// Time that it took to read.
+    /// Time that reading took.
     read_in: Option<Duration>,
 }
 
-/// Why arm, workspace, start and goals make no problem.
+/// Reason why arm, workspace, start and goals do not form a problem.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum ProblemError {
-    /// The arm or the workspace.
+    /// The arm or the workspace is invalid.
     #[error(transparent)]
     Scene(#[from] SceneError),
-    /// The start or a goal.
+    /// The start or a goal is invalid.
     #[error(transparent)]
     Ends(#[from] MotionProblemError),
 }
@@ -45,12 +46,13 @@ impl Problem {
     /// Reads a robot (URDF) and a world (TOML).
     ///
     /// # Errors
-    /// Everything that is wrong with the files, with line, column and cure; a start or goal that is out of reach or not free.
+    /// Reports all errors in the files, with line, column and hint. Also fails if the start or a goal is out of reach
+    /// or not free.
     pub fn load(robot: impl Into<RobotFile>, world: impl AsRef<Path>) -> Result<Self, InputError> {
         Self::load_with(robot, world, &Overrides::default())
     }
 
-    /// The same with start, goal and clearance in place of the world's.
+    /// Reads the same, with start, goal and clearance replaced by the overrides.
     ///
     /// # Errors
     /// As [`Problem::load`].
@@ -64,18 +66,19 @@ impl Problem {
         Ok(problem.read_since(begun))
     }
 
-    /// What is asked in a scene that has been read.
+    /// Returns the problem of a scene that has been read.
     ///
     /// # Errors
-    /// When start or goal is missing, out of reach or not free, or a step cannot be done by any arm like this.
+    /// Fails if the start or goal is missing, out of reach or not free, or if no arm like this one can do a step.
     pub fn of_scene(loaded: LoadedScene, overrides: &Overrides) -> Result<Self, InputError> {
         Ok(if loaded.has_steps() { loaded.task(overrides)?.into() } else { loaded.problem(overrides)?.into() })
     }
 
-    /// A motion of an arm in a workspace that are made in code, from `start` to any of `goals`.
+    /// Creates the problem of moving an arm in a workspace, both made in code, from `start` to any of `goals`.
     ///
     /// # Errors
-    /// Arms and workspaces whose numbers make no sense; a start or goal outside the limits or not free.
+    /// Fails if numbers of the arm or the workspace are invalid, or if the start or a goal is outside the limits or not
+    /// free.
     pub fn new(
         arm: Arm,
         workspace: Workspace,
@@ -86,23 +89,23 @@ impl Problem {
         Ok(MotionProblem::new(scene, start.into(), goals)?.into())
     }
 
-    /// The same, with the time since then as that of reading.
+    /// Returns the same problem, with the time since `begun` as the time of reading.
     #[must_use]
     pub fn read_since(self, begun: Instant) -> Self {
         Self { read_in: Some(begun.elapsed()), ..self }
     }
 
-    /// Returns the motion or the task that is asked for.
+    /// Returns the requested motion or task.
     pub(super) fn content(&self) -> &MotionOrTask {
         &self.content
     }
 
-    /// The time that reading the files took, if it was read from files.
+    /// Returns the time that reading the files took, if the problem was read from files.
     pub(crate) fn read_in(&self) -> Option<Duration> {
         self.read_in
     }
 
-    /// The arm among its obstacles; of a task as they lie at first.
+    /// Returns the arm among its obstacles. For a task, objects are at their initial poses.
     #[must_use]
     pub fn scene(&self) -> &Scene {
         match &*self.content {
@@ -111,25 +114,25 @@ impl Problem {
         }
     }
 
-    /// The motion, if it is a single one.
+    /// Returns the motion, if the problem is a single motion.
     #[must_use]
     pub fn motion(&self) -> Option<&MotionProblem> {
         if let MotionOrTask::Motion(motion) = &*self.content { Some(motion) } else { None }
     }
 
-    /// The task, if it is one.
+    /// Returns the task, if the problem is one.
     #[must_use]
     pub fn task(&self) -> Option<&Task> {
         if let MotionOrTask::Task(task, _) = &*self.content { Some(task) } else { None }
     }
 
-    /// How the robot was read.
+    /// Returns how the robot was read.
     #[must_use]
     pub fn robot(&self) -> &RobotReport {
         &self.robot
     }
 
-    /// What the user should know of how the world was read: defaults taken, branches of a goal that are blocked.
+    /// Returns notes for the user on how the world was read: defaults, and goal branches that are blocked.
     #[must_use]
     pub fn notes(&self) -> &[String] {
         &self.notes
@@ -153,7 +156,7 @@ impl From<LoadedTask> for Problem {
 }
 
 impl From<MotionProblem> for Problem {
-    /// Of an arm whose two joints are all that moves.
+    /// Creates the problem for an arm that has no moving joints other than its two.
     fn from(motion: MotionProblem) -> Self {
         let names = motion.scene().arm().joints.each_ref().map(|joint| joint.name.clone());
         let robot = RobotReport { joints: RobotJoints::planned(&names), ..RobotReport::default() };

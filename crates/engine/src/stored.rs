@@ -1,10 +1,12 @@
-//! Problems and plans as data, for serde: in JSON and formats like it, which say what a value is and have a word for none.
+//! Serialization of problems and plans by serde: in JSON and other self-describing formats that can represent missing
+//! values.
 //!
-//! A problem is its model: arm, obstacles and what is to be done; where it was read from does not matter. Reading makes it anew by
-//! the constructors that check, so what is read is as valid as what is loaded. Numbers are read back bit for bit.
+//! A problem is stored as its model: arm, obstacles and target; the source files do not matter. Reading uses the
+//! checking constructors, so stored problems are as valid as loaded ones. Numbers are restored bit for bit.
 //!
-//! A plan is a problem, options and the result. Only `check` certifies, so nothing that a file states is believed: reading plans
-//! again and compares. The same input gives the same output, so a difference is a change of the file, or another version's answer.
+//! A plan is stored as a problem, options and the result. Only `check` certifies, so the stated result is never
+//! trusted: reading plans again and compares. The same input gives the same output, so a difference means that the file
+//! was changed, or written by another version.
 
 use super::plan::{Plan, plan};
 use super::problem::{MotionOrTask, Problem};
@@ -17,7 +19,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use serde_json::Value;
 use std::borrow::Cow;
 
-/// What a problem is made of.
+/// The stored form of a problem.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct ProblemRecord<'a> {
@@ -26,7 +28,7 @@ struct ProblemRecord<'a> {
     notes: Vec<String>,
 }
 
-/// What is asked for.
+/// The requested motion or task.
 #[derive(Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 enum TargetRecord<'a> {
@@ -68,7 +70,7 @@ impl<'de> Deserialize<'de> for Problem {
     }
 }
 
-/// Whether messages can have values for all of a robot's joints.
+/// Returns true if messages can have values for all of a robot's joints.
 fn are_joints(robot: &RobotJoints) -> bool {
     let is_driven = |driver: Driver| match driver {
         Driver::Planned(joint) => joint < 2,
@@ -80,7 +82,7 @@ fn are_joints(robot: &RobotJoints) -> bool {
         && robot.stroke.iter().all(|stroke| stroke.joint.is_sound())
 }
 
-/// What a plan is made of: the result is there to be compared.
+/// The stored form of a plan. The result is only used for comparison.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct PlanRecord<P, O, R> {
@@ -107,7 +109,7 @@ impl<'de> Deserialize<'de> for Plan {
     }
 }
 
-/// The result without the times that it took, which differ from run to run.
+/// Returns the result without the measured times, which differ from run to run.
 fn result(plan: &Plan) -> serde_json::Result<Value> {
     let mut result = serde_json::to_value(plan.result(&[]))?;
     if let Value::Object(fields) = &mut result {
@@ -116,7 +118,7 @@ fn result(plan: &Plan) -> serde_json::Result<Value> {
     Ok(result)
 }
 
-/// Where a result that is stated is not the planned one, the first of the places in the order of names.
+/// Returns the first difference, in the order of names, between a stated result and the planned one.
 fn difference(at: &str, stated: &Value, planned: &Value) -> Option<String> {
     match (stated, planned) {
         (Value::Object(theirs), Value::Object(ours)) => {
@@ -142,7 +144,7 @@ fn difference(at: &str, stated: &Value, planned: &Value) -> Option<String> {
     }
 }
 
-/// A value, in so many letters at the most.
+/// Largest number of characters of a value in a message.
 const SHOWN: usize = 60;
 
 fn shown(value: &Value) -> String {

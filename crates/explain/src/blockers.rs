@@ -1,4 +1,4 @@
-//! Irreducible sets of what is in the way.
+//! Irreducible sets of elements that block all motions.
 
 use super::change::Change;
 use super::element::Element;
@@ -7,37 +7,39 @@ use cplan_core::check::{CertifiedPath, CheckedProof, Disconnection, StuckBox};
 use cplan_core::model::{Outcome, Scene, Status};
 use cplan_interrupt::checkpoint;
 
-/// Sets that are looked for at most, one after the other.
+/// Largest number of sets sought, one after the other.
 const MOST_SETS: usize = 8;
 
-/// What is in the way, and cannot be left out of its set.
+/// An element that blocks the motion and cannot be left out of its set.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Blocker {
-    /// What it is.
+    /// The element.
     pub element: Element,
-    /// A certified motion among the others of the set; none if it is not known whether there is one.
+    /// A certified motion past the other elements of the set. `None` if it is not known whether there is one.
     pub without: Option<CertifiedPath>,
-    /// The smallest changes of it that open a way, once they are asked for.
+    /// The smallest changes of the element that open a path, once they have been computed.
     pub changes: Vec<Change>,
 }
 
-/// With all of these, and nothing else in the world, there is no motion; without any one of them there is, or it is not known.
+/// A set of elements that, with nothing else in the world, leaves no motion. Without any one of them there is a motion,
+/// or it is not known whether there is.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BlockingSet {
-    /// Limits, the clearance, then obstacles in the order of the file. None where nothing can open a way, as to a tip goal out of reach.
+    /// Limits, then the clearance, then obstacles in the order of the file. Empty if no change can open a path, as for
+    /// a tip goal out of reach.
     pub blockers: Vec<Blocker>,
-    /// That there is no motion among these alone; none where the start, or all that is to be reached, is not free among them.
+    /// Proof that these elements alone leave no motion. `None` if the start, or every goal, is not free among them.
     pub proof: Option<CheckedProof>,
 }
 
 impl BlockingSet {
-    /// What is in it.
+    /// Returns the elements of the set.
     #[must_use]
     pub fn elements(&self) -> Vec<Element> {
         self.blockers.iter().map(|blocker| blocker.element).collect()
     }
 
-    /// Its elements in words: `obstacle "shelf" and the lower limit of joint "elbow"`; empty if it is.
+    /// Describes the elements: `obstacle "shelf" and the lower limit of joint "elbow"`. Empty for an empty set.
     #[must_use]
     pub fn describe(&self, scene: &Scene) -> String {
         let words: Vec<String> = self.blockers.iter().map(|blocker| blocker.element.describe(scene)).collect();
@@ -50,13 +52,13 @@ impl BlockingSet {
         }
     }
 
-    /// Whether every one of them was shown to be needed.
+    /// Returns true if every element was shown to be needed.
     #[must_use]
     pub fn is_irreducible(&self) -> bool {
         self.blockers.iter().all(|blocker| blocker.without.is_some())
     }
 
-    /// Found as far as is known: whether without an element there is a motion among the others.
+    /// Returns found if a motion is certified past the other elements when `element` is removed, otherwise unknown.
     #[must_use]
     pub fn without(&self, element: Element) -> Status {
         let blocker = self.blockers.iter().find(|blocker| blocker.element == element);
@@ -64,12 +66,16 @@ impl BlockingSet {
     }
 }
 
-/// An irreducible set of a question to which the answer is that there is no motion, by this proof.
+/// Returns an irreducible blocking set for an infeasible question, starting from its proof.
 ///
-/// A deletion filter: what the proof does not name goes at once, and of the rest each in turn if there is no motion without it, either. What is
-/// kept was needed: a motion is certified without it. That holds when others go later, since fewer obstacles, wider limits and less clearance only
-/// free more. Decisions by slabs and boxes, of these no more than the first number, and the second of the few that are left where else
-/// something would be unknown; no optimum is asked for. `O(n)` decisions for the `n` that the proof names.
+/// This is a deletion filter. Elements that the proof does not name are removed at once. Each of the others is removed
+/// if there is still no motion without it. An element that stays is needed: a motion is certified without it. That
+/// remains true when other elements are removed later, since fewer obstacles, wider limits and less clearance only free
+/// more configurations.
+///
+/// Decisions are made by slabs and boxes, without computing an optimum. `boxes` limits the number of boxes per
+/// decision: the first number applies to each element, the second to the few remaining ones whose result would
+/// otherwise be unknown. Makes `O(n)` decisions for the `n` elements that the proof names.
 #[must_use]
 pub fn blocking_set(question: &Question, proof: Option<CheckedProof>, boxes: [usize; 2]) -> BlockingSet {
     let mut filter =
@@ -78,7 +84,7 @@ pub fn blocking_set(question: &Question, proof: Option<CheckedProof>, boxes: [us
     filter.refine(proof);
     let (limits, others): (Vec<_>, Vec<_>) =
         filter.set.clone().into_iter().partition(|element| matches!(element, Element::Limit { .. }));
-    // As a rule no limit is needed, or some of both joints are.
+    // Usually either no limit is needed, or limits of both joints are.
     let mut waiting = vec![];
     if limits.len() < 2 || filter.try_without(&limits).is_err() {
         waiting = limits;
@@ -93,7 +99,7 @@ pub fn blocking_set(question: &Question, proof: Option<CheckedProof>, boxes: [us
             kept.push(Blocker { element, without, changes: Vec::new() });
         }
     }
-    // What was not decided among many may be among few.
+    // A question left undecided among many elements may be decided among few.
     filter.boxes = boxes[1];
     let count = kept.len();
     for k in (0..count).rev() {
@@ -108,7 +114,8 @@ pub fn blocking_set(question: &Question, proof: Option<CheckedProof>, boxes: [us
     BlockingSet { blockers: kept, proof: filter.proof }
 }
 
-/// Sets that have no obstacle in common, each of which is enough: one after the other, while there is none without the obstacles of those before.
+/// Returns blocking sets that have no obstacle in common. After each set, its obstacles are removed, until the
+/// remaining world has a motion.
 #[must_use]
 pub fn blocking_sets(question: &Question, proof: Option<CheckedProof>, boxes: [usize; 2]) -> Vec<BlockingSet> {
     let mut sets = vec![blocking_set(question, proof, boxes)];
@@ -128,25 +135,25 @@ pub fn blocking_sets(question: &Question, proof: Option<CheckedProof>, boxes: [u
     sets
 }
 
-/// What is left of a world that still has no motion.
+/// A world from which elements are removed while it still has no motion.
 struct Filter<'a> {
     question: &'a Question,
     boxes: usize,
     all: Vec<Element>,
-    /// What is there.
+    /// The elements that remain.
     set: Vec<Element>,
-    /// That there is no motion; none where ends are not free.
+    /// Proof that there is no motion. `None` if start or goals are not free.
     proof: Option<CheckedProof>,
 }
 
 impl Filter<'_> {
-    /// The question with nothing but these.
+    /// Returns the question with only these elements.
     fn among(&self, set: &[Element]) -> Question {
         let gone: Vec<Element> = self.all.iter().filter(|element| !set.contains(element)).copied().collect();
         self.question.without(&gone)
     }
 
-    /// Leaves some out if there is no motion without them, either; else what is known of one.
+    /// Removes some elements if there is still no motion without them. Otherwise returns the motion found, if any.
     fn try_without(&mut self, some: &[Element]) -> Result<(), Option<CertifiedPath>> {
         let set: Vec<Element> = self.set.iter().filter(|element| !some.contains(element)).copied().collect();
         match self.among(&set).answer(self.boxes) {
@@ -160,7 +167,7 @@ impl Filter<'_> {
         }
     }
 
-    /// Leaves out at once the obstacles that a proof does without.
+    /// Removes at once the obstacles that a proof does not need.
     fn refine(&mut self, proof: Option<CheckedProof>) {
         self.proof = proof;
         let Some(mut slim) = self.proof.clone() else { return };
@@ -175,14 +182,14 @@ impl Filter<'_> {
                 set.retain(|element| element.obstacle() != Some(obstacle));
             }
         }
-        // Without an obstacle there may be more configurations for the tip, of which the proof says nothing.
+        // Without an obstacle, the tip goal may be reached by more configurations, which the proof does not cover.
         if let Some(slim) = held(&self.among(&set), slim.stuck().to_vec()) {
             (self.set, self.proof) = (set, Some(slim));
         }
     }
 }
 
-/// The proof by these boxes, if it holds and that is shown in time.
+/// Returns the proof with these boxes, if it is shown to hold before the time is up.
 fn held(question: &Question, stuck: Vec<StuckBox>) -> Option<CheckedProof> {
     let scene = question.scene();
     let clearance = scene.workspace().clearance;

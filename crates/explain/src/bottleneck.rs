@@ -1,4 +1,5 @@
-//! Where a motion gets stuck: the narrowest place of the way that opens when everything gives way by the same.
+//! The bottleneck of an infeasible motion: the narrowest place of the path that opens first when everything shrinks
+//! equally.
 
 use super::change::{fineness, middle, shrunk};
 use super::question::Question;
@@ -7,37 +8,38 @@ use cplan_core::model::{Contact, Obstruction};
 use cplan_core::space::Configuration;
 use cplan_geometry::{Convex, Point, separation};
 
-/// The place where a way is narrowest that opens first when clearance, and then all obstacles at once, shrink.
+/// The narrowest place of the path that opens first when the clearance, and then all obstacles at once, shrink.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Bottleneck {
-    /// By how much they give way, metres: first less clearance, then smaller obstacles.
+    /// Amount of shrinking, metres: first the clearance becomes less, then the obstacles smaller.
     pub by: Threshold,
-    /// Where the way that opens comes nearest to what is left of them.
+    /// The configuration at which the path that opens comes nearest to the shrunk obstacles.
     pub at: Configuration,
-    /// The same place in the plane, where the arm is deepest in what it hits there.
+    /// The same place in the plane, where the arm is deepest in an obstacle.
     pub point: Point,
-    /// What the arm would hit there: of each link and obstacle the worst pair.
+    /// Collisions of the arm there: the worst pair for each link and obstacle.
     pub hits: Vec<Obstruction>,
 }
 
-/// How finely it is told by how much they give way, as a share of that.
+/// Tolerance of the amount of shrinking, as a share of it.
 const FINE_SHARE: f64 = 1e-2;
 
-/// The same, as a share of how finely changes are told: nearer to the threshold decisions take long.
+/// Smallest such tolerance, as a share of the tolerance of changes. Decisions nearer to the threshold take long.
 const FINEST: f64 = 1.0 / 16.0;
 
-/// Places along the way at which it is asked how narrow it is.
+/// Number of places along the path at which the missing distance is measured.
 const LOOKS: usize = 1024;
 
 impl Bottleneck {
-    /// By how much the place is too narrow, metres: what the arm lacks on all sides there, clearance included.
+    /// Returns by how much the place is too narrow, metres: the total distance that is missing on all sides, clearance
+    /// included.
     #[must_use]
     pub fn lacking(&self, clearance: f64) -> f64 {
         lacking(&self.hits, clearance)
     }
 }
 
-/// Of each obstacle that is hit the most that is lacking, all together.
+/// Returns the sum, over all obstacles that are hit, of the largest missing distance.
 fn lacking(hits: &[Obstruction], clearance: f64) -> f64 {
     let mut worst: Vec<(usize, f64)> = Vec::new();
     for hit in hits {
@@ -50,7 +52,7 @@ fn lacking(hits: &[Obstruction], clearance: f64) -> f64 {
     worst.iter().map(|(_, lack)| lack).sum()
 }
 
-/// Where a question is stuck to which the answer is that there is no motion; none if it is not the obstacles that it is stuck at.
+/// Finds the bottleneck of an infeasible question. `None` if obstacles and clearance are not what blocks it.
 #[must_use]
 pub fn bottleneck(question: &Question, boxes: usize) -> Option<Bottleneck> {
     let scene = question.scene();
@@ -72,7 +74,8 @@ pub fn bottleneck(question: &Question, boxes: usize) -> Option<Bottleneck> {
     Some(Bottleneck { by, at, point, hits })
 }
 
-/// Where on the way that opens the arm lacks most in the true scene, and what it hits there.
+/// Returns the configuration on the opened path at which the arm lacks most distance in the true scene, and the
+/// collisions there.
 fn narrowest(question: &Question, by: &Threshold) -> Option<(Configuration, Vec<Obstruction>)> {
     let (scene, path) = (question.scene(), by.path.path());
     let clearance = scene.workspace().clearance;
@@ -84,7 +87,7 @@ fn narrowest(question: &Question, by: &Threshold) -> Option<(Configuration, Vec<
     hits.max_by(|a, b| lacking(&a.1, clearance).total_cmp(&lacking(&b.1, clearance)))
 }
 
-/// The same with so much less of everything that is to be kept off.
+/// Returns the question with clearance, and then obstacles, reduced by this distance.
 fn giving_way(question: &Question, by: f64) -> Question {
     question.rebuilt(|_, workspace| {
         let beyond = by - workspace.clearance;
@@ -97,7 +100,7 @@ fn giving_way(question: &Question, by: f64) -> Question {
     })
 }
 
-/// The corner of either shape that is deepest in the other one.
+/// Returns the corner of either shape that is deepest in the other one.
 fn place(question: &Question, at: Configuration, Contact { pair, .. }: Contact) -> Point {
     let scene = question.scene();
     let (part, piece) = (scene.part(pair).at(&scene.arm().pose(pair.link, at)), scene.piece(pair));

@@ -1,4 +1,4 @@
-//! The smallest change of a single blocker that opens a way.
+//! The smallest change of a single blocker that opens a path.
 
 use super::element::Element;
 use super::question::{Question, farthest};
@@ -9,65 +9,67 @@ use nalgebra::Translation2;
 use serde::Serialize;
 use std::f64::consts::TAU;
 
-/// How finely changes are told, metres and radians; of worlds less than a metre in size, this share of the arm's reach.
+/// Tolerance of changes, metres and radians. For arms that reach less than a metre, this share of their reach.
 const FINE: f64 = 1e-3;
 
-/// The same, as a share of what can be changed at all.
+/// Largest tolerance, as a share of the largest possible change.
 const FINE_SHARE: f64 = 1e-2;
 
-/// Directions in which obstacles are moved, ...
+/// Number of directions in which obstacles are moved, ...
 const DIRECTIONS: usize = 16;
 
-/// ... and how often those beside the best one are tried, each time half as far from it.
+/// ... and number of times that the directions beside the best one are tried, each time at half the angle.
 const REFINEMENTS: u32 = 3;
 
-/// What is done to a blocker.
+/// The kind of change made to a blocker.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case", tag = "change")]
 pub enum Cure {
     /// The obstacle is moved in this direction, of unit length.
     Moved {
-        /// In the plane.
+        /// Direction in the plane.
         direction: [f64; 2],
     },
-    /// All sides of the obstacle, which is convex, move inwards.
+    /// All sides of the obstacle, which is convex, are moved inwards.
     Eroded,
-    /// The obstacle is scaled about the middle of its bounding box, so that its farthest point moves by so much.
+    /// The obstacle is scaled about the middle of its bounding box. The amount of the change is the motion of its
+    /// farthest point.
     Scaled {
-        /// To this share of its size.
+        /// The share of its size that is left.
         to: f64,
     },
-    /// The joint goes so much farther.
+    /// The joint's range is extended.
     Widened,
-    /// So much less clearance is kept.
+    /// The clearance is reduced.
     Lowered,
 }
 
-/// Among what a change was tried.
+/// The elements among which a change was tried.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Among {
-    /// All that is in the world.
+    /// All elements of the world.
     World,
-    /// The other blockers of its set alone: in the world another set closes the way, too.
+    /// Only the other blockers of its set, because in the world another set blocks all paths as well.
     Set,
 }
 
-/// A change of one blocker that opens a way.
+/// A change of one blocker that opens a path.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Change {
-    /// What is changed.
+    /// The element that is changed.
     pub element: Element,
-    /// How.
+    /// The kind of change.
     pub cure: Cure,
-    /// Among what.
+    /// The elements among which the change was tried.
     pub among: Among,
-    /// By how much, metres or radians.
+    /// The amount of the change, metres or radians.
     pub by: Threshold,
 }
 
-/// The smallest changes of a blocker, of each kind that it knows, where `question` has no answer but that there is none. Of moves
-/// it is an upper bound on the least: in the direction told, of 16 and some between them, no smaller step was found to do.
+/// Returns the smallest changes of a blocker, one for each kind that applies to it, for an infeasible `question`. For
+/// moves this is an upper bound on the least one: of 16 directions and some between them, the stated direction needed
+/// the smallest step found.
 #[must_use]
 pub fn changes(question: &Question, element: Element, among: Among, boxes: usize) -> Vec<Change> {
     let scene = question.scene();
@@ -97,12 +99,12 @@ pub fn changes(question: &Question, element: Element, among: Among, boxes: usize
     }
 }
 
-/// How finely lengths are told.
+/// Returns the tolerance for lengths.
 pub(super) fn fineness(question: &Question) -> f64 {
     FINE * question.scene().arm().reach().min(1.0)
 }
 
-/// The least shrinking of an obstacle.
+/// Finds the least shrinking of an obstacle that opens a path.
 fn shrinking(
     question: &Question,
     obstacle: &Obstacle,
@@ -114,20 +116,22 @@ fn shrinking(
     let ask = |by: f64| question.with_pieces(number, shrunk(obstacle, by)).answer(boxes);
     let by = threshold(0.0, most, fine.min(FINE_SHARE * most), ask)?;
     if by.opens >= most {
-        // Nothing is left of it: that the way is open without it is known.
+        // The obstacle has vanished. It is already known that its removal opens a path.
         return None;
     }
     let cure = if is_eroded(obstacle) { Cure::Eroded } else { Cure::Scaled { to: 1.0 - by.opens / most } };
     Some((cure, by))
 }
 
-/// Whether all sides of an obstacle can move inwards: pieces of others would come apart, and walls have no inside.
+/// Returns true if all sides of an obstacle can move inwards. Pieces of non-convex obstacles would come apart, and
+/// walls have no inside.
 fn is_eroded(obstacle: &Obstacle) -> bool {
     matches!(&obstacle.pieces[..], [only] if only.depth() > 0.0)
 }
 
-/// An obstacle's pieces when no point of it has moved inwards by more than so much: a convex one with all its sides moved, another one
-/// scaled about the middle of its bounding box. None are left of what is too thin.
+/// Returns an obstacle's pieces after no point of it has moved inwards by more than `by`. A convex obstacle has all its
+/// sides moved inwards; others are scaled about the middle of their bounding box. Returns no pieces if the obstacle is
+/// too thin.
 pub(super) fn shrunk(obstacle: &Obstacle, by: f64) -> Vec<Convex> {
     if is_eroded(obstacle) {
         return obstacle.pieces[0].eroded(by).into_iter().collect();
@@ -138,7 +142,8 @@ pub(super) fn shrunk(obstacle: &Obstacle, by: f64) -> Vec<Convex> {
     obstacle.pieces.iter().map(scaled).collect()
 }
 
-/// The middle of an obstacle's bounding box, and how far it reaches from there; none of what has no pieces.
+/// Returns the middle of an obstacle's bounding box, and the largest distance of the obstacle from there. `None` if it
+/// has no pieces.
 pub(super) fn middle(obstacle: &Obstacle) -> Option<(Point, f64)> {
     let [lower, upper] = obstacle
         .pieces
@@ -149,8 +154,8 @@ pub(super) fn middle(obstacle: &Obstacle) -> Option<(Point, f64)> {
     Some((middle, obstacle.pieces.iter().map(|piece| piece.reach_from(middle)).fold(0.0, f64::max)))
 }
 
-/// The least move of an obstacle that is found: all directions are tried with twice the step each time, then the ones that open a way
-/// are halved back, and those beside the best.
+/// Finds the least move of an obstacle that opens a path. Tries all directions with a step that doubles each time,
+/// bisects the step in the directions that open a path, and then tries the directions beside the best one.
 fn moving(
     question: &Question,
     obstacle: &Obstacle,
@@ -185,7 +190,7 @@ fn moving(
         if most <= 0.0 || !matches!(ask(share, most), Outcome::Found(_)) {
             return;
         }
-        // In this direction a smaller step may be known not to do.
+        // In this direction a smaller step may be proven not to open a path.
         let from = if below < most && matches!(ask(share, below), Outcome::Infeasible(_)) { below } else { 0.0 };
         if let Some(found) = threshold(from, most, fine, |by| ask(share, by)) {
             *best = Some((share, found));

@@ -1,4 +1,4 @@
-//! What can stand in a motion's way.
+//! Elements of a world that can block a motion.
 
 use cplan_core::model::{Arm, Scene};
 use cplan_core::space::JointRange;
@@ -9,39 +9,41 @@ use std::collections::BTreeSet;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Side {
-    /// The least value.
+    /// The lower end.
     Lower,
-    /// The greatest value.
+    /// The upper end.
     Upper,
 }
 
-/// What can stand in a motion's way: an obstacle, a link of the robot, a joint's limit, or the clearance to keep.
+/// Something that can block a motion: an obstacle, a link of the robot, a joint's limit, or the required clearance.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case", tag = "kind")]
 pub enum Element {
     /// An obstacle.
     Obstacle {
-        /// Into the workspace's obstacles.
+        /// Index into the workspace's obstacles.
         number: usize,
     },
     /// A link of the robot that stands still.
     Link {
-        /// That of its first layer, as in [`cplan_core::model::Pair::obstacle`].
+        /// Index of its first layer, as in [`cplan_core::model::Pair::obstacle`].
         number: usize,
     },
-    /// One end of a joint's range. Without it joint values stay what they are: a goal a whole turn off is another one.
+    /// One end of a joint's range. Removing it does not identify whole turns: a goal that is a whole turn away remains
+    /// a different goal.
     Limit {
-        /// 0 or 1.
+        /// Index of the joint, 0 or 1.
         joint: usize,
-        /// Which end.
+        /// The end of the range.
         side: Side,
     },
-    /// The distance to keep.
+    /// The required clearance.
     Clearance,
 }
 
 impl Element {
-    /// All that a scene has: finite limits, a clearance above 0, and obstacles and links that something can meet, in the order of the files.
+    /// Returns all elements of a scene: finite limits, a clearance above 0, and obstacles and links that the arm can
+    /// meet, in the order of the files.
     #[must_use]
     pub fn all(scene: &Scene) -> Vec<Self> {
         let limits = (0..2).filter(|&joint| !scene.arm().joints[joint].range.is_circle());
@@ -55,7 +57,7 @@ impl Element {
         all
     }
 
-    /// The number of the obstacle or link, if it is one.
+    /// Returns the index of the obstacle or link, if the element is one.
     #[must_use]
     pub fn obstacle(self) -> Option<usize> {
         match self {
@@ -64,7 +66,7 @@ impl Element {
         }
     }
 
-    /// It in words: `obstacle "shelf"`.
+    /// Describes the element: `obstacle "shelf"`.
     #[must_use]
     pub fn describe(self, scene: &Scene) -> String {
         match self {
@@ -77,14 +79,14 @@ impl Element {
         }
     }
 
-    /// The unit of what it is changed by.
+    /// Returns the unit in which changes of the element are measured.
     #[must_use]
     pub fn unit(self, arm: &Arm) -> &'static str {
         if let Self::Limit { joint, .. } = self { arm.joints[joint].unit() } else { "m" }
     }
 }
 
-/// A range with one end moved outwards.
+/// Returns a range with one end moved outwards.
 pub(super) fn widened(range: JointRange, side: Side, by: f64) -> JointRange {
     match (range, side) {
         (JointRange::Circle, _) => range,

@@ -1,4 +1,4 @@
-//! Starts and goals that the arm cannot be at, and the nearest ones that it can.
+//! Starts and goals that are not free or out of reach, and the nearest free configurations.
 
 use super::question::{Question, Target};
 use cplan_core::cspace::{NearestFree, nearest_free};
@@ -7,39 +7,39 @@ use cplan_core::space::{Configuration, JointRange};
 use cplan_geometry::Point;
 use serde::Serialize;
 
-/// Values of each joint from which the nearest place of the tip is looked for.
+/// Number of values of each joint from which the search for the nearest place of the tip begins.
 const SAMPLES: usize = 128;
 
-/// Steps of the search for it end here, as a share of a joint's range.
+/// Smallest step of that search, as a share of a joint's range.
 const FINEST: f64 = 1e-12;
 
-/// Which end of a motion.
+/// One of the two ends of a motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum End {
-    /// Where it begins.
+    /// The start of the motion.
     Start,
-    /// Where it is to end.
+    /// The goal of the motion.
     Goal,
 }
 
 /// A start or goal that is outside the limits or not free.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BlockedEnd {
-    /// Which of the two.
+    /// The end that is blocked.
     pub end: End,
-    /// The configuration; of a tip goal an IK solution.
+    /// The configuration. For a tip goal, an IK solution.
     pub at: Configuration,
-    /// By how much each joint is beyond its limits.
+    /// Distance of each joint beyond its limits.
     pub beyond: [f64; 2],
-    /// What the arm hits there, or comes too near to.
+    /// Obstacles that the arm hits there, or comes too near to.
     pub hits: Vec<Obstruction>,
-    /// The nearest configuration that is free; none if there is none anywhere.
+    /// The nearest free configuration. `None` if no configuration is free.
     pub nearest: Option<NearestFree>,
 }
 
 impl BlockedEnd {
-    /// How far the tip moves to the nearest free configuration, metres.
+    /// Returns the distance that the tip moves to the nearest free configuration, metres.
     #[must_use]
     pub fn tip_moves(&self, arm: &Arm) -> Option<f64> {
         self.nearest.map(|nearest| (arm.tip_at(nearest.configuration) - arm.tip_at(self.at)).norm())
@@ -51,13 +51,15 @@ impl BlockedEnd {
 pub struct OutOfReach {
     /// The goal.
     pub tip: Point,
-    /// The nearest place that the tip can be at, whatever is in the way: an upper bound on how far off it is.
+    /// The nearest place that the tip can reach, ignoring obstacles. Its distance is an upper bound on the goal's
+    /// distance from the reachable places.
     pub nearest: Point,
-    /// Where the joints are then.
+    /// The joint values at that place.
     pub at: Configuration,
 }
 
-/// What is wrong with the ends of a question: the start, and if no goal will do all of them, the nearest to a free configuration first.
+/// Finds the problems with the ends of a question: with the start, and, if every goal is blocked, with all goals. The
+/// goal nearest to a free configuration comes first.
 #[must_use]
 pub fn blocked_ends(question: &Question) -> (Vec<BlockedEnd>, Option<OutOfReach>) {
     let mut blocked: Vec<BlockedEnd> = Vec::new();
@@ -78,7 +80,7 @@ pub fn blocked_ends(question: &Question) -> (Vec<BlockedEnd>, Option<OutOfReach>
                 if within.is_empty() { beyond } else { within.iter().map(|piece| piece.at(0.5)).collect() }
             }
         };
-        // A goal at the start has been told as that.
+        // A goal that equals the start has already been reported as the start.
         let elsewhere = goals.into_iter().filter(|&q| q != question.start());
         let mut goals: Vec<BlockedEnd> = elsewhere.map(|q| of(question, End::Goal, q)).collect();
         let far = |end: &BlockedEnd| end.nearest.map_or(f64::INFINITY, |nearest| nearest.distance);
@@ -97,7 +99,8 @@ fn of(question: &Question, end: End, at: Configuration) -> BlockedEnd {
     BlockedEnd { end, at, beyond, hits: scene.obstructions(at), nearest: nearest_free(scene, at) }
 }
 
-/// The nearest place that the tip gets to within the limits: the best of a lattice of configurations, and from there by steps that are halved.
+/// Finds the place nearest to a goal that the tip reaches within the limits: the best of a lattice of configurations,
+/// improved by steps that are halved.
 fn nearest_tip(arm: &Arm, tip: Point) -> OutOfReach {
     let ranges = arm.topology().ranges;
     let at = |share: [f64; 2]| {

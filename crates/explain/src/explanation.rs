@@ -1,4 +1,4 @@
-//! All that there is to say of a question.
+//! The complete explanation of a question.
 
 use super::blockers::{BlockingSet, blocking_sets};
 use super::bottleneck::{Bottleneck, bottleneck};
@@ -10,20 +10,20 @@ use cplan_core::check::CheckedProof;
 use cplan_core::model::{Outcome, Status};
 use cplan_solver::{Answer, Options, Unknown, solve};
 
-/// Boxes that are looked at for each of the many decisions.
+/// Number of boxes for each of the many decisions.
 const BOXES: usize = 20_000;
 
-/// And for those of the few that are in the way which would else be unknown.
+/// Number of boxes for the few remaining blockers whose result would otherwise be unknown.
 const BOXES_AT_LAST: usize = 1_000_000;
 
-/// Why there is no motion, or what shapes the one that there is.
+/// The reasons why there is no motion, or why the motion that exists is not shorter.
 #[derive(Debug, Clone)]
 pub struct Explanation {
-    /// What was asked.
+    /// The question.
     pub question: Question,
-    /// What there is to say of the answer.
+    /// The explanation: why the path is not shorter, or why there is no path.
     pub outcome: Outcome<Shaped, Closed>,
-    /// Whether the time was up before all was looked at: then sets may not be irreducible, and changes and savings may be missing.
+    /// True if the time limit was reached. Then sets may not be irreducible, and changes and savings may be missing.
     pub is_stopped: bool,
 }
 
@@ -36,32 +36,34 @@ pub struct Shaped {
     pub savings: Vec<Saving>,
 }
 
-/// That there is no motion.
+/// Reasons why there is no motion.
 #[derive(Debug, Clone)]
 pub struct Closed {
-    /// That the whole world has none; none where start or goals are not free.
+    /// Proof that the whole world has no motion. `None` if start or goals are not free.
     pub proof: Option<CheckedProof>,
-    /// What is wrong with start and goals, if the arm cannot be there.
+    /// Problems with start and goals, if the arm cannot be there.
     pub ends: Vec<BlockedEnd>,
-    /// Where the tip can get, if not to its goal.
+    /// The nearest place that the tip can reach, if its goal is out of reach.
     pub out_of_reach: Option<OutOfReach>,
-    /// What is in the way: each set is enough, and they have no obstacle in common.
+    /// Sets of blocking elements. Each set alone blocks all motions, and no two have an obstacle in common.
     pub sets: Vec<BlockingSet>,
-    /// Where the motion gets stuck.
+    /// The place where the motion gets stuck.
     pub bottleneck: Option<Bottleneck>,
 }
 
 impl Explanation {
-    /// Found, infeasible or unknown, as planning has it.
+    /// Returns found, infeasible or unknown, as in the result of planning.
     #[must_use]
     pub fn status(&self) -> Status {
         self.outcome.status()
     }
 }
 
-/// Explains a question: of a motion that is found, what shapes it; of one that there is none of, what is in the way, the smallest change
-/// of each that opens a way, and where it gets stuck. Tenths of a second, as a rule; once it is known whether there is a motion, no longer than the
-/// question's time limit.
+/// Explains a question. For a motion that is found, reports the elements that make it longer. Otherwise reports the
+/// blocking elements, the smallest change of each that opens a path, and where the motion gets stuck.
+///
+/// Usually takes tenths of a second. The question's time limit applies from the moment when it is known whether there
+/// is a motion.
 #[must_use]
 pub fn explain(question: &Question, options: &Options) -> Explanation {
     let answer = question.problem().map(|problem| solve(&problem, options, &mut |_| ()));
@@ -81,13 +83,13 @@ pub fn explain(question: &Question, options: &Options) -> Explanation {
 }
 
 impl Closed {
-    /// The smallest changes of single blockers, set by set.
+    /// Returns the smallest changes of single blockers, set by set.
     pub fn changes(&self) -> impl Iterator<Item = &Change> {
         self.sets.iter().flat_map(|set| &set.blockers).flat_map(|blocker| &blocker.changes)
     }
 }
 
-/// Why there is none.
+/// Explains why there is no motion.
 fn closed(question: &Question, proof: Option<CheckedProof>) -> Closed {
     let mut sets = blocking_sets(question, proof.clone(), [BOXES, BOXES_AT_LAST]);
     let all = super::Element::all(question.scene());

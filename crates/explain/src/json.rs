@@ -7,7 +7,7 @@ use cplan_core::space::Configuration;
 use serde_json::{Map, Value, json};
 
 impl Explanation {
-    /// It as a JSON object, as the book describes it.
+    /// Returns the explanation as a JSON object, in the format that the book describes.
     #[must_use]
     pub fn to_json(&self) -> Value {
         let scene = self.question.scene();
@@ -32,7 +32,7 @@ fn pair(q: Configuration) -> [f64; 2] {
     [q[0], q[1]]
 }
 
-/// An element by its kind and name; obstacles are counted from 1, as people do.
+/// Returns the kind and name of an element. Obstacles are counted from 1 for human readers.
 fn of_element(scene: &Scene, element: Element) -> Map<String, Value> {
     let value = match element {
         Element::Obstacle { number } => {
@@ -115,7 +115,7 @@ fn of_closed(scene: &Scene, closed: &Closed) -> Value {
 }
 
 impl Closed {
-    /// The names of the obstacles, and of links of the robot, of the first set.
+    /// Returns the names of the obstacles, and of links of the robot, in the first set.
     #[must_use]
     pub fn blocking<'a>(&self, scene: &'a Scene) -> Vec<&'a str> {
         let elements = self.sets.first().map(|set| set.elements()).unwrap_or_default();

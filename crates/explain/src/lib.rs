@@ -1,5 +1,5 @@
-//! Why there is no motion, and what opens a way; and of a motion that there is, what shapes it ([`explain`]). And where the tip can get to
-//! at all ([`reach`]).
+//! Explanations: why there is no motion, and which changes open a path; for a motion that exists, which elements make
+//! it longer.
 //!
 //! ```
 //! use cplan_explain::{Question, explain};
@@ -8,7 +8,7 @@
 //! use cplan_core::model::Status;
 //! use cplan_solver::Options;
 //!
-//! // A post in the way of the first link, and one far away that does no harm.
+//! // A post that blocks the first link, and one far away that blocks nothing.
 //! let posts = [Obstacle::circle("far", [5.0, 0.0], 0.1)?, Obstacle::circle("near", [0.4, 0.0], 0.1)?];
 //! let mut arm = Arm::rr([1.0, 0.8], 0.06)?;
 //! arm.joints[0] = Joint::turning("shoulder", -2.0, 2.0);

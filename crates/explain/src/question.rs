@@ -1,4 +1,4 @@
-//! What is asked, also where start or goal is not free, and the same with less in the way.
+//! Motion queries whose start or goal may be blocked, and variants of a query with fewer blocking elements.
 
 use super::element::{Element, Side, widened};
 use cplan_core::check::{CertifiedPath, CheckedProof};
@@ -10,25 +10,27 @@ use cplan_solver::decide;
 use std::f64::consts::TAU;
 use std::time::Duration;
 
-/// The clearance among some of what is in the way where the world asks for less, or that is left out, metres: what passes through less passes by
-/// luck. Without any, what passes nothing but obstacles as thin as a line could be shown neither to be a way nor to be none, by boxes. Of arms that
-/// reach less than a metre this share of their reach.
+/// Smallest clearance in a world without some of its elements, metres. It applies if the world requires less, or if the
+/// clearance itself is removed. A path through a narrower gap would exist by luck only. Without any clearance, boxes
+/// could neither prove nor refute a path that passes nothing but obstacles as thin as a line. For arms that reach less
+/// than a metre, this share of their reach.
 pub const HARDLY_ANY: f64 = 1e-6;
 
-/// Time for an explanation once it is known whether there is a motion, unless more is asked for. Most take tenths of a second.
+/// Default time for an explanation, from the moment when it is known whether there is a motion. Most explanations take
+/// tenths of a second.
 pub const TIME_LIMIT: Duration = Duration::from_secs(5);
 
-/// What is to be reached.
+/// The target of a motion.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Target {
     /// Any of these configurations.
     Goals(GoalSet),
-    /// Any configuration that puts the tip here: with less in the way these may be more.
+    /// Any configuration that puts the tip here. With fewer blocking elements there may be more of them.
     Tip(Point),
 }
 
 impl Target {
-    /// Any of some goals of an arm.
+    /// Returns the target that consists of all these goals of an arm.
     fn of_goals(goals: &[Goal], arm: &Arm, start: Configuration) -> Self {
         let goals: Vec<Goal> = goals.iter().map(|goal| goal.of_arm(arm)).collect();
         if let [Goal::Tip(tip)] = goals[..] {
@@ -43,19 +45,20 @@ impl Target {
     }
 }
 
-/// A motion that is asked for. Unlike those of a [`MotionProblem`] its start and goals may be blocked, outside the limits, or out of reach.
+/// A query for a motion. Unlike those of a [`MotionProblem`], its start and goals may be blocked, outside the limits,
+/// or out of reach.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Question {
     scene: Scene,
     start: Configuration,
     target: Target,
-    /// How far the joints go beyond a limit that is left out: the same however much else is left out.
+    /// How far the joints may go beyond a removed limit. This does not depend on the other removed elements.
     beyond: [f64; 2],
-    /// The least clearance when something is left out: [`HARDLY_ANY`], if start and goals keep it.
+    /// Least clearance when an element is removed: [`HARDLY_ANY`], if start and goals keep that distance.
     least_clearance: f64,
-    /// Time for all decisions together; none for as long as they take.
+    /// Time for all decisions together. `None` for no limit.
     time_limit: Option<Duration>,
-    /// When that time is up, once its clock runs.
+    /// The end of that time. `None` until its clock is started.
     deadline: Option<Instant>,
 }
 
@@ -73,7 +76,7 @@ impl From<GoalSet> for Target {
 }
 
 impl Question {
-    /// A motion from a start to a target. Neither needs to be free.
+    /// Creates a query for a motion from a start to a target. Neither needs to be free.
     #[must_use]
     pub fn new(scene: Scene, start: Configuration, target: impl Into<Target>) -> Self {
         let target = target.into();
@@ -85,33 +88,33 @@ impl Question {
         Self { least_clearance: if keeps { hardly_any } else { 0.0 }, ..asked }
     }
 
-    /// A motion from a start to any of some goals. None needs to be free.
+    /// Creates a query for a motion from a start to any of some goals. They need not be free.
     #[must_use]
     pub fn of_goals(scene: Scene, start: Configuration, goals: &[Goal]) -> Self {
         let target = Target::of_goals(goals, scene.arm(), start);
         Self::new(scene, start, target)
     }
 
-    /// The same question, explained in at most this time, whose clock starts when it is known whether there is a motion. What is not decided by then
-    /// is unknown, so that the answer may depend on the machine.
+    /// Returns the same question with a time limit for the explanation. The clock starts when it is known whether there
+    /// is a motion. Questions that are undecided by then stay unknown, so the explanation may depend on the machine.
     #[must_use]
     pub fn with_time_limit(self, limit: Duration) -> Self {
         Self { time_limit: Some(limit), ..self }
     }
 
-    /// Time for an explanation; none if it takes as long as it takes.
+    /// Returns the time for an explanation. `None` if it is unlimited.
     #[must_use]
     pub fn time_limit(&self) -> Option<Duration> {
         self.time_limit
     }
 
-    /// The same question, the clock of whose time limit runs from now on.
+    /// Returns the same question with the clock of its time limit started.
     pub(super) fn started(&self) -> Self {
         let deadline = self.time_limit.map(|limit| Instant::now() + limit);
         Self { deadline, ..self.clone() }
     }
 
-    /// Does `work`; none if the time is up before it is done.
+    /// Does `work`. Returns `None` if the time is up before it is done.
     pub(super) fn in_time<T>(&self, work: impl FnOnce() -> T) -> Option<T> {
         match self.deadline {
             Some(deadline) => Interrupt::new().by(deadline).run(work).ok(),
@@ -119,36 +122,36 @@ impl Question {
         }
     }
 
-    /// Whether the time is up.
+    /// Returns true if the time is up.
     pub(super) fn is_out_of_time(&self) -> bool {
         self.deadline.is_some_and(|deadline| Instant::now() >= deadline)
     }
 
-    /// Arm and obstacles.
+    /// Returns the scene of arm and obstacles.
     #[must_use]
     pub fn scene(&self) -> &Scene {
         &self.scene
     }
 
-    /// Where the arm begins.
+    /// Returns the start.
     #[must_use]
     pub fn start(&self) -> Configuration {
         self.start
     }
 
-    /// What is to be reached.
+    /// Returns the target.
     #[must_use]
     pub fn target(&self) -> &Target {
         &self.target
     }
 
-    /// Whether a configuration is within the limits and free.
+    /// Returns true if a configuration is within the limits and free.
     #[must_use]
     pub fn is_free(&self, q: Configuration) -> bool {
         self.scene.arm().topology().contains(q) && self.scene.obstructions(q).is_empty()
     }
 
-    /// All configurations of the target within the limits, free or not.
+    /// Returns all configurations of the target within the limits, free or not.
     #[must_use]
     pub fn ends(&self) -> Vec<Segment> {
         let topology = self.scene.arm().topology();
@@ -161,7 +164,7 @@ impl Question {
         }
     }
 
-    /// Those that are not known to be blocked.
+    /// Returns the goals within the limits that are not known to be blocked.
     #[must_use]
     pub fn goals(&self) -> GoalSet {
         let open = |piece: &Segment| match piece.is_point() {
@@ -171,7 +174,7 @@ impl Question {
         self.ends().into_iter().filter(open).collect()
     }
 
-    /// The problem, if start and some goal are free.
+    /// Returns the motion problem, if the start and some goal are free.
     #[must_use]
     pub fn problem(&self) -> Option<MotionProblem> {
         let goals = self.goals();
@@ -179,7 +182,7 @@ impl Question {
             .then(|| MotionProblem::trusted(self.scene.clone(), self.start, goals))
     }
 
-    /// By slabs and boxes, of these no more than so many.
+    /// Decides the question by slabs and at most `boxes` boxes.
     #[must_use]
     pub fn answer(&self, boxes: usize) -> Outcome<CertifiedPath, Option<CheckedProof>> {
         let Some(problem) = self.problem() else { return Outcome::Infeasible(None) };
@@ -191,15 +194,16 @@ impl Question {
         }
     }
 
-    /// How far a joint goes beyond a limit that is left out, radians or metres: a whole turn, or past all that there is, and in any case as far as
-    /// start and goals ask for.
+    /// Returns how far a joint may go beyond a removed limit, radians or metres: at least a whole turn, or past all
+    /// obstacles, and far enough for start and goals.
     #[must_use]
     pub fn beyond(&self, joint: usize) -> f64 {
         self.beyond[joint]
     }
 
-    /// The same without some of what is in the way: no such obstacles; no such limits of joints (see [`Question::beyond`]); no
-    /// clearance. At least [`HARDLY_ANY`] is kept, if start and goals do. All else keeps its number, so that a proof which names nothing of it holds in both.
+    /// Returns the question without some of its elements. Removed limits are replaced as in [`Question::beyond`]. A
+    /// clearance of at least [`HARDLY_ANY`] is kept, if start and goals keep it. All other elements keep their indices,
+    /// so that a proof which does not name a removed one holds in both questions.
     #[must_use]
     pub fn without(&self, elements: &[Element]) -> Self {
         self.just_without(elements).rebuilt(|_, workspace| {
@@ -207,8 +211,9 @@ impl Question {
         })
     }
 
-    /// The same as [`Question::without`], but with the world's clearance however small it is. What is said of lengths is about this one: to keep a
-    /// little more than the world asks for makes paths longer, so that a lower bound of that question is none of this one.
+    /// Returns the same as [`Question::without`], but keeps the world's clearance, however small. Statements about
+    /// lengths refer to this question: a slightly larger clearance makes paths longer, so a lower bound for that
+    /// question does not hold for this one.
     #[must_use]
     pub fn just_without(&self, elements: &[Element]) -> Self {
         self.rebuilt(|arm, workspace| {
@@ -229,17 +234,17 @@ impl Question {
         })
     }
 
-    /// The same with other pieces for an obstacle.
+    /// Returns the question with other pieces for an obstacle.
     pub(super) fn with_pieces(&self, number: usize, pieces: Vec<Convex>) -> Self {
         self.rebuilt(|_, workspace| workspace.obstacles[number].pieces = pieces)
     }
 
-    /// The same with a joint that moves farther.
+    /// Returns the question with a wider range of a joint.
     pub(super) fn with_wider(&self, joint: usize, side: Side, by: f64) -> Self {
         self.rebuilt(|arm, _| arm.joints[joint].range = widened(arm.joints[joint].range, side, by))
     }
 
-    /// The same with another distance to keep.
+    /// Returns the question with another clearance.
     pub(super) fn with_clearance(&self, clearance: f64) -> Self {
         self.rebuilt(|_, workspace| workspace.clearance = clearance)
     }
@@ -249,7 +254,7 @@ impl Question {
     }
 }
 
-/// How far the joints go beyond limits that are left out.
+/// Computes how far the joints may go beyond removed limits.
 fn beyond(scene: &Scene, start: Configuration, target: &Target) -> [f64; 2] {
     let arm = scene.arm();
     let (asked, tip) = match target {
@@ -267,11 +272,12 @@ fn beyond(scene: &Scene, start: Configuration, target: &Target) -> [f64; 2] {
     })
 }
 
-/// Two slides whose directions cross by less than this angle, radians, go along one line.
+/// Two sliding joints whose directions differ by less than this angle, radians, move along one line.
 const ONE_LINE: f64 = 1e-3;
 
-/// The sine of the angle between two slides, by which each has to go the farther to leave something behind beside the other; 1 of other arms,
-/// and of slides along one line, which leave nothing beside it.
+/// Returns the sine of the angle between two sliding joints. The smaller it is, the farther each joint must go to move
+/// the arm past an obstacle beside the other joint's line. 1 for other arms, and for joints that slide along one line,
+/// which move nothing sideways.
 fn crossing(arm: &Arm) -> f64 {
     let across = match arm.joints.each_ref().map(|joint| joint.joint_type) {
         [JointType::Prismatic { direction: a }, JointType::Prismatic { direction: b }] => a.perp(&b).abs(),
@@ -280,7 +286,7 @@ fn crossing(arm: &Arm) -> f64 {
     if across < ONE_LINE { 1.0 } else { across }
 }
 
-/// How far a joint slides that has left all obstacles behind, wherever it begins.
+/// Returns a distance after which a sliding joint has left all obstacles behind, wherever it begins.
 pub(super) fn farthest(scene: &Scene) -> f64 {
     let base = scene.arm().base;
     let pieces = scene.workspace().obstacles.iter().flat_map(|obstacle| &obstacle.pieces);

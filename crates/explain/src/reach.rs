@@ -1,4 +1,5 @@
-//! Where the tip can get, with which solutions of the inverse kinematics, from a home configuration: certified, or proven impossible.
+//! Reachability: the places that the tip can reach from a home configuration, with their IK solutions. The answers are
+//! certified, or proven impossible.
 
 use cplan_core::check::certify;
 use cplan_core::model::{Arm, MotionProblem, Outcome, Scene, inverse};
@@ -9,22 +10,22 @@ use cplan_solver::decide;
 use petgraph::unionfind::UnionFind;
 use serde::{Serialize, Serializer};
 
-/// Places of the tip at the most.
+/// Largest number of places.
 pub const MOST_PLACES: usize = 4_000_000;
 
-/// Boxes that are looked at for each set of configurations that small motions join.
+/// Number of boxes for each set of configurations that small motions connect.
 const BOXES: usize = 20_000;
 
-/// Configurations along each joint from which it is told where the tip can be at all.
+/// Number of configurations along each joint that are sampled for the bounds of the tip.
 const SAMPLES: usize = 256;
 
-/// Whether a configuration can be reached from home.
+/// Reachability of a configuration from home.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Access {
     /// A certified motion leads there.
     Reachable,
-    /// It is not known.
+    /// It is not known whether a motion leads there.
     Unknown,
     /// It is free, and proven that no motion leads there.
     Unreachable,
@@ -33,10 +34,10 @@ pub enum Access {
 }
 
 impl Access {
-    /// All of them.
+    /// All values.
     pub const ALL: [Self; 4] = [Self::Reachable, Self::Unknown, Self::Unreachable, Self::Blocked];
 
-    /// Its word.
+    /// Returns the word for it.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -51,10 +52,11 @@ impl Access {
 /// A solution of the inverse kinematics.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Solution {
-    /// Joint values within the limits, base to tip; where one does not matter, where a motion leads, or else nearest to home.
+    /// Joint values within the limits, base to tip. For a free joint, the value that a motion reaches, or else the one
+    /// nearest to home.
     #[serde(serialize_with = "pair")]
     pub joints: Configuration,
-    /// Whether it can be reached.
+    /// Reachability of the solution.
     pub access: Access,
 }
 
@@ -62,10 +64,10 @@ fn pair<S: Serializer>(q: &Configuration, serializer: S) -> Result<S::Ok, S::Err
     [q[0], q[1]].serialize(serializer)
 }
 
-/// Where the tip can get: the centres of square cells.
+/// Reachability of the tip at the centres of square cells.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Reach {
-    /// Where the arm begins.
+    /// The home configuration.
     #[serde(serialize_with = "pair")]
     pub home: Configuration,
     /// Side of the cells, metres.
@@ -74,19 +76,19 @@ pub struct Reach {
     pub corner: [f64; 2],
     /// Cells along x, and along y.
     pub size: [usize; 2],
-    /// Solutions with the tip at each cell's centre, row by row from below: none where it is out of reach.
+    /// Solutions with the tip at each cell's centre, row by row from below. Empty where the centre is out of reach.
     pub places: Vec<Vec<Solution>>,
 }
 
 impl Reach {
-    /// The centre of a place.
+    /// Returns the centre of a place.
     #[must_use]
     pub fn center(&self, place: usize) -> Point {
         let at = [place % self.size[0], place / self.size[0]];
         Point::from([0, 1].map(|k| self.corner[k] + self.cell * (at[k] as f64 + 0.5)))
     }
 
-    /// Of each place with any solution how it can be got to at best, and with how many solutions so.
+    /// Returns, for each place with any solution, the best reachability and the number of solutions that have it.
     pub fn best(&self) -> impl Iterator<Item = (usize, Access, usize)> {
         self.places.iter().enumerate().filter_map(|(number, solutions)| {
             let best = solutions.iter().map(|solution| solution.access).min()?;
@@ -94,24 +96,26 @@ impl Reach {
         })
     }
 
-    /// Places by how they can be got to at best, in the order of [`Access::ALL`].
+    /// Counts places by their best reachability, in the order of [`Access::ALL`].
     #[must_use]
     pub fn tally(&self) -> [usize; 4] {
         Access::ALL.map(|access| self.best().filter(|(_, best, _)| *best == access).count())
     }
 }
 
-/// Asks for the centre of each square cell of this side, metres, with which solutions of the inverse kinematics the tip can be there, and
-/// which of these a motion leads to from `home` that keeps the world's clearance.
+/// Computes the IK solutions for the centre of each square cell with this side, metres. For each solution, decides
+/// whether a motion from `home` leads to it that keeps the world's clearance.
 ///
-/// Solutions of neighbouring cells are joined where the straight motion between them is certified. For each set of solutions that are so
-/// joined a single one is asked for ([`decide`]): a certified motion to it leads to all, and a proof that none does holds for all. `None` if there
-/// are more than [`MOST_PLACES`] places. Ends because sets are finite; `O(n)` short certificates for `n` solutions, and a question for each set.
+/// Solutions of neighbouring cells are connected if the straight motion between them is certified. For each set of
+/// connected solutions, only one is decided ([`decide`]). A certified motion to it extends to all of them, and a proof
+/// that it is unreachable holds for all. `None` if there are more than [`MOST_PLACES`] places.
+///
+/// Takes `O(n)` short certificates for `n` solutions, and one decision for each set.
 #[must_use]
 pub fn reach(scene: &Scene, home: Configuration, cell: f64) -> Option<Reach> {
     let arm = scene.arm();
     let [lower, upper] = tip_bounds(arm)?;
-    // A whole number of cells, with one to spare on each side for what lies between the samples.
+    // A whole number of cells, with one more on each side for tip places between the samples.
     let first = [0, 1].map(|k| (lower[k] / cell).floor() - 1.0);
     let count = [0, 1].map(|k| (upper[k] / cell).floor() - first[k] + 2.0);
     if !(cell > 0.0 && count[0] * count[1] <= MOST_PLACES as f64) {
@@ -119,7 +123,7 @@ pub fn reach(scene: &Scene, home: Configuration, cell: f64) -> Option<Reach> {
     }
     let mut reach =
         Reach { home, cell, corner: first.map(|n| n * cell), size: count.map(|n| n as usize), places: Vec::new() };
-    // Those that leave a joint free: of many configurations any will do.
+    // Solutions that leave a joint free: any of their configurations suffices.
     let mut open = Vec::new();
     reach.places = (0..reach.size[0] * reach.size[1])
         .map(|place| {
@@ -144,7 +148,7 @@ pub fn reach(scene: &Scene, home: Configuration, cell: f64) -> Option<Reach> {
     Some(reach)
 }
 
-/// Least and greatest coordinates of the tip; none of an arm whose joints have no values.
+/// Returns the least and greatest coordinates of the tip. `None` for an arm whose joints have no values.
 fn tip_bounds(arm: &Arm) -> Option<[[f64; 2]; 2]> {
     let values = arm.topology().ranges.map(|range| {
         let (lower, upper) = range.domain();
@@ -156,12 +160,12 @@ fn tip_bounds(arm: &Arm) -> Option<[[f64; 2]; 2]> {
         .reduce(|[lower, upper], [tip, _]| [[0, 1].map(|k| lower[k].min(tip[k])), [0, 1].map(|k| upper[k].max(tip[k]))])
 }
 
-/// Whether a configuration keeps the clearance, as its certificate says.
+/// Returns true if a configuration is certified to keep the clearance.
 fn is_free(scene: &Scene, q: Configuration) -> bool {
     certify(scene, Path::new(vec![q]), scene.workspace().clearance).is_ok()
 }
 
-/// Tells of all free solutions whether they can be reached.
+/// Decides for all free solutions whether they can be reached.
 fn settle(scene: &Scene, reach: &mut Reach) {
     // All free solutions, with the first one of each place.
     let mut firsts = Vec::with_capacity(reach.places.len() + 1);
@@ -179,7 +183,7 @@ fn settle(scene: &Scene, reach: &mut Reach) {
         let right = (place % columns + 1 < columns).then_some(place + 1);
         for beside in [right, Some(place + columns).filter(|&above| above < places)].into_iter().flatten() {
             for a in firsts[place]..firsts[place + 1] {
-                // The nearest: of two elbows the same one.
+                // The nearest solution: of two elbow positions, the same one.
                 let far = |b: &usize| scene.arm().topology().distance(joints(a), joints(*b));
                 let nearest = (firsts[beside]..firsts[beside + 1]).min_by(|b, c| far(b).total_cmp(&far(c)));
                 if let Some(b) = nearest.filter(|&b| !sets.equiv(a, b))
@@ -202,13 +206,13 @@ fn settle(scene: &Scene, reach: &mut Reach) {
     }
 }
 
-/// Whether the straight motion between two configurations is free, on circles the short way round.
+/// Returns true if the straight motion between two configurations is free. On circles it takes the shorter direction.
 fn joins(scene: &Scene, from: Configuration, to: Configuration) -> bool {
     let way = scene.arm().topology().displacement(from, to);
     certify(scene, Path::new(vec![from, from + way]), scene.workspace().clearance).is_ok()
 }
 
-/// Whether a motion leads there from home, and where it ends.
+/// Decides whether a motion from home leads there. Also returns where it ends.
 fn asked(scene: &Scene, home: Configuration, to: impl Into<GoalSet>) -> (Access, Option<Configuration>) {
     let Ok(problem) = MotionProblem::new(scene.clone(), home, to) else { return (Access::Unknown, None) };
     match decide(&problem, BOXES) {
@@ -218,7 +222,8 @@ fn asked(scene: &Scene, home: Configuration, to: impl Into<GoalSet>) -> (Access,
     }
 }
 
-/// A solution that leaves a joint free: it is not free only if it is so nowhere, and is reached if any of it is.
+/// Returns the result for a solution that leaves a joint free. It is blocked only if all of its configurations are, and
+/// reachable if any of them is.
 fn anywhere_on(scene: &Scene, home: Configuration, solution: Segment) -> Solution {
     let nearest = || solution.nearest(Measure::from(Metric::Euclidean), home);
     if scene.blocked_along(&solution).is_some() {

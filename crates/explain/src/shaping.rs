@@ -1,25 +1,25 @@
-//! What shapes the shortest path.
+//! The elements that make the shortest path longer.
 
 use super::element::Element;
 use super::question::Question;
 use cplan_interrupt::checkpoint;
 use cplan_solver::{Answer, Bound, Options, solve};
 
-/// What makes the shortest path longer.
+/// An element that makes the shortest path longer.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Saving {
-    /// What it is.
+    /// The element.
     pub element: Element,
-    /// Without it this length was found.
+    /// Length of the path found without it.
     pub length: f64,
-    /// Without it the shortest path is shorter by so much at least, ...
+    /// Least amount by which the shortest path without it is shorter, ...
     pub at_least: f64,
-    /// ... and at most.
+    /// ... and the largest such amount.
     pub at_most: f64,
 }
 
-/// What shapes the shortest path of which `answer` knows: all without which it is proven to be shorter, the greatest savings first. A shortest
-/// path is looked for without each in turn, until the question's time is up.
+/// Returns the elements without which the shortest path is proven to be shorter than that of `answer`, the greatest
+/// savings first. Plans a shortest path without each element in turn, until the question's time is up.
 #[must_use]
 pub fn savings(question: &Question, answer: &Answer, options: &Options) -> Vec<Saving> {
     let Some(whole) = answer.bound() else { return Vec::new() };

@@ -1,22 +1,23 @@
-//! How much of a change opens a way, between a certified path and a proof.
+//! The amount of a change that opens a path, enclosed between a certified path and a proof.
 
 use cplan_core::check::{CertifiedPath, CheckedProof};
 use cplan_core::model::Outcome;
 use cplan_interrupt::checkpoint;
 
-/// Where a way opens as something is changed more and more.
+/// The amount of a change at which a path opens.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Threshold {
-    /// With so much of the change there is a certified path: ...
+    /// An amount with which there is a certified path: ...
     pub opens: f64,
     /// ... this one.
     pub path: CertifiedPath,
-    /// With so much there is none: proven. Between both, if they are farther apart than asked for, nothing is known.
+    /// An amount with which there is provably no path. If the two amounts differ by more than the tolerance, nothing is
+    /// known for the amounts between them.
     pub closed: f64,
 }
 
-/// The threshold between `closed` and `most`, to `tolerance`; none if it is not proven that there is no path with so little, or none is known with the most
-/// of it, either. Doubles the change, then halves what is left: `O(log n)` questions.
+/// Finds the threshold between `closed` and `most`, to `tolerance`. `None` if it is not proven that `closed` leaves no
+/// path, or if no path is known with `most`. Doubles the change, then bisects: `O(log n)` questions.
 pub(super) fn threshold(
     closed: f64,
     most: f64,
@@ -45,7 +46,7 @@ pub(super) fn threshold(
         let by = f64::midpoint(known.below, *open);
         known.learn(by, ask(by));
     }
-    // What is not known lies in between: then as near as possible to it from below.
+    // The undecided amounts lie in between. Approaches them from below.
     let mut unknown = known.below;
     while unknown - known.closed > tolerance {
         let by = f64::midpoint(known.closed, unknown);
@@ -57,13 +58,13 @@ pub(super) fn threshold(
     known.open.map(|(opens, path)| Threshold { opens, path, closed: known.closed })
 }
 
-/// What is known of changes.
+/// Results for the amounts of a change that were tried.
 struct Known {
-    /// The greatest with which there is no path.
+    /// The greatest amount with which there is provably no path.
     closed: f64,
-    /// The greatest with which there is none, or none is known.
+    /// The greatest amount with which no path is known.
     below: f64,
-    /// The least with which there is one.
+    /// The least amount with which there is a path, and that path.
     open: Option<(f64, CertifiedPath)>,
 }
 

@@ -2,15 +2,15 @@
 
 use std::ops::{Add, Mul, Sub};
 
-/// Halvings after which a zero is known as well as doubles tell.
+/// Number of halvings after which a zero is as precise as doubles allow.
 const HALVINGS: usize = 60;
 
-/// A polynomial of the fifth degree at the most: with `u` from 0 to 1 and `n` its degree, it is
-/// `sum binomial(n, i) u^i (1 - u)^(n - i) c_i`. Sums of shares alone, so that nothing cancels; and it lies between its least
-/// and its greatest coefficient.
+/// A polynomial of degree 5 at most. With `u` from 0 to 1 and `n` its degree, it is
+/// `sum binomial(n, i) u^i (1 - u)^(n - i) c_i`. The terms are weighted by shares, so nothing cancels, and the
+/// polynomial lies between its least and its greatest coefficient.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Polynomial<T> {
-    /// The first `count` count.
+    /// The first `count` entries are the coefficients.
     coefficients: [T; 6],
     count: usize,
 }
@@ -45,7 +45,7 @@ where
         for step in 0..self.degree() {
             let u = share(step);
             for i in 0..self.degree() - step {
-                // Mixed so, both ends come out exactly.
+                // This form of mixing gives both ends exactly.
                 rest[i] = rest[i] * (1.0 - u) + rest[i + 1] * u;
             }
         }
@@ -80,7 +80,7 @@ impl Polynomial<f64> {
         part
     }
 
-    /// Zeros between 0 and 1, ascending; those at which the sign does not change may be missing.
+    /// Returns the zeros between 0 and 1, ascending. Zeros at which the sign does not change may be missing.
     pub fn zeros(&self) -> Vec<f64> {
         let one_sign = |sign: f64| self.coefficients().iter().all(|c| c * sign > 0.0);
         if one_sign(1.0) || one_sign(-1.0) {
@@ -91,7 +91,7 @@ impl Polynomial<f64> {
             [a, b] => Some(a / (a - b)).into_iter().filter(inside).collect(),
             [a, b, c] => roots(a - 2.0 * b + c, 2.0 * (b - a), a).into_iter().filter(inside).collect(),
             _ => {
-                // Between two zeros of the derivative there is one zero, or none.
+                // Between two zeros of the derivative, there is at most one zero.
                 let mut ends = vec![0.0];
                 ends.extend(self.differences(1).map_or(Vec::new(), |slope| slope.zeros()));
                 ends.push(1.0);
@@ -100,7 +100,7 @@ impl Polynomial<f64> {
         }
     }
 
-    /// Returns where the sign changes between two shares, by bisection.
+    /// Finds by bisection where the sign changes between two shares.
     fn sign_change(&self, mut from: f64, mut to: f64) -> Option<f64> {
         let first = self.at(from) > 0.0;
         if first == (self.at(to) > 0.0) {

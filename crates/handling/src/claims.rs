@@ -1,85 +1,85 @@
-//! What a record says of a motion or a task besides its samples.
+//! Claims of a record about a motion or a task, beyond its samples.
 
 use cplan_core::space::{Configuration, Metric};
 use std::ops::RangeInclusive;
 
-/// A turn of the wrist as a record has it, while the arm stands still.
+/// A turn of the wrist while the arm is at rest, as recorded.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RecordedTurn {
     /// The object's orientation at the beginning, radians.
     pub from: f64,
-    /// At the end; the way from the one to the other is the way of the wrist.
+    /// The object's orientation at the end, radians. The wrist turns directly from one value to the other.
     pub to: f64,
-    /// How long it takes.
+    /// Duration, seconds.
     pub seconds: f64,
 }
 
-/// A step of a task as a record has it. What it does is the task's to say.
+/// A step of a task, as recorded. Its action is found in the task.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RecordedStep {
     /// Its number in the world file, from 1.
     pub number: usize,
-    /// Which repetition of it this is, from 1.
+    /// Number of its repetition, from 1.
     pub cycle: usize,
-    /// The samples of its motion in the whole recording, in which they are.
+    /// Range of the motion's samples within the whole recording.
     pub samples: RangeInclusive<usize>,
     /// The turn of the wrist after the motion.
     pub turn: Option<RecordedTurn>,
 }
 
-/// What a result says of its motion besides the samples. What it does not say is none.
+/// Claims of a result about its motion, beyond the samples. A missing claim is `None`.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Claims {
     /// `found`, if there is a motion.
     pub status: Option<String>,
-    /// That the motion was shown free.
+    /// True if the motion was certified to be free.
     pub certified: Option<bool>,
     /// Units of both joints' values, base to tip.
     pub units: Option<Vec<String>>,
     /// The waypoints that the motion follows.
     pub path: Option<Vec<Configuration>>,
-    /// Of the path, in joint space.
+    /// Length of the path in joint space.
     pub length: Option<f64>,
-    /// The distance to obstacles that is kept, metres; none within if nothing can be hit.
+    /// Distance kept from obstacles, metres; the inner `None` if no obstacle is within reach.
     pub clearance: Option<Option<f64>>,
-    /// The corners that are cut.
+    /// The corners that the motion rounds off.
     pub blends: Option<BlendsClaim>,
-    /// How long the motion takes, seconds.
+    /// Duration of the motion, seconds.
     pub duration: Option<f64>,
-    /// How long the path is in some metric, and a bound on it.
+    /// Length of the path in some metric, with a lower bound.
     pub optimum: Option<OptimumClaim>,
-    /// Of a task.
+    /// Claims about the task.
     pub task: TaskClaims,
-    /// Members of the file that nobody judges, in its order.
+    /// Members of the file that are not judged, in the order of the file.
     pub unjudged: Vec<String>,
 }
 
-/// The corners of a path that a motion cuts.
+/// The corners of a path that a motion rounds off.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BlendsClaim {
-    /// The number of corners that are cut.
+    /// Number of rounded corners.
     pub count: usize,
-    /// Greatest distance of the ends of a cut from its corner.
+    /// Greatest distance of a blend's ends from its corner.
     pub largest_radius: f64,
 }
 
-/// What is said of how short a path is.
+/// Claims about the optimality of a path.
 #[derive(Debug, Clone, PartialEq)]
 pub struct OptimumClaim {
     /// `euclidean`, `weighted` or `time`.
     pub metric: String,
     /// Weights of the joints.
     pub weights: Option<[f64; 2]>,
-    /// Of the path in the metric.
+    /// Length of the path in the metric.
     pub length: f64,
-    /// No motion is shorter.
+    /// Lower bound on the length of all motions.
     pub lower_bound: f64,
-    /// `length / lower_bound - 1`; none where the bound is 0.
+    /// `length / lower_bound - 1`; `None` if the bound is 0.
     pub gap: Option<f64>,
 }
 
 impl OptimumClaim {
-    /// How lengths are measured, for an arm with these top speeds; none if the metric has no such name.
+    /// Returns the metric for an arm with these top speeds. Returns `None` if the name of the metric is unknown.
     #[must_use]
     pub fn metric(&self, speeds: [f64; 2]) -> Option<Metric> {
         match (self.metric.as_str(), self.weights) {
@@ -91,63 +91,63 @@ impl OptimumClaim {
     }
 }
 
-/// What is said of a task.
+/// Claims about a task.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct TaskClaims {
-    /// No way of doing it takes less, seconds.
+    /// Lower bound on the duration of the task, seconds.
     pub lower_bound: Option<f64>,
     /// `duration / lower_bound - 1`.
     pub gap: Option<f64>,
-    /// Of each sample, the number of the step (from 0) to which the interval belongs that begins there.
+    /// For each sample, the number of the step (from 0) that contains the interval beginning there.
     pub step_of_sample: Option<Vec<usize>>,
-    /// Of each recorded step.
+    /// Claims about each recorded step.
     pub steps: Vec<StepClaims>,
-    /// What the gripper does.
+    /// Actions of the gripper.
     pub events: Option<Vec<EventClaim>>,
 }
 
-/// What is said of a step.
+/// Claims about a step.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct StepClaims {
     /// `pick`, `place` or `move`.
     pub action: Option<String>,
-    /// The object that is picked or placed; none within if there is none.
+    /// The object that is picked or placed; the inner `None` if the step has no object.
     pub object: Option<Option<String>>,
-    /// The object that is carried during the motion.
+    /// The object that is carried during the motion; the inner `None` if the gripper is empty.
     pub carried: Option<Option<String>>,
-    /// Seconds from the beginning of the task to that of the motion, ...
+    /// Seconds from the beginning of the task to the beginning of the motion.
     pub begin: Option<f64>,
-    /// ... to the end of the motion, ...
+    /// Seconds from the beginning of the task to the end of the motion.
     pub arrival: Option<f64>,
-    /// ... and to the end of the step.
+    /// Seconds from the beginning of the task to the end of the step.
     pub end: Option<f64>,
     /// The waypoints that the motion follows.
     pub path: Option<Vec<Configuration>>,
-    /// Of the path, in joint space.
+    /// Length of the path in joint space.
     pub length: Option<f64>,
-    /// The distance to obstacles that is kept, metres; none within if nothing can be hit.
+    /// Distance kept from obstacles, metres; the inner `None` if no obstacle is within reach.
     pub clearance: Option<Option<f64>>,
-    /// The corners that are cut.
+    /// The corners that the motion rounds off.
     pub blends: Option<BlendsClaim>,
-    /// The distance that is kept while the wrist turns.
+    /// Distance kept from obstacles while the wrist turns.
     pub turn_clearance: Option<Option<f64>>,
 }
 
-/// What the gripper is said to do.
+/// A claimed action of the gripper.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EventClaim {
     /// Seconds from the beginning of the task.
     pub time: f64,
     /// `grasp` or `release`.
     pub event: String,
-    /// With which object.
+    /// Name of the object.
     pub object: String,
     /// Number of the step in the world file, from 1.
     pub step: usize,
-    /// Which repetition of it this is, from 1.
+    /// Number of the step's repetition, from 1.
     pub cycle: usize,
-    /// Where the tip is, metres.
+    /// Position of the tip, metres.
     pub tip: [f64; 2],
-    /// Where the object lies from then on: its origin, metres, and its orientation, radians.
+    /// Pose of the object from then on: its origin, metres, and its orientation, radians.
     pub pose: Option<([f64; 2], f64)>,
 }

@@ -1,21 +1,21 @@
-//! Joints beside the two that are planned, and somebody's motion of them.
+//! Joints other than the two planned ones, and recorded motions of them.
 
 use super::Recording;
 use cplan_geometry::Point;
 use serde::{Deserialize, Serialize};
 
-/// What a motion of a joint that is held still would do to the arm.
+/// The effect that a motion of a held joint would have on the arm.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum HeldEffect {
-    /// Lifts what it carries along the plane's normal.
+    /// Lifts everything it carries along the plane's normal.
     Lifts {
         /// 1 if greater values are along the normal, else -1.
         sign: f64,
     },
-    /// Turns what it carries, all of link 2, about an axis along the plane's normal.
+    /// Turns everything it carries, which is all of link 2, about an axis along the plane's normal.
     Turns {
-        /// Where the axis is, in the frame of link 2.
+        /// Position of the axis, in the frame of link 2.
         axis: Point,
     },
     /// Something that is not judged.
@@ -31,9 +31,9 @@ pub enum HeldEffect {
 pub struct HeldJoint {
     /// Name in the URDF.
     pub name: String,
-    /// Where it is held, radians or metres.
+    /// Value at which it is held, radians or metres.
     pub value: f64,
-    /// What its motion would do.
+    /// Effect of its motion.
     pub effect: HeldEffect,
     /// The URDF links that it moves.
     pub bodies: Vec<String>,

@@ -1,6 +1,6 @@
 //! Interpolation of a motion between its samples.
 
-/// How the consumer of a format joins samples.
+/// Interpolation between samples, as the consumer of a format applies it.
 ///
 /// | format | consumer | between samples |
 /// |---|---|---|
@@ -13,18 +13,18 @@
 /// Other stated values (such as accelerations in a CSV) do not change the motion, but must also keep the limits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Interpolation {
-    /// Straight in joint space, at constant velocity.
+    /// Straight lines in joint space, at constant velocity.
     Linear,
-    /// The cubic with the positions and velocities of both ends (Hermite).
+    /// Cubic polynomials with the positions and velocities of both ends (Hermite).
     Cubic,
-    /// The polynomial of the fourth degree with position, velocity and acceleration at the beginning, and position and
-    /// velocity at the end: the acceleration given is that of the interval that begins there, and may jump.
+    /// Polynomials of degree 4 with position, velocity and acceleration at the beginning, and position and velocity at
+    /// the end. The given acceleration belongs to the interval that begins there, and may jump.
     Quartic,
-    /// The polynomial of the fifth degree with the positions, velocities and accelerations of both ends.
+    /// Polynomials of degree 5 with the positions, velocities and accelerations of both ends.
     Quintic,
 }
 
-/// The sentence, with what holds on straight pieces at its end.
+/// Builds the description. Its argument describes straight pieces.
 macro_rules! interpolation {
     ($straight:literal) => {
         concat!(

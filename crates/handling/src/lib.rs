@@ -1,11 +1,12 @@
-//! What a task is made of, and what somebody reports of doing it.
+//! Descriptions of tasks, and records of their execution.
 //!
 //! - [`Task`]: objects, and the steps in which an arm picks, carries and places them.
-//! - The tool: a [`Stroke`] that lowers it, a [`Wrist`] that turns it, and the robot's joints beside the two of the arm ([`RobotJoints`],
-//!   [`HeldJoint`]).
-//! - Records of motions: [`Recording`] has samples, which [`Piece`]s of polynomials join, [`Claims`] what a file says besides.
+//! - The tool: a [`Stroke`] that lowers it, a [`Wrist`] that turns it, and all other joints of the robot
+//!   ([`RobotJoints`], [`HeldJoint`]).
+//! - Records of motions: a [`Recording`] holds samples, [`Piece`]s of polynomials join them, and [`Claims`] hold the
+//!   other statements of a file.
 //!
-//! A task builds scenes for the core; planning, timing and judging are for the crates above.
+//! A task builds scenes for the core. Planning, timing and judging belong to the crates above.
 
 mod bernstein;
 mod claims;

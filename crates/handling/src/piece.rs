@@ -10,19 +10,19 @@ pub enum Derivative {
     Position,
     /// The first derivative, per second.
     Velocity,
-    /// Per second squared.
+    /// The second derivative, per second squared.
     Acceleration,
-    /// Per second cubed.
+    /// The third derivative, per second cubed.
     Jerk,
 }
 
-/// A piece of a motion: for each joint a polynomial in time, of the fifth degree at the most; straight ones included.
+/// A piece of a motion: one polynomial in time per joint, of degree 5 at most. Straight pieces are included.
 ///
-/// In Bernstein form: with `u` from 0 to 1 over the piece and `n` its degree,
+/// In Bernstein form, with `u` from 0 to 1 over the piece and `n` its degree:
 /// `q(u) = sum binomial(n, i) u^i (1 - u)^(n - i) c_i`. The piece lies in the box of its control points `c_i`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Piece {
-    /// Time at which it begins, seconds; without a clock, the number of its first waypoint.
+    /// Begin of the piece, seconds. Without times: the number of its first waypoint.
     pub from: f64,
     /// End of the piece, in the same unit.
     pub to: f64,
@@ -78,7 +78,7 @@ impl Piece {
         self.curve.coefficients()
     }
 
-    /// Returns the degree of its polynomials: 3, 4 or 5. Straight pieces are raised.
+    /// Returns the degree of its polynomials: 3, 4 or 5. Straight pieces are raised to degree 3.
     #[must_use]
     pub fn degree(&self) -> usize {
         self.curve.degree()
@@ -108,12 +108,12 @@ impl Piece {
         }
         let order = of as usize;
         let Some(scaled) = self.curve.differences(order) else { return Configuration::zeros() };
-        // Divided one by one: a power of a short duration is far smaller.
+        // Divide step by step: a power of a short duration could underflow.
         (0..order).fold(scaled.at(u), |value, k| value * ((self.degree() - k) as f64 / duration))
     }
 
-    /// Shares of the piece among which one joint's value (or derivative) is least and greatest: both ends, and where its
-    /// own derivative vanishes.
+    /// Iterates over the shares of the piece that include the extremes of one joint's value or derivative: both ends,
+    /// and all zeros of its own derivative.
     pub fn critical(&self, of: Derivative, joint: usize) -> impl Iterator<Item = f64> {
         let slope = self.curve.differences(of as usize + 1).map(|slope| slope.map(|d| d[joint]));
         [0.0, 1.0].into_iter().chain(slope.map_or(Vec::new(), |slope| slope.zeros()))

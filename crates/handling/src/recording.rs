@@ -5,10 +5,11 @@ use cplan_core::space::{Configuration, Path, Topology};
 use std::ops::RangeInclusive;
 use thiserror::Error;
 
-/// Joint values beyond this are no radians or metres of an arm; and doubles near it still resolve a nanometre.
+/// Limit on joint values, radians or metres: larger ones are no values of an arm, and doubles near the limit still
+/// resolve a nanometre.
 const LARGEST_VALUE: f64 = 1e6;
 
-/// Times and velocities beyond this are a mistake; seconds since 1970 are far below.
+/// Limit on times and velocities: larger ones are a mistake. Seconds since 1970 are far below.
 const LARGEST_RATE: f64 = 1e12;
 
 /// A motion of both joints, given by samples and their [`Interpolation`]. Radians or metres, and seconds; values are
@@ -20,17 +21,17 @@ pub struct Recording {
     velocity: Option<Vec<Configuration>>,
     acceleration: Option<Vec<Configuration>>,
     interpolation: Interpolation,
-    /// Samples after which nothing joins, ascending.
+    /// Samples after which no interpolation applies, ascending.
     rests: Vec<usize>,
 }
 
-/// Why samples are no motion. Samples count from 0.
+/// Reason why samples do not form a motion. Samples count from 0.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum RecordingError {
     /// There are no samples.
     #[error("there is no sample")]
     Empty,
-    /// Positions, times, velocities and accelerations are not equally many.
+    /// The numbers of positions, times, velocities and accelerations differ.
     #[error("there are {positions} positions, but {others} {what}")]
     Count {
         /// Number of positions.
@@ -46,7 +47,7 @@ pub enum RecordingError {
     /// Accelerations join samples only together with velocities.
     #[error("there are accelerations, but no velocities")]
     AccelerationWithoutVelocity,
-    /// A number is NaN, infinite, or too large to be meant.
+    /// A number is NaN, infinite, or implausibly large.
     #[error("a {what} is {value}")]
     Value {
         /// The place of the sample in the recording, from 0.
@@ -56,7 +57,7 @@ pub enum RecordingError {
         /// The number that was found there.
         value: f64,
     },
-    /// The clock stands still or runs backwards.
+    /// Times do not increase.
     #[error("the time {time} s follows {before} s; times must increase")]
     Time {
         /// The later sample.
@@ -80,10 +81,10 @@ impl RecordingError {
 }
 
 impl Recording {
-    /// Samples as a motion: cubic between them where velocities are known, else linear.
+    /// Makes a motion from samples: cubic between them if velocities are known, or else linear.
     ///
     /// # Errors
-    /// [`RecordingError`]: the first that there is.
+    /// [`RecordingError`]: the first problem found.
     pub fn new(
         position: Vec<Configuration>,
         time: Option<Vec<f64>>,
@@ -148,8 +149,8 @@ impl Recording {
         Ok(Self { acceleration: Some(acceleration), interpolation, ..self })
     }
 
-    /// Makes the motion straight from each of these samples to the next, independent of the interpolation: where one
-    /// motion ends and another starts, and the arm stands still between them.
+    /// Makes the motion straight from each of these samples to the next, independent of the interpolation. This is for
+    /// places where one motion ends and another starts, with the arm at rest between them.
     #[must_use]
     pub fn resting_after(self, samples: &[usize]) -> Self {
         let mut rests = samples.to_vec();
@@ -163,7 +164,7 @@ impl Recording {
         &self.position
     }
 
-    /// Times of the samples, strictly increasing, seconds.
+    /// Returns the times of the samples, strictly increasing, seconds.
     #[must_use]
     pub fn times(&self) -> Option<&[f64]> {
         self.time.as_deref()
@@ -238,8 +239,8 @@ impl Recording {
         (0..q.len() - 1).map(piece).collect()
     }
 
-    /// Steps of a joint on a circle that are nearer to a whole turn than to none, as the first sample of each and the
-    /// joint: a wrapped recording has them where it crosses the seam.
+    /// Finds the steps of a joint on a circle that are nearer to a whole turn than to none. Returns the first sample of
+    /// each, and the joint. A wrapped recording has such steps where it crosses the seam.
     #[must_use]
     pub fn turns(&self, topology: &Topology) -> Vec<(usize, usize)> {
         let steps = self.position.windows(2).enumerate();
@@ -269,7 +270,7 @@ impl Recording {
     }
 }
 
-/// Returns true if a number is NaN or too large to be meant.
+/// Returns true if a number is NaN or implausibly large.
 fn outside(value: f64, limit: f64) -> bool {
     value.is_nan() || value.abs() > limit
 }

@@ -1,61 +1,62 @@
-//! All joints of a robot that can move, for those who have to name each of them.
+//! All movable joints of a robot, for formats that must list each of them.
 
 use super::{Stroke, ToolJoint};
 use serde::{Deserialize, Serialize};
 
-/// What sets a joint's value.
+/// The source of a joint's value.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Driver {
-    /// The planner: it is one of the two joints of the arm, 0 or 1.
+    /// The planner: the joint is one of the two joints of the arm, 0 or 1.
     Planned(usize),
-    /// Nobody: it stays at this value, radians or metres.
+    /// Nothing: the joint stays at this value, radians or metres.
     Held(f64),
-    /// The stroke that lowers the tool at picks and places.
+    /// The stroke, which lowers the tool at picks and places.
     Stroke,
-    /// The wrist that keeps or turns what is carried.
+    /// The wrist, which keeps or turns the load.
     Wrist,
 }
 
-/// A joint whose value is `factor * x + offset`, where `x` is what its driver says: itself, or the joint that it mimics.
+/// A joint whose value is `factor * x + offset`, where `x` is the value of its driver: the joint itself, or the joint
+/// that it mimics.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RobotJoint {
     /// Name in the URDF.
     pub name: String,
-    /// What sets `x`.
+    /// Source of `x`.
     pub driver: Driver,
-    /// Of a mimic joint, along the whole chain of those that it follows; else 1.
+    /// For a mimic joint: the factor along the whole chain of joints that it follows. Otherwise 1.
     pub factor: f64,
-    /// Likewise; else 0.
+    /// For a mimic joint: the offset along this chain. Otherwise 0.
     pub offset: f64,
 }
 
-/// The joints of a robot that can move, in the order of the URDF.
+/// The movable joints of a robot, in the order of the URDF.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RobotJoints {
     /// The joints, in the order of the URDF.
     pub joints: Vec<RobotJoint>,
-    /// How the tool is lowered at picks and places.
+    /// The stroke that lowers the tool at picks and places, if there is one.
     pub stroke: Option<Stroke>,
-    /// The joint of the wrist.
+    /// The joint of the wrist, if there is one.
     pub wrist: Option<ToolJoint>,
 }
 
-/// What drives the joints of a robot at a moment; or the rates of it.
+/// The driving values of a robot's joints at a moment, or their rates.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Drives {
     /// The two planned joints, base to tip.
     pub planned: [f64; 2],
-    /// The joint that makes strokes.
+    /// The joint that executes strokes.
     pub stroke: f64,
     /// The wrist's joint.
     pub wrist: f64,
 }
 
 impl RobotJoints {
-    /// The two planned joints and no other.
+    /// Returns the two planned joints alone.
     #[must_use]
     pub fn planned(names: &[String; 2]) -> Self {
         let joint =
@@ -63,12 +64,12 @@ impl RobotJoints {
         Self { joints: vec![joint(0), joint(1)], ..Self::default() }
     }
 
-    /// The joints' names, in the order of the URDF.
+    /// Iterates over the joints' names, in the order of the URDF.
     pub fn names(&self) -> impl Iterator<Item = &str> {
         self.joints.iter().map(|joint| joint.name.as_str())
     }
 
-    /// What drives them where only the planned joints move.
+    /// Returns the driving values when only the planned joints move.
     #[must_use]
     pub fn at_rest(&self, planned: [f64; 2]) -> Drives {
         let rest = |joint: Option<&ToolJoint>| joint.map_or(0.0, |joint| joint.rest);
@@ -79,14 +80,14 @@ impl RobotJoints {
         }
     }
 
-    /// Their values, radians or metres.
+    /// Returns the joints' values, radians or metres.
     #[must_use]
     pub fn values(&self, drives: &Drives) -> Vec<f64> {
         let value = |joint: &RobotJoint| joint.factor * joint.driver.value(drives) + joint.offset;
         self.joints.iter().map(value).collect()
     }
 
-    /// Their rates, or those of their rates, from those of what drives them.
+    /// Returns the joints' rates of any order, given the rates of the driving values.
     #[must_use]
     pub fn rates(&self, drives: &Drives) -> Vec<f64> {
         let rate = |joint: &RobotJoint| match joint.driver {

@@ -5,22 +5,22 @@ use cplan_core::model::{Arm, Heights, OutlineSource, check_range};
 use cplan_core::space::JointRange;
 use serde::{Deserialize, Serialize};
 
-/// A joint of the tool: it moves along the plane's normal, or about it, and so changes nothing in the plane but what it carries.
+/// A joint of the tool. It moves along the plane's normal, or about it, and so affects only the load within the plane.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ToolJoint {
     /// Name in the URDF.
     pub name: String,
-    /// Its value while nothing asks for another one, radians or metres.
+    /// Default value, radians or metres.
     pub rest: f64,
     /// 1 if greater values are along the plane's normal (or counter-clockwise in the plane), else -1.
     pub sign: f64,
-    /// The values that it can take.
+    /// Range of its values.
     pub range: JointRange,
 }
 
 impl ToolJoint {
-    /// Whether its numbers make sense: a sign, a range, and a rest within that.
+    /// Returns true if its numbers are valid: a sign, a range, and a rest value within the range.
     pub fn is_sound(&self) -> bool {
         self.sign.abs() == 1.0
             && self.rest.is_finite()
@@ -29,13 +29,13 @@ impl ToolJoint {
     }
 }
 
-/// How a tool is lowered and raised at picks and places, while the arm stands still.
+/// The motion that lowers and raises a tool at picks and places, while the arm is at rest.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Stroke {
-    /// The joint that does it; raised at rest.
+    /// The joint that lowers the tool. It is raised at rest.
     pub joint: ToolJoint,
-    /// How far it is lowered against the plane's normal, metres; none: as far as the object is lifted.
+    /// Distance that the tool is lowered against the plane's normal, metres. `None`: the lift of the object.
     pub travel: Option<f64>,
     /// Top speed, m/s, positive.
     pub velocity: f64,
@@ -46,25 +46,26 @@ pub struct Stroke {
 }
 
 impl Stroke {
-    /// How far the tool is lowered for an object, metres.
+    /// Returns the distance that the tool is lowered for an object, metres.
     #[must_use]
     pub fn depth(&self, object: &Object) -> f64 {
         self.travel.unwrap_or(object.lift)
     }
 
-    /// Whether the joint can go as far down as an object asks for.
+    /// Returns true if the joint can be lowered as far as an object requires.
     #[must_use]
     pub fn reaches(&self, object: &Object) -> bool {
         self.joint.range.contains(self.lowered(self.depth(object)))
     }
 
-    /// The joint's value with the tool lowered by so much.
+    /// Returns the joint's value with the tool lowered by a depth.
     #[must_use]
     pub fn lowered(&self, depth: f64) -> f64 {
         self.joint.rest - self.joint.sign * depth
     }
 
-    /// The arm with all that the stroke moves at all the heights that it takes there. A bar ends at the tip, and so is moved.
+    /// Returns the arm with everything that the stroke moves extended to all heights it takes. This includes a bar on
+    /// link 2, because it ends at the tip.
     #[must_use]
     pub fn swept(&self, arm: &Arm, depth: f64) -> Arm {
         let mut arm = arm.clone();

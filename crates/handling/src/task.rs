@@ -1,4 +1,4 @@
-//! A sequence of things to do.
+//! Tasks: objects, and the steps to execute with them.
 
 use super::Stroke;
 use cplan_core::model::{Arm, Course, Goal, Grip, Heights, Mover, Obstacle, Payload, Shape, Workspace};
@@ -7,44 +7,45 @@ use cplan_geometry::{Convex, Interval, Point, Pose};
 use cplan_text::short;
 use serde::{Deserialize, Serialize};
 
-/// What becomes of an object's orientation while the arm carries it.
+/// The behaviour of an object's orientation while the arm carries it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Holding {
-    /// It turns with link 2.
+    /// The object turns with link 2.
     Rigid,
-    /// A wrist joint keeps it; where a step asks for another orientation, the wrist turns it while the arm stands still.
+    /// A wrist joint keeps the orientation. If a step requires another one, the wrist turns the object while the arm is
+    /// at rest.
     Level,
 }
 
-/// Something that can be moved: an obstacle while it lies somewhere, a payload while it is carried.
+/// A movable object: an obstacle while it lies somewhere, a payload while it is carried.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Object {
-    /// The user's name for it; no other object or obstacle has it.
+    /// The user's name for it. It is unique among objects and obstacles.
     pub name: String,
-    /// As given, in its own frame.
+    /// Shape as given, in its own frame.
     pub shape: Shape,
-    /// The same as a union of convex pieces.
+    /// The same shape as a union of convex pieces.
     pub pieces: Vec<Convex>,
-    /// Its extent along the plane's normal while it lies somewhere.
+    /// Extent along the plane's normal while it lies somewhere.
     pub heights: Heights,
-    /// By how much it is raised while it is carried, metres.
+    /// Distance that it is raised while it is carried, metres.
     pub lift: f64,
-    /// How it is held.
+    /// Behaviour of its orientation while it is carried.
     pub holding: Holding,
-    /// Where it lies at first.
+    /// Initial pose.
     pub at: Pose,
-    /// How it moves from there until it is picked, if it does.
+    /// Motion from the initial pose until it is picked, if it moves.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub course: Option<Course>,
-    /// Kilograms.
+    /// Mass in kilograms.
     #[serde(default)]
     pub mass: f64,
 }
 
 impl Object {
-    /// Whether it may rest on supports: something of it lies deeper than what it may press into them.
+    /// Returns true if it may rest on supports: some part of it remains after the allowed penetration is taken off.
     #[must_use]
     pub fn can_rest(&self, arm: &Arm) -> bool {
         let by = Payload::penetration_allowance(arm);
@@ -52,50 +53,50 @@ impl Object {
     }
 }
 
-/// What a step does.
+/// The action of a step.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Action {
-    /// The tip goes to an object and takes it.
+    /// The tip moves to an object and grasps it.
     Pick {
         /// The number of the object in the task.
         object: usize,
-        /// The point of the object, in its own frame, that the tip goes to.
+        /// The point of the object, in its own frame, to which the tip moves.
         grasp: Point,
-        /// What the object rests on, so that it may touch it: obstacles by their number in [`Task::obstacles`].
+        /// Obstacles on which the object rests and which it may therefore touch, by number in [`Task::obstacles`].
         supports: Vec<usize>,
-        /// Of what moves, the times at which it may be picked, seconds: in order; none if any will do.
+        /// For a moving object: the times at which it may be picked, seconds, in order. Empty if any time is allowed.
         #[serde(default, skip_serializing_if = "Vec::is_empty")]
         when: Vec<Interval>,
     },
-    /// The carried object's origin goes to a point, where the object is let go.
+    /// The origin of the carried object moves to a point, where the object is released.
     Place {
-        /// Where its origin goes.
+        /// Target of the object's origin.
         at: Point,
-        /// The orientation that it must have there, radians; none if any will do.
+        /// The required orientation there, radians; `None` if any orientation is allowed.
         angle: Option<f64>,
-        /// What it comes to rest on, so that it may touch it.
+        /// Obstacles on which the object comes to rest and which it may therefore touch.
         supports: Vec<usize>,
     },
-    /// The arm goes somewhere, with what it carries.
+    /// The arm moves to a goal, with whatever object it carries.
     Move(Goal),
 }
 
-/// A step: what to do, and how fast.
+/// A step: an action, and its speed.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Step {
-    /// What it does.
+    /// The action.
     pub action: Action,
-    /// Its number in the world file, from 1; the same in each repetition.
+    /// Number in the world file, from 1. It is the same in each repetition.
     pub number: usize,
-    /// Which repetition of it this is, from 1.
+    /// Number of its repetition, from 1.
     pub cycle: usize,
-    /// Where it stands in the world file, for messages: `cell.toml:12:1`.
+    /// Position in the world file, for messages: `cell.toml:12:1`.
     pub place: String,
-    /// Share of the joints' top speeds to take on the way, more than 0 and at most 1.
+    /// Share of the joints' top speeds to use, greater than 0 and at most 1.
     pub speed: f64,
-    /// Seconds that the arm stands still at the end.
+    /// Time that the arm rests at the end, seconds.
     pub dwell: f64,
 }
 
@@ -103,48 +104,49 @@ pub struct Step {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Item {
-    /// A step in its place in the order.
+    /// A single step, in its place in the order.
     Step(Step),
-    /// Pairs of a pick and the place that follows it, in whichever order is fastest.
+    /// Pairs of a pick and the place that follows it. The pairs may be executed in any order.
     AnyOrder(Vec<[Step; 2]>),
-    /// These objects lie where they lay at first again: new ones have been supplied.
+    /// These objects return to their initial poses: new ones have been supplied.
     Renew(Vec<usize>),
 }
 
-/// A wrist's limits; positive, radians and seconds.
+/// Limits of a wrist. All are positive.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Wrist {
-    /// The top speed, radians a second.
+    /// Top speed, radians per second.
     pub velocity: f64,
-    /// The greatest acceleration, radians a second squared.
+    /// Greatest acceleration, radians per second squared.
     pub acceleration: f64,
 }
 
-/// What a user asks of an arm over time. Objects that are picked lie somewhere, places follow picks, and numbers of
-/// objects and obstacles are valid.
+/// A task of an arm. In a valid task, picked objects lie somewhere, places follow picks, and numbers of objects and
+/// obstacles are valid.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Task {
-    /// The arm, empty-handed.
+    /// The arm without a load.
     pub arm: Arm,
-    /// What stays where it is.
+    /// The static obstacles and the moving obstacles of the world.
     pub workspace: Workspace,
-    /// What can be moved.
+    /// The objects that the arm can carry.
     pub objects: Vec<Object>,
-    /// Where the arm is: within the joint limits and free.
+    /// Start configuration, within the joint limits and free.
     pub start: Configuration,
-    /// What to do, repetitions written out.
+    /// The steps, with repetitions written out.
     pub items: Vec<Item>,
-    /// The wrist, if it has to turn objects.
+    /// The wrist, if it must turn objects.
     pub wrist: Option<Wrist>,
-    /// How the tool is lowered at picks and places, if it is.
+    /// The stroke that lowers the tool at picks and places, if there is one.
     pub stroke: Option<Stroke>,
 }
 
 impl Task {
-    /// The arm, and the extent of an object in its hand, while the tool is lowered where that is picked or placed; none if it is not. Without
-    /// a stroke what is placed is looked at where it is going to lie: how it gets there from where it is carried nobody says.
+    /// Returns the arm and the extent of an object in its hand while the tool is lowered to pick or place the object.
+    /// Returns `None` if the tool is not lowered. Without a stroke, only the final pose of a placed object is
+    /// considered: the path that lowers it to there is unknown.
     pub fn lowered(&self, object: usize, is_placed: bool) -> Option<(Arm, Heights)> {
         let object = &self.objects[object];
         match &self.stroke {
@@ -156,14 +158,14 @@ impl Task {
         }
     }
 
-    /// The number under which object `object` counts as an obstacle: objects follow the workspace's own obstacles.
+    /// Returns the number of an object as an obstacle: objects follow the workspace's own obstacles.
     #[must_use]
     pub fn obstacle_number(&self, object: usize) -> usize {
         self.workspace.obstacles.len() + object
     }
 
-    /// The workspace with objects where they lie. One that lies nowhere, because it is carried, is an obstacle without
-    /// pieces, so that numbers stay.
+    /// Returns the workspace with the objects at their poses. A carried object has no pose and becomes an obstacle
+    /// without pieces, so that numbers stay the same.
     #[must_use]
     pub fn obstacles(&self, poses: &[Option<Pose>]) -> Workspace {
         let mut workspace = self.workspace.clone();
@@ -171,7 +173,7 @@ impl Task {
         workspace
     }
 
-    /// The same with what moves: these objects, on their courses, follow the workspace's own movers.
+    /// Returns the same workspace with moving objects. They follow the workspace's own moving obstacles.
     #[must_use]
     pub fn surroundings(&self, poses: &[Option<Pose>], moving: &[usize]) -> Workspace {
         let mut workspace = self.obstacles(poses);
@@ -179,7 +181,7 @@ impl Task {
         workspace
     }
 
-    /// The number under which object `object` counts as an obstacle while these objects move.
+    /// Returns the number of an object as an obstacle while `moving` objects move.
     #[must_use]
     pub fn number_among(&self, moving: &[usize], object: usize) -> usize {
         let standing = self.obstacle_number(self.objects.len()) + self.workspace.movers.len();
@@ -187,24 +189,25 @@ impl Task {
         place.map_or_else(|| self.obstacle_number(object), |place| standing + place)
     }
 
-    /// The objects that move at first, in order.
+    /// Iterates over the objects that move initially, in order.
     pub fn moving_at_first(&self) -> impl Iterator<Item = usize> {
         self.objects.iter().enumerate().filter(|(_, object)| object.course.is_some()).map(|(number, _)| number)
     }
 
-    /// Whether anything moves but the arm and what it carries.
+    /// Returns true if there are moving obstacles or moving objects.
     #[must_use]
     pub fn has_movers(&self) -> bool {
         !self.workspace.movers.is_empty() || self.moving_at_first().next().is_some()
     }
 
-    /// Holds the shapes of obstacles and objects to what is judged: for what is read as data.
+    /// Restricts the shapes of obstacles and objects to the convex pieces that are judged. This is for tasks that are
+    /// read as data.
     pub fn hold_shapes(&mut self) {
         self.workspace.hold_shapes();
         self.objects.iter_mut().for_each(|object| object.shape.hold_to(&object.pieces));
     }
 
-    /// All steps, those of a group in any order in the order of the file.
+    /// Iterates over all steps. Those of a group in any order come in the order of the file.
     pub fn steps(&self) -> impl Iterator<Item = &Step> {
         self.items.iter().flat_map(|item| match item {
             Item::Step(step) => vec![step],
@@ -215,7 +218,7 @@ impl Task {
 }
 
 impl Object {
-    /// The object as an obstacle that lies at `pose`; without one, an obstacle without pieces.
+    /// Returns the object as an obstacle at `pose`. Without a pose, the obstacle has no pieces.
     #[must_use]
     pub fn lying(&self, pose: Option<&Pose>) -> Obstacle {
         let (shape, pieces) = match pose {
@@ -225,13 +228,13 @@ impl Object {
         Obstacle { name: self.name.clone(), shape, pieces, heights: self.heights }
     }
 
-    /// Where it lies at first; none if it moves.
+    /// Returns its initial pose. Returns `None` if it moves.
     #[must_use]
     pub fn standing_at_first(&self) -> Option<Pose> {
         self.course.is_none().then_some(self.at)
     }
 
-    /// The object on its course, if it has one.
+    /// Returns the object as a moving obstacle, if it moves.
     #[must_use]
     pub fn moving(&self) -> Option<Mover> {
         let obstacle = || {
@@ -241,21 +244,21 @@ impl Object {
         self.course.clone().map(|course| Mover { obstacle: obstacle(), course })
     }
 
-    /// The object as a payload that may touch `supports`.
+    /// Returns the object as a payload that may touch `supports`.
     #[must_use]
     pub fn carried(&self, grip: Grip, supports: Vec<usize>) -> Payload {
         let (object, pieces) = (self.name.clone(), self.pieces.clone());
         Payload { object, pieces, heights: self.carried_heights(), grip, mass: self.mass, supports }
     }
 
-    /// Its extent along the plane's normal from where it lies to where it is carried.
+    /// Returns its extent along the plane's normal over all heights from where it lies to where it is carried.
     #[must_use]
     pub fn handled_heights(&self) -> Heights {
         let carried = self.carried_heights();
         Heights { lower: self.heights.lower.min(carried.lower), upper: self.heights.upper.max(carried.upper) }
     }
 
-    /// Its extent along the plane's normal while it is carried.
+    /// Returns its extent along the plane's normal while it is carried.
     #[must_use]
     pub fn carried_heights(&self) -> Heights {
         Heights { lower: self.heights.lower + self.lift, upper: self.heights.upper + self.lift }
@@ -263,7 +266,7 @@ impl Object {
 }
 
 impl Action {
-    /// The object that is taken, if one is.
+    /// Returns the object that is picked, if any.
     #[must_use]
     pub fn picked(&self) -> Option<usize> {
         match self {
@@ -272,7 +275,7 @@ impl Action {
         }
     }
 
-    /// In a few words: `pick "part"`. Numbers to six digits.
+    /// Describes the action in a few words: `pick "part"`. Numbers have six digits.
     #[must_use]
     pub fn describe(&self, objects: &[Object]) -> String {
         let point = |x: f64, y: f64| format!("({}, {})", short(x), short(y));

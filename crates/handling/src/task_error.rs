@@ -1,4 +1,4 @@
-//! What arm, objects and steps must be to make a task.
+//! Checks that an arm, objects and steps form a task.
 
 use super::{Action, Holding, Item, Object, Step, Stroke, Task};
 use cplan_core::model::{
@@ -7,68 +7,68 @@ use cplan_core::model::{
 use std::collections::BTreeSet;
 use std::f64::consts::TAU;
 
-/// Nothing takes longer, seconds: as motions.
+/// Limit on the duration of any part of a task, seconds; same as for motions.
 const LONGEST: f64 = 1e6;
 
-/// Why an arm, objects and steps make no task.
+/// Reason why an arm, objects and steps do not form a task.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum TaskError {
-    /// The arm, the obstacles, or the objects where they lie at first.
+    /// The arm, the obstacles or the initial poses of the objects are invalid.
     #[error(transparent)]
     Scene(#[from] SceneError),
-    /// The start.
+    /// The start is invalid.
     #[error(transparent)]
     Start(#[from] MotionProblemError),
-    /// An object.
+    /// An object is invalid.
     #[error("object \"{object}\": {why}")]
     Object {
         /// The object's name.
         object: String,
-        /// What is wrong with it.
+        /// Description of the problem.
         why: &'static str,
     },
-    /// The stroke of the tool, or the wrist.
+    /// The stroke of the tool or the wrist is invalid.
     #[error("the tool: {why}")]
     Tool {
-        /// What is wrong with it.
+        /// Description of the problem.
         why: &'static str,
     },
-    /// A step.
+    /// A step is invalid.
     #[error("step {number} (cycle {cycle}): {why}")]
     Step {
         /// The step's number in the world file.
         number: usize,
-        /// Which repetition of it.
+        /// Number of its repetition.
         cycle: usize,
-        /// What is wrong with it.
+        /// Description of the problem.
         why: &'static str,
     },
-    /// There is nothing to do.
+    /// There are no steps.
     #[error("there are no steps")]
     NoSteps,
-    /// A group without steps.
+    /// A group has no steps.
     #[error("a group of steps in any order has no steps")]
     EmptyGroup,
-    /// Something moves, and what is asked for is done among what stands alone.
+    /// Something moves, and the task needs a feature that supports static obstacles only.
     #[error("\"{mover}\" moves, and {why}")]
     Moves {
-        /// The name of an obstacle or object that does.
+        /// Name of a moving obstacle or object.
         mover: String,
-        /// What is asked for.
+        /// The feature.
         why: &'static str,
     },
-    /// Objects begin anew that cannot.
+    /// An object cannot be renewed.
     #[error("an object is renewed that does not exist, or moves, or is carried then")]
     Renewed,
 }
 
 impl Task {
-    /// The scene at first: the arm, empty-handed, among obstacles and objects where they lie. `O(n)` in parts, obstacles, objects
-    /// and steps.
+    /// Checks the task, and returns the initial scene: the arm without a load, among obstacles and objects at their
+    /// initial poses. Takes `O(n)` in parts, obstacles, objects and steps.
     ///
     /// # Errors
-    /// The first thing that makes it no task: numbers that make no sense, a start that is not free, picks of what is not there,
-    /// places of nothing, and the like; see [`TaskError`].
+    /// Returns the first problem, such as invalid numbers, a start that is not free, picks of missing objects, or
+    /// places without a load; see [`TaskError`].
     pub fn check(&self) -> Result<Scene, TaskError> {
         let at_first: Vec<_> = self.objects.iter().map(Object::standing_at_first).collect();
         let moving: Vec<usize> = self.moving_at_first().collect();
@@ -96,7 +96,8 @@ impl Task {
         Ok(MotionProblem::new(first, self.start, self.start).map(|_| scene)?)
     }
 
-    /// What of the task is done among what stands alone, where something moves, and the name of what does.
+    /// Returns a feature of the task that supports static obstacles only, with the name of a moving obstacle or object.
+    /// Returns `None` if there is no such conflict.
     #[must_use]
     pub fn unmoved(&self) -> Option<(String, &'static str)> {
         let own = self.objects.iter().filter_map(|object| Some((&object.name, object.course.as_ref()?)));
@@ -134,7 +135,7 @@ impl Task {
     }
 }
 
-/// Whether a way at these limits takes some time that can be counted.
+/// Returns true if a distance takes a finite, plausible time at these limits.
 fn is_drive(velocity: f64, acceleration: f64, way: f64) -> bool {
     let is_limit = |limit: f64| limit.is_finite() && limit > 0.0;
     is_limit(velocity) && is_limit(acceleration) && way / velocity + velocity / acceleration <= LONGEST
@@ -159,13 +160,13 @@ fn check_object(object: &Object) -> Result<(), TaskError> {
     Err(TaskError::Object { object: object.name.clone(), why })
 }
 
-/// What the gripper holds from step to step.
+/// The state of the gripper from step to step.
 struct Gripper<'a> {
     task: &'a Task,
     carried: Option<usize>,
-    /// What has been picked.
+    /// The objects that have been picked.
     picked: BTreeSet<usize>,
-    /// The orientation of each object, radians, while it is known: that of rigid payloads is not.
+    /// Orientation of each object, radians. It is not tracked for rigid payloads.
     turned: Vec<f64>,
 }
 
@@ -250,7 +251,7 @@ impl Gripper<'_> {
         }
     }
 
-    /// Where an object is picked or placed.
+    /// Checks the supports of a pick or a place.
     fn rest(&self, step: &Step, object: usize, supports: &[usize], is_finite: bool) -> Result<(), TaskError> {
         let task = self.task;
         let count = task.obstacle_number(task.objects.len());

@@ -1,4 +1,4 @@
-//! The answer to what a page asks, within its time.
+//! The answer to a page's request, within its time.
 
 use super::blocked;
 use super::contours::Contours;
@@ -14,28 +14,29 @@ use cplan_world::{Loaded, LoadedScene, Overrides};
 use serde::Deserialize;
 use std::time::Duration;
 
-/// Time for a plan while something is dragged. What is shown then, with or without a plan, takes a little longer: all in all
-/// a page is to follow ten times a second.
+/// Time for a plan while something is dragged. The display, with or without a plan, takes a little longer: the page
+/// should follow ten times a second.
 const DRAG_TIME: Duration = Duration::from_millis(60);
 
-/// Time for the obstacles alone, once the time for a plan is up: as much again, but no less and no more than this.
+/// Least and greatest time for the obstacles alone, once the time for a plan is up. Between these limits it equals the
+/// time for a plan.
 const SHOW_TIME: [Duration; 2] = [Duration::from_secs(1), Duration::from_secs(5)];
 
-/// What of the time for a request is gone already. Where work that takes too long can only be ended together with all that the
-/// program remembers, the rest of the request is done by the next one.
+/// The part of a request's time that is already spent. Some hosts can only end slow work by ending the whole session,
+/// with all that it remembers; then the next session does the rest of the request.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Spent {
-    /// None of it.
+    /// No time is spent.
     #[default]
     Nothing,
-    /// That for a plan: what there is to see is shown without.
+    /// The time for a plan is spent: the answer shows the world without a plan.
     Plan,
-    /// All of it.
+    /// All of the time is spent.
     All,
 }
 
-/// What stops the parts of an answer: its time, and a newer request.
+/// The interrupts of the parts of an answer: by its time, or by a newer request.
 pub struct Deadlines {
     /// Time for a plan.
     limit: Duration,
@@ -43,12 +44,12 @@ pub struct Deadlines {
     pub drag: Interrupt,
     /// Stops a plan.
     pub plan: Interrupt,
-    /// Stops what is shown in place of a plan, which must not take much longer than that did.
+    /// Stops the display without a plan, which must not take much longer than the plan did.
     pub show: Interrupt,
 }
 
 impl Deadlines {
-    /// From now on, for a request that has spent part of its time.
+    /// Creates deadlines from now on, for a request that has spent part of its time.
     pub fn new(interrupt: &Interrupt, spent: Spent, limit: Duration) -> Self {
         let show = limit.clamp(SHOW_TIME[0], SHOW_TIME[1]);
         let (drag, plan, show) = match spent {
@@ -61,10 +62,10 @@ impl Deadlines {
         Self { limit, drag: by(drag), plan: by(plan), show: by(show) }
     }
 
-    /// The answer where the time is up.
+    /// Returns the answer when the time is up.
     ///
     /// # Errors
-    /// Where something newer was asked: then there is none.
+    /// If there is a newer request: then there is no answer.
     pub fn late(&self, stopped: Interrupted) -> Result<AnswerReply, Interrupted> {
         match stopped {
             Interrupted::TimeUp => Ok(AnswerReply {
@@ -77,32 +78,32 @@ impl Deadlines {
     }
 }
 
-/// What is said where a time is up.
+/// Returns the message for a time that is up.
 pub fn time_up(limit: Duration) -> String {
     format!("not decided within {} s", limit.as_secs_f64())
 }
 
-/// The answer to what cannot be planned, and why.
+/// Returns the answer to a request that cannot be planned, with the reason.
 pub fn refused(about: About, error: String) -> AnswerReply {
     AnswerReply { error: Some(error), about: Some(about), ..AnswerReply::default() }
 }
 
-/// What an answer needs besides the problem.
+/// The data that an answer needs in addition to the problem.
 pub struct Answering<'a> {
     pub options: &'a Options,
     pub contours: &'a Contours,
     pub deadlines: &'a Deadlines,
-    /// Whether to say how the planner came to it.
+    /// True to show the planner's search.
     pub think: bool,
-    /// The world as text, of final answers.
+    /// The world as text, for final answers.
     pub toml: Option<String>,
 }
 
 impl Answering<'_> {
-    /// All that can be known of a task.
+    /// Answers with everything about a task.
     ///
     /// # Errors
-    /// Where something newer was asked.
+    /// If there is a newer request.
     pub fn task(self, loaded: LoadedScene) -> Result<AnswerReply, Interrupted> {
         let problem = match Problem::of_scene(loaded, &Overrides::default()) {
             Ok(problem) => problem,
@@ -116,10 +117,10 @@ impl Answering<'_> {
         }
     }
 
-    /// Of a world whose start or goal cannot be taken: why, and where the arm is then.
+    /// Answers for a world with an unusable start or goal: the reason, and the arm's configuration then.
     ///
     /// # Errors
-    /// Where something newer was asked.
+    /// If there is a newer request.
     pub fn blocked(
         self,
         loaded: &LoadedScene,
@@ -136,10 +137,10 @@ impl Answering<'_> {
         Ok(AnswerReply { toml: self.toml, start, view: shown.view, ..refusal })
     }
 
-    /// A path, as far as that is found while something is dragged.
+    /// Answers with a path that can be found during a drag.
     ///
     /// # Errors
-    /// Where something newer was asked.
+    /// If there is a newer request.
     pub fn quick(self, loaded: Loaded, pace: &Pace) -> Result<AnswerReply, Interrupted> {
         let (ends, problem) = (Ends::of(&loaded), Problem::from(loaded));
         let plan = || result::quick(&problem, self.options, self.contours);
@@ -155,10 +156,11 @@ impl Answering<'_> {
         }
     }
 
-    /// All that can be known of a motion. Tells the configuration space before it looks for a path, which may take long.
+    /// Answers with everything about a motion. Reports the configuration space before it searches for a path, which may
+    /// take long.
     ///
     /// # Errors
-    /// Where something newer was asked.
+    /// If there is a newer request.
     pub fn in_full(self, loaded: Loaded, tell: &mut dyn FnMut(AnswerReply)) -> Result<AnswerReply, Interrupted> {
         let (ends, problem) = (Ends::of(&loaded), Problem::from(loaded));
         let Self { options, contours, deadlines, think, .. } = self;
@@ -178,7 +180,7 @@ impl Answering<'_> {
         }
     }
 
-    /// The configuration space without a path, if there is time for it.
+    /// Answers with the configuration space without a path, if there is time for it.
     fn bare(&self, scene: &Scene, ends: (Configuration, &[Segment]), status: &str) -> Result<AnswerReply, Interrupted> {
         match self.deadlines.show.run(|| result::bare(scene, ends, status, self.contours)) {
             Err(Interrupted::TimeUp) => Ok(AnswerReply::default()),
@@ -187,7 +189,7 @@ impl Answering<'_> {
     }
 }
 
-/// Where a motion begins, and where it may end.
+/// The start of a motion, and its possible goals.
 struct Ends {
     start: Configuration,
     goals: Vec<Segment>,
@@ -202,7 +204,7 @@ impl Ends {
         (self.start, &self.goals)
     }
 
-    /// An answer that says them.
+    /// Returns the answer with these ends.
     fn put_into(&self, answer: AnswerReply) -> AnswerReply {
         let nearest = |goal: &Segment| goal.nearest(Measure::from(Metric::Euclidean), self.start).into();
         AnswerReply { start: Some(self.start.into()), goals: self.goals.iter().map(nearest).collect(), ..answer }

@@ -6,10 +6,10 @@ use cplan_core::space::{Configuration, Segment};
 use cplan_robot::{Diagnostic, DiagnosticKind, InputError};
 use cplan_world::LoadedScene;
 
-/// More configurations are not drawn: they would hide each other.
+/// Greatest number of configurations that are drawn: more would hide each other.
 const MOST_SHOWN: usize = 4;
 
-/// Depths below this, metres, are called touching.
+/// Depths below this, metres, are reported as touching.
 const SHALLOW: f64 = 1e-9;
 
 /// Returns the answer to an unusable world.
@@ -66,7 +66,7 @@ fn reply(obstruction: &Obstruction) -> HitReply {
     HitReply {
         link: contact.pair.link.min(1),
         obstacle: contact.pair.obstacle,
-        // Exact predicates may know of a contact that the distance does not show.
+        // Exact predicates may find a contact that the distance does not show.
         distance: if obstruction.touches { distance.min(0.0) } else { distance },
     }
 }

@@ -23,7 +23,7 @@ use std::sync::Arc;
 /// Number of bisection steps towards a place that the tip does not reach.
 const BISECTIONS: usize = 24;
 
-/// A page's text and what it says.
+/// A page's text, and the world that it describes.
 pub struct Desk {
     /// Initial state of the program.
     own: Arc<Host>,
@@ -140,7 +140,7 @@ impl Desk {
         (interrupt, spent): (&Interrupt, Spent),
         tell: &mut dyn FnMut(Reply),
     ) {
-        // Newer requests do not stop it: they may speak of what it loads.
+        // Newer requests do not stop it, because they may refer to the text that it loads.
         let deadlines = Deadlines::new(&Interrupt::new(), spent, self.host.time);
         let read = deadlines.plan.run(|| self.host.read(text)).unwrap_or_else(|_| Err(time_up(self.host.time)));
         match read {
@@ -261,8 +261,8 @@ impl Desk {
     }
 }
 
-/// The IK solution within the limits that puts the tip at a place and is nearest to some configuration; where it does not reach
-/// that far, as far as it can on the straight way from where the tip is then.
+/// Returns the IK solution within the limits for a place of the tip that is nearest to some configuration. If the tip
+/// cannot reach the place, it moves as far as it can on the straight line from its present place.
 fn follow(arm: &Arm, tip: Point, near: Configuration) -> Configuration {
     let reached = |tip: Point| nearest_ik_solution(arm, tip, near);
     if let Some(q) = reached(tip) {

@@ -99,7 +99,7 @@ pub fn planners() -> Vec<PlannerReply> {
     Method::ALL.into_iter().map(|planner| PlannerReply { name: planner.name(), options: menus(planner) }).collect()
 }
 
-/// Returns the menu of an option with the values that the planner accepts; `None` if it accepts none of them.
+/// Returns the menu of an option with the values that the planner accepts; `None` if it accepts no value.
 fn menu(grammar: &Command, planner: Method, choice: &Choice) -> Option<OptionReply> {
     let argument = grammar.get_arguments().find(|argument| argument.get_long() == Some(choice.name))?;
     let name = format!("--{}", choice.name);

@@ -1,19 +1,20 @@
-//! Whether plans keep up with the page.
+//! Decides if plans keep up with the page.
 
 use cplan_interrupt::Interrupted;
 use std::cell::Cell;
 
-/// Places on the way for which no plan is tried, after one that was not made in time.
+/// Number of intermediate places without a plan, after a plan that was not finished in time.
 const UNTRIED: u32 = 7;
 
-/// Whether plans keep up with what is dragged. Those that do not would only keep the rest of the page waiting.
+/// A record of whether plans keep up with the object being dragged. Plans that do not would only delay the rest of the
+/// page.
 #[derive(Default)]
 pub struct Pace {
     untried: Cell<u32>,
 }
 
 impl Pace {
-    /// Plans, unless it is of no use to try.
+    /// Plans, unless the last plan took too long.
     pub fn tries<T>(&self, plan: impl FnOnce() -> Result<T, Interrupted>) -> Option<Result<T, Interrupted>> {
         if self.untried.get() > 0 {
             self.untried.update(|left| left - 1);

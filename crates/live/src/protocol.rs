@@ -73,7 +73,7 @@ pub struct Ask {
     pub id: u64,
     /// The text of the world that `state` is a change of; see [`Reply::World`].
     pub base: u64,
-    /// True if this is where the user stops, not an intermediate position: the answer must be complete.
+    /// True if the user stops here, so that the answer must be complete; false for an intermediate position.
     #[serde(rename = "final")]
     pub is_final: bool,
     /// The state of the page; `None` for the unchanged text.
@@ -195,7 +195,7 @@ pub enum Message {
 
 impl From<&Reply> for Message {
     fn from(reply: &Reply) -> Self {
-        // Strings, numbers and lists of them: there is nothing that JSON cannot say.
+        // Replies consist of strings, numbers and lists, so JSON can represent them.
         Self::Text(serde_json::to_string(reply).unwrap_or_default())
     }
 }
@@ -216,7 +216,7 @@ pub struct WorldReply {
     pub id: u64,
     /// Number of the text: states are changes of one text.
     pub base: u64,
-    /// The title that stands above the picture.
+    /// The title above the picture.
     pub name: String,
     /// The robot, and the kind of its joints: `RR`.
     pub robot: String,
@@ -361,9 +361,9 @@ pub struct HitReply {
 /// Figures of a plan.
 #[derive(Debug, Default, Serialize)]
 pub struct Figures {
-    /// Length of the path in the metric asked for.
+    /// Length of the path in the requested metric.
     pub length: Option<f64>,
-    /// No path is shorter: proven.
+    /// Proven lower bound on the length of every path.
     pub lower_bound: Option<f64>,
     /// Proven distance of the motion from all obstacles, metres; `None` if no obstacle is within reach.
     pub clearance: Option<f64>,

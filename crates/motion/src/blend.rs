@@ -3,11 +3,11 @@
 use cplan_core::space::{Configuration, Path};
 use cplan_handling::Piece;
 
-/// Share of a blend's radius by which a motion may be off its parabola, in each joint, and still follow it: certificates
-/// hold for all of that tube, so that a reader that joins a motion's samples by cubics is covered, too.
+/// Greatest deviation of a motion from a blend's parabola, in each joint, as a share of the radius. Certificates hold
+/// for all of this tube, so they also cover readers that join a motion's samples by cubics.
 pub const HAIR: f64 = 1e-6;
 
-/// Points of a blend in pictures.
+/// Number of points of a blend in pictures.
 const DRAWN: u8 = 12;
 
 /// A parabola that leaves one straight piece at `from` and joins the next at `to`, tangent to both: the quadratic Bézier
@@ -70,7 +70,7 @@ pub enum Stretch {
 #[derive(Debug, Clone, PartialEq)]
 pub struct BlendedPath {
     path: Path,
-    /// A waypoint's radius; 0 where the path turns on the spot, and at both ends.
+    /// The radius at each waypoint; 0 where the motion stops at the corner, and at both ends.
     radii: Vec<f64>,
 }
 

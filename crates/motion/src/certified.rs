@@ -7,86 +7,88 @@ use cplan_core::model::Scene;
 use cplan_core::space::Path;
 use cplan_handling::Piece;
 
-/// Share of the clearance beyond what is to be kept that stays when corners are cut: half, so that a motion on
-/// blends is proven to keep at least half the distance of the straight path.
+/// Share of the excess clearance that remains when corners are cut: half, so that a motion on blends is proven to keep
+/// at least half the distance of the straight path.
 const KEPT: f64 = 0.5;
 
-/// Share of an inner leg that the blend at either end of it may take; what is left between them stays straight.
+/// Share of an inner leg that the blend at either end of it may take; the part between them stays straight.
 const SHARE: f64 = 0.45;
 
-/// The same for the first and the last leg, which have a blend at one end only.
+/// Share of the first and the last leg, which have a blend at one end only.
 const SHARE_OF_AN_END: f64 = 0.9;
 
-/// Times that a radius is halved before the corner stays a corner: a blend is passed at a speed that goes with the root
-/// of its radius, so that the last one tried saves a hundredth of the time of the first.
+/// Number of halvings of a radius before the corner stays a corner. The speed on a blend grows with the root of its
+/// radius, so the last one tried saves a hundredth of the time of the first.
 const HALVINGS: u32 = 13;
 
-/// Tries between the first radius that is certified and the one before it.
+/// Number of tries between the first certified radius and the one before it.
 const REFINEMENTS: u32 = 2;
 
-/// Looks per pair of shapes before a blend counts as not certified: those that keep their distance clearly need some ten,
-/// and nothing is lost by a smaller blend.
+/// Number of checks per pair of shapes after which a blend counts as not certified. Blends at a clear distance need
+/// some ten, and a smaller blend costs little.
 const LOOKS: usize = 64;
 
-/// A path with blended corners whose whole motion is proven: it is within the joint limits and keeps its clearance, on
-/// the straight legs up to their corners and on the blends and anywhere up to [`HAIR`] off these; or, where a motion rounds
-/// the corners by another curve, on that curve. Only [`blend`] and [`Rounding`] make either.
+/// A path with blended corners whose whole motion is proven to be within the joint limits and to keep its clearance.
+/// That holds on the straight legs up to their corners, on the blends, and anywhere within [`HAIR`] of these. If a
+/// motion rounds the corners by another curve, it holds on that curve. Only [`blend`] and [`Rounding`] make either.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CertifiedCurve {
     curve: BlendedPath,
-    /// The straight path, with the clearance of all of the motion.
+    /// The straight path, with the clearance of the whole motion.
     straight: CertifiedPath,
-    /// What rounds the corners, where it is not parabolas: how far they reach, and a polyline for pictures.
+    /// For corners that are not rounded by parabolas: the extents of the rounding, and a polyline for pictures.
     driven: Option<(Vec<f64>, Path)>,
 }
 
 impl From<CertifiedPath> for CertifiedCurve {
-    /// The straight path, without blends.
+    /// Returns the straight path, without blends.
     fn from(path: CertifiedPath) -> Self {
         Self { curve: path.path().clone().into(), straight: path, driven: None }
     }
 }
 
 impl CertifiedCurve {
-    /// The path and its blends.
+    /// Returns the path and its blends.
     #[must_use]
     pub fn curve(&self) -> &BlendedPath {
         &self.curve
     }
 
-    /// How far the rounding of each waypoint's corner reaches, in joint units: the radius of its blend, or of a parabola that leaves the path
-    /// as far as the motion does; 0 where the motion turns on the spot.
+    /// Returns the extent of the rounding at each waypoint, in joint units: the radius of its blend, or of a parabola
+    /// that leaves the path as far as the motion does. It is 0 where the motion stops at the corner.
     #[must_use]
     pub fn radii(&self) -> &[f64] {
         self.driven.as_ref().map_or_else(|| self.curve.radii(), |(radii, _)| radii)
     }
 
-    /// Proven lower bound on the distance between arm and obstacles, metres, along the blends and along the straight
-    /// legs all the way to their corners; infinite if nothing can meet. Never less than the clearance asked for.
+    /// Returns the proven lower bound on the distance between arm and obstacles, metres, along the blends and along the
+    /// straight legs all the way to their corners; infinite if nothing can meet. Never less than the required
+    /// clearance.
     #[must_use]
     pub fn clearance(&self) -> f64 {
         self.straight.clearance()
     }
 
-    /// Where it comes nearest, as far as was looked; none if nothing can meet.
+    /// Returns the place where the motion comes nearest to an obstacle, as far as the search looked; `None` if nothing
+    /// can meet.
     #[must_use]
     pub fn nearest(&self) -> Option<Nearest> {
         self.straight.nearest()
     }
 
-    /// The straight path, which is proven up to its corners.
+    /// Returns the straight path, which is proven up to its corners.
     #[must_use]
     pub fn straight(&self) -> &CertifiedPath {
         &self.straight
     }
 
-    /// A polyline for pictures.
+    /// Returns a polyline for pictures.
     #[must_use]
     pub fn outline(&self) -> Path {
         self.driven.as_ref().map_or_else(|| self.curve.outline(), |(_, outline)| outline.clone())
     }
 
-    /// Followed by another one that begins where this ends, at rest between them.
+    /// Returns this motion followed by another one that begins where this ends, at rest between them.
     #[must_use]
     pub fn then(self, next: &Self) -> Self {
         let driven = (self.driven.is_some() || next.driven.is_some()).then(|| {
@@ -97,7 +99,7 @@ impl CertifiedCurve {
         Self { curve: self.curve.then(&next.curve), straight: self.straight.then(&next.straight), driven }
     }
 
-    /// The same, known to keep this distance from what moves, too, which is nearest here.
+    /// Returns the same motion with this proven distance from moving obstacles, and the nearest place among them.
     #[must_use]
     pub fn among_movers(self, clearance: f64, nearest: Option<Nearest>) -> Self {
         let known = self.nearest();
@@ -106,17 +108,17 @@ impl CertifiedCurve {
         Self { straight: self.straight.within(clearance, nearest), ..self }
     }
 
-    /// The same without the blend at an inner waypoint: the legs are proven up to the corner.
+    /// Returns the same motion without the blend at an inner waypoint: the legs are proven up to the corner.
     #[must_use]
     pub fn without(self, waypoint: usize) -> Self {
         Self { curve: self.curve.with(waypoint, 0.0), ..self }
     }
 }
 
-/// Cuts the corners of a certified path by parabolas, each as large as is certified: a blend begins and ends no farther
-/// than `greatest` from its corner (in joint units, radians and metres as they come; infinite for no such bound), takes at
-/// most 0.45 of a leg (0.9 of the first and the last), and keeps more than half of what the path's clearance exceeds
-/// `clearance` by. A radius that is not certified is halved; after some halvings the corner stays. Corners without a turn
+/// Cuts the corners of a certified path by parabolas, each as large as the certificate allows. A blend begins and ends
+/// at most `greatest` from its corner (in joint units, radians and metres; infinite for no such bound). It takes at
+/// most 0.45 of a leg (0.9 of the first and the last). It keeps more than half of the path's clearance in excess of
+/// `clearance`. A radius that is not certified is halved; after some halvings the corner stays. Corners without a turn
 /// are blended too: the blend is straight then.
 ///
 /// Blends lie in the triangle of their control points, so joint limits need no check. Each blend is judged by the same
@@ -136,7 +138,7 @@ pub fn blend(scene: &Scene, path: &CertifiedPath, greatest: f64, clearance: f64)
         let share = |end: usize| if end == 0 || end == last { SHARE_OF_AN_END } else { SHARE };
         let room = |end: usize| share(end) * (q[end] - q[waypoint]).norm();
         let most = greatest.min(room(waypoint - 1)).min(room(waypoint + 1));
-        // A leg whose length is lost in the smallest of doubles has no room.
+        // A leg with a length below the least double has no room.
         if most <= 0.0 {
             continue;
         }
@@ -154,21 +156,21 @@ pub fn blend(scene: &Scene, path: &CertifiedPath, greatest: f64, clearance: f64)
     blended
 }
 
-/// Judges a piece of a motion and all that is in each joint no more than `beside` off it.
+/// Judges a piece of a motion with a tube of half width `beside` in each joint.
 fn follow(search: &mut CurveSearch, vicinity: &Vicinity, piece: &Piece, beside: f64) -> Result<(), Rejection> {
     search.curve(vicinity, |middle: f64, half: f64| along(piece, middle - half, middle + half, beside))
 }
 
-/// What motions are to keep that leave a path at its corners.
+/// Returns the distance that motions must keep if they leave a path at its corners.
 fn required(path: &CertifiedPath, clearance: f64) -> f64 {
     clearance + KEPT * (path.clearance() - clearance)
 }
 
-/// Looks per pair of shapes before a piece of a motion counts as not certified: a straight one may slide along an obstacle at a hair's
-/// distance.
+/// Number of checks per pair of shapes after which a piece of a motion counts as not certified. It is large, because a
+/// straight piece may slide along an obstacle at a tiny distance.
 const LOOKS_OF_A_PIECE: usize = 2048;
 
-/// Judges motions that round the corners of a path by whatever curve.
+/// A judge of motions that round the corners of a path by any curve.
 pub struct Rounding<'a> {
     scene: &'a Scene,
     vicinity: Vicinity<'a>,
@@ -177,13 +179,14 @@ pub struct Rounding<'a> {
 }
 
 impl<'a> Rounding<'a> {
-    /// Motions are to keep more than half of what the path's clearance exceeds `clearance` by, as blends are.
+    /// Creates a judge of motions. They must keep more than half of the path's clearance in excess of `clearance`, as
+    /// blends do.
     #[must_use]
     pub fn new(scene: &'a Scene, path: &'a CertifiedPath, clearance: f64) -> Self {
         Self { scene, vicinity: Vicinity::new(scene), path, required: required(path, clearance) }
     }
 
-    /// The pieces of a motion that are not shown to be free, by their numbers. Joint limits are not looked at.
+    /// Returns the pieces of a motion that are not shown to be free, by their numbers. Joint limits are not checked.
     #[must_use]
     pub fn open(&self, pieces: &[Piece]) -> Vec<usize> {
         let budget = LOOKS_OF_A_PIECE * self.scene.pairs().len();
@@ -194,8 +197,8 @@ impl<'a> Rounding<'a> {
         (0..pieces.len()).filter(|&i| is_open(&pieces[i])).collect()
     }
 
-    /// The path with a motion that rounds its corners, so far each (see [`CertifiedCurve::radii`]); none if the motion is not shown to be
-    /// free. Joint limits are not looked at.
+    /// Returns the path with a motion that rounds its corners, with these extents (see [`CertifiedCurve::radii`]);
+    /// `None` if the motion is not shown to be free. Joint limits are not checked.
     #[must_use]
     pub fn certified(&self, radii: Vec<f64>, pieces: &[Piece]) -> Option<CertifiedCurve> {
         let budget = LOOKS_OF_A_PIECE * self.scene.pairs().len() * pieces.len();
@@ -209,7 +212,7 @@ impl<'a> Rounding<'a> {
     }
 }
 
-/// What comes of the largest radius up to `most` that is accepted, as far as was tried.
+/// Returns the result for the largest radius up to `most` that is accepted, among those tried.
 fn largest<T>(most: f64, judge: impl Fn(f64) -> Option<T>) -> Option<T> {
     let mut refused = f64::INFINITY;
     let mut radius = most;

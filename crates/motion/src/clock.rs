@@ -1,28 +1,29 @@
 //! The clock of a motion: whole nanoseconds, in which ROS counts.
 //!
-//! Samples lie on this grid, and positions and velocities are those of that very nanosecond, so that no format rounds a
-//! time: of a cubic between samples `h` seconds apart, half a nanosecond would change the acceleration by `3e-9 v / h^2`.
+//! Samples lie on this grid, and positions and velocities are those at that exact nanosecond, so no format needs to
+//! round times. In a cubic between samples `h` seconds apart, half a nanosecond would change the acceleration by `3e-9
+//! v / h^2`.
 
 use cplan_geometry::Interval;
 
 /// Nanoseconds in a second.
 pub(super) const PER_SECOND: u64 = 1_000_000_000;
 
-/// Doublings of a unit in the last place that rounding up overlooks: what computing a time costs.
+/// Rounding error of a computed time, relative to it, which rounding up ignores.
 const SLACK: f64 = 8.0 * f64::EPSILON;
 
-/// Seconds as nanoseconds, rounded to the nearest. Exact for all times below [`super::LONGEST_MOTION`], whose nanoseconds
-/// a double counts exactly.
+/// Returns seconds as nanoseconds, rounded to the nearest. Exact for all times below [`super::LONGEST_MOTION`], whose
+/// nanoseconds fit a double.
 pub fn nanoseconds(time: f64) -> u64 {
     (time * PER_SECOND as f64).round() as u64
 }
 
-/// Nanoseconds as seconds: the nearest double, so that it has no more than nine decimals when it is written down.
+/// Returns nanoseconds as seconds: the nearest double, so that it prints with at most nine decimals.
 pub fn seconds(nanoseconds: u64) -> f64 {
     nanoseconds as f64 / PER_SECOND as f64
 }
 
-/// Times of this and more are not rounded, seconds: no motion lasts so long, and their nanoseconds are more than doubles count.
+/// Times from here on are not rounded, seconds: no motion lasts so long, and doubles cannot count their nanoseconds.
 const NEVER: f64 = 1e6;
 
 /// Rounds a time up to a whole nanosecond, in seconds.

@@ -1,10 +1,10 @@
 //! Speed around a blended corner.
 //!
-//! A blend of radius `r` between the directions `d1` and `d2` is run through by a parameter `s` from 0 to `2 r` with
-//! `q'(s) = (1 - u) d1 + u d2`, `u = s / (2 r)`, and the constant `q'' = (d2 - d1) / (2 r)`. At both ends `|q'| = 1`, so
-//! that on entering and leaving it `s` is the distance along the legs. The blend is cut into spans of equal length, and on
-//! each the second derivative of `s` by time is constant. So `z = (ds/dt)^2` is linear in `s`, and with the values `z0`
-//! and `z1` at a span's ends (a point in the phase plane each):
+//! The parameter `s` of a blend of radius `r` between the directions `d1` and `d2` runs from 0 to `2 r`, with `q'(s) =
+//! (1 - u) d1 + u d2`, `u = s / (2 r)`, and the constant `q'' = (d2 - d1) / (2 r)`. At both ends `|q'| = 1`, so on
+//! entry and exit `s` is the distance along the legs. The blend is cut into spans of equal length, and on each the
+//! second derivative of `s` by time is constant. So `z = (ds/dt)^2` is linear in `s`, and with the values `z0` and `z1`
+//! at a span's ends (a point in the phase plane each):
 //!
 //! - a joint's acceleration `q'' z + q' z' / 2` is linear in `s`: it keeps its limit if it does at both ends of the span;
 //! - its squared velocity `q'^2 z` is a cubic in `s`, which keeps its limit if its Bernstein coefficients do;
@@ -20,7 +20,7 @@ use super::tip::{Part, TIP_STEP};
 use crate::{Blend, HAIR};
 use cplan_core::space::Configuration;
 
-/// Spans of a blend to begin with.
+/// Initial number of spans of a blend.
 const SPANS: usize = 8;
 
 /// Number of spans of a straight stretch that may begin or end at rest.
@@ -32,15 +32,15 @@ const MOST_SPANS: usize = 256;
 /// Number of parts into which each span is cut when more spans are tried.
 const PARTS: usize = 4;
 
-/// ... up to so many.
+/// ... up to this number.
 const MOST_TRIED: usize = 1024;
 
-/// A joint's acceleration changes by no more than this share of its limit over a span, if more spans can help it: half of
-/// it goes unused where the limit is reached at one end of the span.
+/// Greatest change of a joint's acceleration over a span, as a share of its limit, if more spans can reduce it. Half of
+/// the change is lost where the limit is reached at one end of the span.
 const ACCELERATION_STEP: f64 = 0.1;
 
-/// Likewise the speed, by this share of it: where acceleration and deceleration meet within a span, half of that change
-/// is lost.
+/// Greatest change of the speed over a span, as a share of it. Where acceleration and deceleration meet within a span,
+/// half of the change is lost.
 const SPEED_STEP: f64 = 0.1;
 
 /// Share of the limits that stays unused on a blend, so that the cubic through positions and velocities of two samples,
@@ -64,8 +64,8 @@ pub(super) struct Corner {
     share: f64,
 }
 
-/// Seconds that a blend of so many spans has to last: each of them the least interval between samples, though it is
-/// passed several times as fast as the others.
+/// Returns the least duration, in seconds, of a blend with this many spans. Each span lasts at least the least interval
+/// between samples, although one may be passed several times as fast as the others.
 fn shortest(spans: usize) -> f64 {
     8.0 * SHORTEST_INTERVAL * spans as f64
 }
@@ -261,7 +261,7 @@ impl Extend<[f64; 2]> for Bounds {
     fn extend<T: IntoIterator<Item = [f64; 2]>>(&mut self, rows: T) {
         for [a, b] in rows {
             let line = [1.0 / b, -a / b];
-            // A second coefficient that is nothing but rounding would make of the rounding of the first anything.
+            // A second coefficient within rounding would make the result depend on rounding only.
             if b.abs() <= ROUNDING * a.abs() {
                 self.most = if a > 0.0 { self.most.min(1.0 / a) } else { self.most };
             } else if b > 0.0 {
@@ -290,7 +290,7 @@ impl Bounds {
             let (upper, lower) = (self.upper(z0, most), self.lower(z0));
             let (room, slope) = (upper.0 - lower.0, upper.1 - lower.1);
             let next = z0 - room / slope;
-            // Rounding ends it, too.
+            // Rounding ends the iteration, too.
             if room >= 0.0 || next.is_nan() || next >= z0 {
                 break;
             }

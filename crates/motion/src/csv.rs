@@ -27,7 +27,7 @@ pub fn csv(joints: &[String; 2], trajectory: &Trajectory, accelerations: bool, s
     for (k, time) in trajectory.time.iter().enumerate() {
         let ([p1, p2], [v1, v2], [a1, a2]) =
             (trajectory.position[k], trajectory.velocity[k], trajectory.acceleration[k]);
-        // Debug formatting is Rust's shortest round-trip one, with an exponent where digits would be many.
+        // Debug formatting gives the shortest text that reads back the same number, with an exponent for long numbers.
         write!(text, "{time:?},{p1:?},{p2:?},{v1:?},{v2:?}").expect("a string takes all");
         if accelerations {
             write!(text, ",{a1:?},{a2:?}").expect("a string takes all");

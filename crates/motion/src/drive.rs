@@ -42,7 +42,8 @@ pub struct Drive {
 }
 
 impl Default for Drive {
-    /// A sample every hundredth of a second, corners blended as the clearance allows, no limit of the tip.
+    /// Returns options with a sample every hundredth of a second, corners blended as the clearance allows, and no limit
+    /// of the tip.
     fn default() -> Self {
         Self { optimize: Objective::Length, period: 0.01, blend: f64::INFINITY, tip_speed: None, torque: false }
     }

@@ -17,7 +17,7 @@ pub enum Format {
     Mcap,
 }
 
-/// Why a file's name does not tell a format.
+/// A file name without a known format.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum FormatError {
     /// The extension is unknown.

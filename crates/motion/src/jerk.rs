@@ -8,7 +8,7 @@
 //! - the acceleration `a = v / (grow + hold)`,
 //! - the jerk `a / grow`.
 //!
-//! When one of the times increases, none of these quantities does. So times may always be lengthened without violating limits.
+//! If one of the times increases, no quantity does. So times may always be lengthened without violating limits.
 
 use super::clock::whole_nanoseconds;
 use super::profile::Phase;

@@ -8,7 +8,7 @@ use std::io::{self, Write};
 /// and a final line feed. Numbers have as many digits as needed to read back the same `f64`.
 ///
 /// # Panics
-/// On values without a form in JSON: maps whose keys are not strings.
+/// If a value has no form in JSON: maps whose keys are not strings.
 pub fn line_a_field(object: &impl Serialize) -> String {
     let mut text = Vec::new();
     let mut serializer = serde_json::Serializer::with_formatter(&mut text, LineAField::default());
@@ -17,7 +17,8 @@ pub fn line_a_field(object: &impl Serialize) -> String {
     String::from_utf8(text).expect("JSON is UTF-8")
 }
 
-/// The outermost object's fields on lines of their own, all within them compact with a blank after each comma and colon.
+/// A writer that puts each field of the outermost object on its own line, compact with a blank after each comma and
+/// colon.
 #[derive(Default)]
 struct LineAField {
     depth: usize,

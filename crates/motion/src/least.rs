@@ -1,8 +1,8 @@
-//! Times that no motion undercuts.
+//! Lower bounds on the duration of motions.
 
 use super::Limits;
 
-/// Halvings of an interval of times.
+/// Number of halvings of an interval of times.
 const HALVINGS: usize = 64;
 
 /// Relative rounding error of such a time.

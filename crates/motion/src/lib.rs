@@ -14,11 +14,11 @@
 //! | MCAP `/tf`, `/scene`, `/outlines` | RViz, Foxglove, Rerun | nothing: a frame stays where it is until it moves |
 //! | MCAP `/joint_states` | `robot_state_publisher`, Foxglove | each state for itself; displays hold it or draw lines to the next |
 //!
-//! The cubics are the certified motion: on straight pieces exactly, on blends within [`HAIR`], which the
-//! certificate covers, and they keep the limits; while the arm stands the samples are equal and at rest. Quintics are that
-//! motion only where the acceleration does not jump, so accelerations are left out unless they are asked for, and refused
-//! where they do. States lie on the motion; lines between them leave it by no more than `a h^2 / 8` for accelerations up to
-//! `a` and states `h` seconds apart.
+//! The cubics are the certified motion: on straight pieces exactly, on blends within [`HAIR`], which the certificate
+//! covers. They keep the limits, and while the arm is at rest the samples are equal and have no velocity. Quintics
+//! equal that motion only where the acceleration does not jump. So accelerations are written only on request, and
+//! refused where they jump. States lie on the motion; lines between them deviate from it by at most `a h^2 / 8` for
+//! accelerations up to `a` and states `h` seconds apart.
 //!
 //! ```
 //! use cplan_core::check::certify;

@@ -19,7 +19,7 @@ pub struct JointMotion {
     pub acceleration: Option<Vec<Vec<f64>>>,
 }
 
-/// Accelerations that would mislead their readers.
+/// An error about accelerations that would mislead their readers.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 #[error(
     "accelerations cannot be written: at {time:.6} s they jump, and a controller that joins points by quintics would leave the \
@@ -27,7 +27,7 @@ pub struct JointMotion {
      out --accelerations"
 )]
 pub struct AccelerationJump {
-    /// When they jump first, seconds.
+    /// Time of the first jump, seconds.
     pub time: f64,
 }
 
@@ -93,7 +93,7 @@ impl Trajectory {
                 let [p, v, a] = [&self.position, &self.velocity, &self.acceleration].map(|rows| rows[k][joint]);
                 let beyond = self.position[k + 1][joint] - p - v * h - a * h * h / 2.0;
                 let faster = self.velocity[k + 1][joint] - v - a * h;
-                // What INTERPOLATION makes of the acceleration at the end of the interval.
+                // The acceleration at the end of the interval, by INTERPOLATION.
                 let end = a + 6.0 * (faster * h - 2.0 * beyond) / h / h;
                 let may = SAME * pull + ULPS * f64::EPSILON * size / h / h;
                 (end - self.acceleration[k + 1][joint]).abs() <= may

@@ -2,7 +2,8 @@
 
 use super::clock::whole_nanoseconds;
 
-/// A time of constant jerk along a stretch, mostly of none at all; distances counted from the stretch's beginning.
+/// A time of constant jerk along a stretch, in most cases without jerk. Distances count from the beginning of the
+/// stretch.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Phase {
     /// Duration, seconds.
@@ -43,7 +44,7 @@ impl Phase {
     pub(super) fn at(&self, time: f64) -> State {
         let Self { duration, from, to, enter, leave, acceleration, jerk } = *self;
         let last = acceleration + jerk * duration;
-        // The state a while after another one, or before it.
+        // Returns the state some time after or before another one.
         let after = |distance: f64, speed: f64, acceleration: f64, time: f64| State {
             distance: distance + time * (speed + time * (0.5 * acceleration + time * jerk / 6.0)),
             speed: speed + time * (acceleration + 0.5 * jerk * time),
@@ -114,7 +115,7 @@ pub(super) fn passing(
         let gentle = if level < shortest { ((up + down) / length).min(1.0) } else { 1.0 };
         let meet = (up / gentle).min(length);
         let rest = if level < shortest { meet } else { length - down };
-        // By their speeds: short distances behind a long one are known but roughly.
+        // The phase is given by its speeds, because short distances after a long one are known only roughly.
         let phase = |[from, to]: [f64; 2], [enter, leave]: [f64; 2], acceleration: f64| {
             let duration = ((leave - enter) / acceleration).max(0.0);
             Phase { duration, from, to, enter, leave, acceleration, jerk: 0.0 }

@@ -20,7 +20,7 @@ pub struct Optimum {
     pub weights: Option<[f64; 2]>,
     /// Length of the path in this metric.
     pub length: f64,
-    /// No motion to any of the goals is shorter: proven.
+    /// Proven lower bound on the length of every motion to any of the goals.
     pub lower_bound: f64,
     /// `length / lower_bound - 1`; `None` if only the bound is 0.
     pub gap: Option<f64>,
@@ -31,7 +31,7 @@ pub struct Optimum {
 pub struct Fastest {
     /// Duration of the motion, seconds.
     pub duration: f64,
-    /// No motion to any of the goals that keeps the joints' limits takes less: proven.
+    /// Proven lower bound on the duration of every motion to any of the goals that keeps the joints' limits.
     pub lower_bound: f64,
     /// `duration / lower_bound - 1`; `None` if the bound is 0.
     pub gap: Option<f64>,
@@ -45,7 +45,7 @@ impl Fastest {
     }
 }
 
-/// The corners that a motion does not stop at.
+/// The corners at which a motion does not stop.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Blends {
     /// Number of blends. The motion stops at the path's other corners.
@@ -66,7 +66,7 @@ impl Blends {
 /// Settings of a search of a grid or a roadmap.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct SearchUsed {
-    /// `wave` or `deepening` (grids alone), `bfs`, `dfs`, `dijkstra`, `astar` or `greedy`.
+    /// `wave` or `deepening` (only for grids), `bfs`, `dfs`, `dijkstra`, `astar` or `greedy`.
     pub search: &'static str,
     /// Rule by which A\* breaks ties between equally promising cells, if not the default.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -77,7 +77,7 @@ pub struct SearchUsed {
     /// True if it was searched from the goals. For grids only stated if false.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub backward: Option<bool>,
-    /// `full` where that is the visibility graph; left out of the reduced one.
+    /// `full` for that visibility graph; omitted for the reduced one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub graph: Option<&'static str>,
 }

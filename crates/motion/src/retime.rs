@@ -18,19 +18,19 @@ pub(super) const PLACES: [f64; 3] = [0.0, 0.5, 1.0];
 /// Weights of these positions in an integral (Simpson's rule).
 const WEIGHTS: [f64; 3] = [1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0];
 
-/// The barriers together count as much as this share of the time, to begin with, ...
+/// Initial weight of the barriers together, as a share of the time, ...
 const FIRST_HEIGHT: f64 = 0.1;
 
-/// ... and at last; ...
+/// ... and final weight; ...
 const LAST_HEIGHT: f64 = 1e-3;
 
-/// ... and in between each time so much less.
+/// ... divided by this in each round.
 const LOWER: f64 = 6.0;
 
-/// Newton's steps for one height at the most.
+/// Greatest number of Newton steps for one weight.
 const MOST_STEPS: usize = 40;
 
-/// A height is done with when a step promises less than this share of the time.
+/// A round ends when a step promises less than this share of the time.
 const NEAR: f64 = 1e-5;
 
 /// A full step is taken if it achieves this fraction of its predicted decrease. Otherwise it is halved, up to a maximum
@@ -66,7 +66,7 @@ pub(super) struct Rate {
     /// Length of an interval of the parameter.
     step: f64,
     coefficients: Vec<f64>,
-    /// When the intervals begin, and the last one ends.
+    /// Times at which the intervals begin, and the end of the last one.
     times: Vec<f64>,
 }
 
@@ -100,17 +100,17 @@ fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
 
 /// A place with its conditions.
 struct Place<'a> {
-    /// The first coefficient that counts there, and how this one and the next two do.
+    /// The first coefficient that counts there, and the weights of this one and the next two.
     first: usize,
     basis: &'a [[f64; 3]; 3],
     /// `z` and its derivatives.
     values: [f64; 3],
-    /// Its share of the time.
+    /// Share of the time.
     time: f64,
     conditions: &'a [Condition],
 }
 
-/// The conditions of all places, in order, and what `z` is made of there.
+/// The conditions of all places, in order, with the weights of `z` there.
 struct Problem<'a> {
     conditions: &'a [Vec<Condition>],
     step: f64,
@@ -131,7 +131,7 @@ impl Problem<'_> {
 
     /// Returns the time plus barriers of a given weight; infinite if a condition is violated.
     fn merit(&self, coefficients: &[f64], height: f64) -> f64 {
-        // The logarithm of a product, rather than many.
+        // One logarithm of a product is faster than many.
         let (mut merit, mut product) = (0.0, 1.0_f64);
         for Place { values, time, conditions, .. } in self.places(coefficients) {
             if values[0].is_nan() || values[0] <= 0.0 {

@@ -7,7 +7,7 @@ use std::fmt::Write;
 /// Writes the trajectory as a `trajectory_msgs/msg/JointTrajectory` in the YAML of `ros2 topic pub`.
 ///
 /// The header's stamp is 0, which means "begin now", and its frame is empty. Times are whole nanoseconds. Numbers have
-/// as many digits as needed to read back the same `f64`. For how controllers join the points see the [module](super).
+/// as many digits as needed to read back the same `f64`. The [module](super) describes how controllers join the points.
 #[must_use]
 pub fn ros_yaml(motion: &JointMotion) -> String {
     let mut text = String::from("header:\n  stamp: {sec: 0, nanosec: 0}\n  frame_id: \"\"\njoint_names:\n");

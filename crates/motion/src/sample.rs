@@ -1,4 +1,4 @@
-//! A path under a clock.
+//! A path with its timing.
 
 use super::clock::{self, PER_SECOND, nanoseconds, not_before, whole_nanoseconds};
 use super::limits::Limits;
@@ -16,26 +16,29 @@ use thiserror::Error;
 /// ten thousand times the spacing of doubles, so times stay distinct after rounding.
 pub const SHORTEST_INTERVAL: f64 = 1e-6;
 
-/// Samples that nothing but the period asks for stay so far from others, seconds, where the period is longer than twice
-/// this: there rounding to doubles changes the acceleration of a cubic by less than a millionth of a radian per squared second.
+/// Least distance, in seconds, between other samples and those that only the period requires, if the period is longer
+/// than twice this. At this distance, rounding to doubles changes the acceleration of a cubic by less than a millionth
+/// of a radian per squared second.
 pub(super) const USUAL_INTERVAL: f64 = 1e-4;
 
-/// The longest motion that is timed, seconds: eleven days. Beyond, the limits are a mistake rather than a wish, and
-/// doubles no longer resolve [`SHORTEST_INTERVAL`] well.
+/// The longest motion that is timed, seconds: eleven days. For longer ones the limits are a mistake rather than a wish,
+/// and doubles no longer resolve [`SHORTEST_INTERVAL`] well.
 pub const LONGEST_MOTION: f64 = 1e6;
 
-/// The most samples a trajectory may have: some 300 MB of them.
+/// Greatest number of samples of a trajectory: some 300 MB.
 pub const MOST_SAMPLES: usize = 5_000_000;
 
 /// A motion of both joints, sampled.
 ///
-/// Within each interval from `time[k]` to `time[k + 1]` the motion is a polynomial in time of the fourth degree, on straight
-/// pieces of the second (of the third, if the jerk has a limit), and the samples say which: the one with position `k`, velocity `k` and acceleration `k` at its
-/// beginning and position and velocity `k + 1` at its end, as [`super::INTERPOLATION`] writes it down. So the samples are
-/// the motion, up to rounding, not an approximation of it. The acceleration may jump at a sample, unless a joint's jerk has
-/// a limit: the one that is given is that of the interval that begins there. The cubic through positions and velocities of two
-/// samples keeps the limits, too, and is the same motion on straight pieces. Times begin at 0 and increase strictly, by
-/// at least [`SHORTEST_INTERVAL`]; they are whole nanoseconds. Radians or metres, and seconds; joints in the order base to tip.
+/// Within each interval from `time[k]` to `time[k + 1]` the motion is a polynomial in time of the fourth degree; on
+/// straight pieces of the second, or of the third if the jerk has a limit. The samples define it: it is the polynomial
+/// with position `k`, velocity `k` and acceleration `k` at its beginning, and position and velocity `k + 1` at its end,
+/// as described by [`super::INTERPOLATION`]. So the samples are the motion, up to rounding, not an approximation of it.
+///
+/// The acceleration may jump at a sample, unless a joint's jerk has a limit; the stated one is that of the interval
+/// that begins there. The cubic through positions and velocities of two samples keeps the limits, too, and is the same
+/// motion on straight pieces. Times begin at 0 and increase strictly, by at least [`SHORTEST_INTERVAL`]; they are whole
+/// nanoseconds. Radians or metres, and seconds; joints in the order base to tip.
 #[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct Trajectory {
     /// Seconds from the start.
@@ -52,7 +55,7 @@ pub struct Trajectory {
     pub torque: Vec<[f64; 2]>,
 }
 
-/// Why a path cannot be timed.
+/// The reason why a path cannot be timed.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum TimingError {
     /// The period is not a number, not finite, or too small.
@@ -69,7 +72,7 @@ pub enum TimingError {
         /// The requested period, seconds.
         period: f64,
     },
-    /// The limits let the joints hardly move.
+    /// The limits hardly let the joints move.
     #[error(
         "the motion would last {0:.3e} s, more than {LONGEST_MOTION:.0e} s; \
          raise the limits of the joints, and of the tip's speed if it has one"
@@ -100,18 +103,18 @@ fn described([first, second]: [f64; 2]) -> String {
 }
 
 impl Trajectory {
-    /// Seconds from the first to the last sample.
+    /// Returns the seconds from the first to the last sample.
     #[must_use]
     pub fn duration(&self) -> f64 {
         self.time.last().copied().unwrap_or(0.0)
     }
 
-    /// Appends a motion that begins where this one ends, after a pause of so many seconds at rest, rounded up to whole
+    /// Appends a motion that begins where this one ends, after a rest of `pause` seconds, rounded up to whole
     /// nanoseconds. Without samples it becomes that motion. Pauses below [`SHORTEST_INTERVAL`] count as none.
     pub fn then(&mut self, pause: f64, next: &Trajectory) {
         let begin = self.time.last().map_or(0, |end| nanoseconds(after_pause(*end, pause)));
         if rest(pause) == 0.0 {
-            // One sample for both: the acceleration is that of the interval that begins.
+            // Both motions share one sample; its acceleration is that of the interval that begins.
             self.time.pop();
             self.position.pop();
             self.velocity.pop();
@@ -125,7 +128,7 @@ impl Trajectory {
         self.torque.extend(&next.torque);
     }
 
-    /// Stands still for so many seconds at the end, rounded up to whole nanoseconds; less than [`SHORTEST_INTERVAL`] counts as
+    /// Appends a rest of `pause` seconds, rounded up to whole nanoseconds; less than [`SHORTEST_INTERVAL`] counts as
     /// nothing.
     pub fn stand(&mut self, pause: f64) {
         if rest(pause) > 0.0 {
@@ -133,8 +136,8 @@ impl Trajectory {
         }
     }
 
-    /// Stands still at the end until the first whole nanosecond from a time on, not less than [`SHORTEST_INTERVAL`]; does nothing where the motion ends no
-    /// sooner than that.
+    /// Appends a rest until the first whole nanosecond from a time on, of at least [`SHORTEST_INTERVAL`]. Does nothing
+    /// if the motion does not end before that time.
     pub fn stand_until(&mut self, time: f64) {
         let (end, until) = (nanoseconds(self.duration()), nanoseconds(not_before(time)));
         if end < until {
@@ -145,7 +148,7 @@ impl Trajectory {
     fn stand_to(&mut self, end: u64) {
         if let Some(&position) = self.position.last() {
             self.push(end, [position.into(), Configuration::zeros(), Configuration::zeros()]);
-            // The torques that hold the arm there.
+            // These are the torques that hold the arm there.
             self.torque.extend(self.torque.last().copied());
         }
     }
@@ -189,7 +192,7 @@ fn rest(pause: f64) -> f64 {
 /// A motion in time, and the curve that it follows.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Timed {
-    /// The path, with the blends that the motion takes: those that would not make it faster are gone.
+    /// The path, with the blends in use: those that would not make the motion faster are removed.
     pub curve: CertifiedCurve,
     /// The motion as samples in time.
     pub trajectory: Trajectory,
@@ -203,10 +206,10 @@ pub struct Timed {
 /// limits (a thousandth of these stays unused there). The motion is never slower than one that stops at every corner:
 /// where that one is faster between two stops, it is used.
 ///
-/// Samples lie at the multiples of `period`, wherever that second derivative changes, and on blends as densely as it
-/// takes for the cubic through positions and velocities to keep the limits, too, and to stay within
-/// [`crate::HAIR`] of the blend; all of them at whole nanoseconds. Multiples of the period closer than a tenth of a
-/// millisecond (or half the period) to another sample are left out. A path that stays where it is gives one sample.
+/// Samples lie at the multiples of `period`, and wherever that second derivative changes. On blends they are dense
+/// enough for the cubic through positions and velocities to keep the limits, too, and to stay within [`crate::HAIR`] of
+/// the blend. All lie at whole nanoseconds. Multiples of the period closer than a tenth of a millisecond (or half the
+/// period) to another sample are left out. A path that does not move gives one sample.
 ///
 /// A straight piece of length `L` from rest to rest, with speed and acceleration limits `v` and `a` along it, takes `2
 /// sqrt(L / a)` if `L a <= v^2`, else `L / v + v / a`. It takes up to `4` [`SHORTEST_INTERVAL`] longer if a phase would

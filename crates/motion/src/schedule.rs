@@ -1,4 +1,4 @@
-//! When a motion is where: the fastest motion along a path with blends.
+//! The timing of a motion: the fastest one along a path with blends.
 
 use super::clock::reserve;
 use super::corner::{Bounds, Corner};
@@ -11,16 +11,16 @@ use crate::{Blend, BlendedPath};
 use cplan_core::space::Configuration;
 use std::ops::Range;
 
-/// Parts of a straight stretch at the most.
+/// Greatest number of parts of a straight stretch.
 const MOST_PARTS: f64 = 1024.0;
 
 /// Least duration of a phase of a straight stretch that is passed, as a fraction of its least time. A shorter phase
 /// would gain less than the limits that [`reserve`] withholds for it.
 const SHORTEST_SHARE: f64 = 1.0 / 32.0;
 
-/// Blends are cut into more spans, though nothing known of them asks for it, while that shortens the motion by this share of it.
-/// Where a joint of little acceleration turns round within a blend, the others may accelerate the more the nearer they are to that
-/// place, which coarse spans do not show.
+/// Blends are cut into more spans as long as that shortens the motion by this share. Where a joint of little
+/// acceleration turns back within a blend, the other joints may accelerate more near that place, which coarse spans do
+/// not show.
 const WORTH: f64 = 0.005;
 
 /// A stretch of a path with the distance along it.
@@ -40,7 +40,7 @@ pub(super) struct Line {
     /// The speed that the joints' limits allow along it.
     speed: f64,
     acceleration: f64,
-    /// Infinite without a limit.
+    /// The jerk; infinite without a limit.
     jerk: f64,
 }
 
@@ -48,7 +48,7 @@ impl Line {
     /// Creates a line. With a limit on torques, its acceleration is not known to keep that limit: see [`Line::safe`].
     fn new(from: Configuration, to: Configuration, limits: &Limits) -> Self {
         let offset = to - from;
-        // Unlike the root of the sum of squares this does not vanish for the shortest of offsets.
+        // Unlike the root of the sum of squares, this does not vanish for very short offsets.
         let length = offset[0].hypot(offset[1]);
         let direction = offset / length;
         let (speed, acceleration) = (limits.speed_along(direction), limits.acceleration_along(direction));
@@ -76,7 +76,7 @@ impl Line {
             bend: Configuration::zeros(),
             half: whole.length / 2.0,
         };
-        // The derivative of the tip's way may be off by this much where it matters: where it is more than speed / own.
+        // Tolerance of the derivative of the tip's path where it matters, that is, where it is more than speed / own.
         let off = TIP_STEP * tip.speed / own;
         let count = (tip.slack(&part) / off).ceil().clamp(1.0, MOST_PARTS);
         let end = |i: f64| if i == count { to } else { from + (to - from) * (i / count) };
@@ -164,12 +164,12 @@ pub(super) fn rough_duration(curve: &BlendedPath, limits: &Limits) -> f64 {
     runs.iter().map(|run| duration(run)).sum()
 }
 
-/// Into how many spans blends are cut.
+/// The number of spans of a blend.
 #[derive(Clone, Copy, PartialEq)]
 enum Spans {
     /// The initial number of spans.
     Few,
-    /// Until these are fine enough.
+    /// As many as the accuracy needs.
     Enough,
 }
 
@@ -254,7 +254,7 @@ fn stopping(curve: &BlendedPath, waypoints: Range<usize>, limits: &Limits, spans
             vec![(Track::Line(line), phases)]
         };
         if Line::new(leg[0], leg[1], limits).jerk.is_finite() {
-            // One top speed for all parts, and so no jumps between them.
+            // One top speed for all parts avoids jumps between them.
             let parts = Line::parts(leg[0], leg[1], limits);
             let speed = parts.iter().map(|part| part.speed).fold(f64::INFINITY, f64::min);
             let line = Line { speed, ..Line::new(leg[0], leg[1], limits) }.safe(limits);
@@ -268,7 +268,7 @@ fn stopping(curve: &BlendedPath, waypoints: Range<usize>, limits: &Limits, spans
     legs.map(timed_tracks).collect()
 }
 
-/// A part of a run over which the squared speed is linear, or on a line as fast as can be.
+/// A part of a run over which the squared speed is linear, or on a line as fast as possible.
 enum Span {
     Line(Line),
     Part(Bounds),

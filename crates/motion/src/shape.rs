@@ -14,7 +14,7 @@ const LIFTS: [f64; 8] = [1.0 / 128.0, 1.0 / 64.0, 1.0 / 32.0, 1.0 / 16.0, 1.0 / 
 /// First and last distance by which single corners are moved, as fractions of the greatest.
 const STEPS: [f64; 2] = [1.0 / 8.0, 1.0 / 512.0];
 
-/// Paths that are tried with single corners moved.
+/// Number of paths with single corners moved that are tried.
 const TRIES: usize = 240;
 
 /// Number of times that the lift of a corner with blocked legs is halved before the corner stays in place.
@@ -24,7 +24,7 @@ const HALVINGS: u32 = 6;
 pub(super) struct Shaping<'a, F> {
     scene: &'a Scene,
     motions: StraightMotions<'a>,
-    /// The fastest motion about a path that takes less than so many seconds.
+    /// Returns the fastest motion along a path, if it takes less than this many seconds.
     drive: F,
 }
 

@@ -1,4 +1,4 @@
-//! One joint that moves while all others stand.
+//! The motion of one joint while all others rest.
 
 use super::profile::rest_to_rest;
 use super::sample::SHORTEST_INTERVAL;

@@ -18,28 +18,28 @@ use cplan_core::space::Configuration;
 use cplan_handling::Piece;
 use std::collections::BTreeSet;
 
-/// A corner near which the motion is not shown to be free is passed at this share of its speed before.
+/// Factor for the speed at a corner near which the motion is not shown to be free.
 const SLOWER: f64 = 0.7;
 
-/// Below this share of its speed the arm stops there.
+/// Share of the speed below which the arm stops at the corner instead.
 const SLOWEST: f64 = 1.0 / 128.0;
 
-/// Times that corners are slowed down before all of them are stopped at.
+/// Number of rounds of slower corners, after which the arm stops at all of them.
 const ROUNDS: usize = 24;
 
 /// Factor for gentler accelerations. The gentler they are, the shorter the time in which the jerk reverses them.
 const GENTLER: f64 = 0.8;
 
-/// No gentler share of them is tried.
+/// Least share of the accelerations that is tried.
 const GENTLEST: f64 = 1e-3;
 
 /// Positions at which the distance of a piece of a motion from the path is measured.
 const LOOKS: [f64; 4] = [0.0, 0.25, 0.5, 0.75];
 
-/// ... by what share it may be farther off in between, ...
+/// ... share by which the distance may be greater between these positions, ...
 const BETWEEN: f64 = 0.01;
 
-/// ... and how many legs ahead of the last one it may be.
+/// ... and greatest number of legs that it may be ahead of the last one.
 const AHEAD: usize = 8;
 
 /// A path that is timed within limits.
@@ -54,7 +54,7 @@ struct Smoothing<'a> {
     retimes: bool,
 }
 
-/// A motion, and when it passes the corners of its path.
+/// A motion, with the times at which it passes the corners of its path.
 struct Smooth {
     trajectory: Trajectory,
     /// Waypoints with the nanoseconds between which their blends were passed.
@@ -76,14 +76,14 @@ pub(super) fn smoothed(
     let clearance = scene.workspace().clearance;
     let mut curve = blend(scene, path, greatest, clearance).curve().clone();
     let rounding = Rounding::new(scene, path, clearance);
-    // No reach is longer than the longest leg.
+    // No reach exceeds the longest leg.
     let most = path.path().segments().map(|(a, b)| (b - a).norm()).fold(0.0, f64::max).min(greatest);
     let mut smoothing = Smoothing::new(&curve, limits, period)?;
     let mut shares = vec![1.0; curve.radii().len()];
     let mut plain = None;
     for _ in 0..ROUNDS {
         let fastest = plain.as_ref().map_or(below, |plain: &Timed| plain.trajectory.duration());
-        // Slower corners do not make it faster.
+        // Slower corners do not make the motion faster.
         let smooth = smoothing.along(&curve, &shares).filter(|smooth| smooth.trajectory.duration() < fastest);
         let Some(smooth) = smooth else { return plain };
         let pieces = smooth.trajectory.pieces();
@@ -202,7 +202,7 @@ impl<'a> Smoothing<'a> {
         Some(smooth)
     }
 
-    /// Appends a run that passes the blends after a waypoint; and tells when it ends.
+    /// Appends a run that passes the blends after a waypoint; returns its end.
     fn run(&self, run: &[TimedTrack], after: usize, begin: u64, smooth: &mut Smooth) -> u64 {
         let mut spline = Spline::smoothed(run, self.base.acceleration, &self.limits, self.period);
         let delay = spline.delay();

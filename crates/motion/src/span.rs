@@ -1,11 +1,10 @@
-//! Stretches of a motion, and how far it deviates in them from where it is halfway.
+//! Stretches of a motion, and the deviation in them from the configuration halfway.
 
 use cplan_core::check::Deviation;
 use cplan_core::space::Configuration;
 use cplan_handling::Piece;
 
-/// Spans of a piece are halved down to this share of it: a nanosecond of a long one, and still far above what rounding
-/// does to a share.
+/// Least span of a piece, as a share of it: a nanosecond of a long piece, and still far above the rounding of a share.
 const FINEST: f64 = 1.0 / (1u64 << 40) as f64;
 
 /// A place on the motion: a piece, and a share of it.
@@ -16,27 +15,27 @@ pub type Place = (usize, f64);
 pub enum Span {
     /// Whole pieces, from one to before another.
     Pieces(usize, usize),
-    /// From one share of a piece to another.
+    /// A part of a piece, from one share of it to another.
     Part(usize, f64, f64),
 }
 
 impl Span {
-    /// The place where it begins.
+    /// Returns the place where it begins.
     pub fn start(self) -> Place {
         self.ends()[0]
     }
 
-    /// All of a motion of so many pieces.
+    /// Returns the whole motion of this many pieces.
     pub fn all(pieces: usize) -> Self {
         if pieces == 1 { Span::Part(0, 0.0, 1.0) } else { Span::Pieces(0, pieces) }
     }
 
-    /// From one place to a later one, or more.
+    /// Returns a stretch that covers everything from one place to a later one, and possibly more.
     pub fn between(from: Place, to: Place) -> Self {
         if from.0 == to.0 { Span::Part(from.0, from.1, to.1) } else { Span::Pieces(from.0, to.0 + 1) }
     }
 
-    /// The configuration in the middle of it, and how far it deviates from that.
+    /// Returns the configuration in the middle of the span, and the deviation from it in the span.
     pub fn deviation(self, pieces: &[Piece]) -> (Configuration, Deviation) {
         match self {
             Span::Pieces(first, end) => around(&pieces[first..end]),
@@ -44,7 +43,7 @@ impl Span {
         }
     }
 
-    /// The place halfway along it.
+    /// Returns the place halfway along it.
     pub fn middle(self) -> Place {
         match self {
             Span::Pieces(first, end) => (first + (end - first) / 2, 0.0),
@@ -52,7 +51,7 @@ impl Span {
         }
     }
 
-    /// Where it begins, and where it ends.
+    /// Returns its first and its last place.
     pub fn ends(self) -> [Place; 2] {
         match self {
             Span::Pieces(first, end) => [(first, 0.0), (end - 1, 1.0)],
@@ -60,7 +59,7 @@ impl Span {
         }
     }
 
-    /// Both halves, in order; none of a span that is as fine as can be.
+    /// Returns both halves, in order; `None` for a span of the finest length.
     pub fn halves(self) -> Option<[Span; 2]> {
         let whole = |from: usize, to: usize| match to - from {
             1 => Span::Part(from, 0.0, 1.0),
@@ -80,17 +79,17 @@ impl Span {
     }
 }
 
-/// Rounding of a configuration that is computed from control points, for each degree of the piece and relative to the
-/// largest of them: three operations a step, and some for the control points themselves.
+/// Rounding of a configuration computed from control points, per degree of the piece and relative to the largest
+/// control point: three operations per step, and some for the control points themselves.
 const ROUNDING: f64 = 6.0 * f64::EPSILON;
 
-/// The rounding of a piece's configurations in one joint.
+/// Returns the rounding of a piece's configurations in one joint.
 fn rounding(piece: &Piece, joint: usize) -> f64 {
     let largest = piece.control().iter().map(|p| p[joint].abs()).fold(0.0, f64::max);
     ROUNDING * piece.degree() as f64 * largest
 }
 
-/// The box about several pieces.
+/// Returns the box about several pieces.
 fn around(pieces: &[Piece]) -> (Configuration, Deviation) {
     let points = || pieces.iter().flat_map(|p| p.control());
     let mut middle = Configuration::zeros();
@@ -103,8 +102,8 @@ fn around(pieces: &[Piece]) -> (Configuration, Deviation) {
     (middle, Deviation::Box(half))
 }
 
-/// The tube about a part of a piece, from the configuration halfway through it, and all that is in each joint no more
-/// than `beside` off it.
+/// Returns the tube of half width `beside` in each joint about a part of a piece, from the configuration halfway
+/// through it.
 pub(super) fn along(piece: &Piece, from: f64, to: f64, beside: f64) -> (Configuration, Deviation) {
     let (first, middle, last) = (piece.at(from), piece.at((from + to) / 2.0), piece.at(to));
     let bend = piece.bend(from, to);

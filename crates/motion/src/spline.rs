@@ -6,9 +6,9 @@
 //! acceleration that the motion keeps, and stays in the convex hull of the motion within `(n + 3) h`.
 //!
 //! Its jerk is constant over each step, `(a_j - a_(j - n)) / (n h)` with the second differences `a` of `x` divided by
-//! `h^2`. So a window of `n h` seconds is long enough if the acceleration changes within it by at most what the jerk
-//! allows. (Box filters in series are a known method for such trajectories: Biagiotti, Melchiorri, *FIR filters for
-//! online trajectory planning with time- and frequency-domain specifications*, 2012.)
+//! `h^2`. So a window of `n h` seconds is long enough if the acceleration changes within it by at most the effect of
+//! the greatest jerk. (Box filters in series are a known method for such trajectories: Biagiotti, Melchiorri, *FIR
+//! filters for online trajectory planning with time- and frequency-domain specifications*, 2012.)
 //!
 //! The motion takes `(n + 1) h` longer, starts and ends at rest with zero acceleration, and moves along straight lines
 //! on straight pieces.
@@ -21,22 +21,22 @@ use super::schedule::{TimedTrack, duration, places};
 use super::torque::TorqueLimit;
 use cplan_core::space::Configuration;
 
-/// Steps of a window: the finer, the less the last step costs.
+/// Number of steps of a window. With more steps, the last one costs less.
 const STEPS: f64 = 32.0;
 
-/// A step is no shorter than this share of the period of the samples.
+/// Least step, as a share of the period of the samples.
 const SHORTEST_STEP: f64 = 1.0 / 8.0;
 
-/// Steps of a motion at the most.
+/// Greatest number of steps of a motion.
 const MOST_STEPS: f64 = 1e5;
 
 /// Least number of intervals of a retimed motion. It has one per step of the motion, or a multiple if that is fewer.
 const FEWEST: usize = 800;
 
-/// ... and no more than these: what ever longer motions gain is ever less.
+/// ... and greatest number, since longer motions gain less and less.
 const MOST: usize = 20_000;
 
-/// It begins with this share of the speed, which keeps all limits.
+/// Initial share of the speed, which satisfies all limits.
 const BEGIN: f64 = 0.97;
 
 /// Number of steps of a retimed motion, unless other reasons require shorter or longer ones. It takes two steps longer.
@@ -54,9 +54,9 @@ const SAME: f64 = 1e-7;
 pub(super) struct Spline {
     /// Nanoseconds between two knots.
     step: u64,
-    /// Steps of the window by which a motion was smoothed.
+    /// Number of steps of the smoothing window.
     window: u64,
-    /// Three times the start, ..., three times the goal.
+    /// Control points: three times the start, ..., three times the goal.
     control: Vec<Configuration>,
 }
 
@@ -72,7 +72,7 @@ impl Spline {
         let [start, goal] = [places[0], places[places.len() - 1]];
         let place = |j: usize| places[j.min(places.len() - 1)];
         let mean = |j: usize| {
-            // Counted from one of them, so that a joint that stands still does.
+            // Offsets count from one configuration, so that a joint at rest stays at rest.
             let here = place(j);
             let ahead = (0..window).map(|i| if i <= j { place(j - i) } else { start } - here);
             here + ahead.fold(Configuration::zeros(), |sum, offset| sum + offset) / window as f64
@@ -101,7 +101,7 @@ impl Spline {
         let places = times.map(|time| self.at_seconds(rate.at(time))[0]);
         let control = [start; 3].into_iter().chain(places).chain([goal; 3]).collect();
         let spline = Self { step, window: 1, control };
-        // In between the places limits may be exceeded by little.
+        // Between the places the limits may be exceeded slightly.
         let step = (step as f64 * spline.excess(limits)).ceil() as u64;
         let slower = step as f64 / spline.step as f64;
         let spline = Self { step, ..spline };
@@ -134,7 +134,7 @@ impl Spline {
         self.step * (self.control.len() - 3) as u64
     }
 
-    /// Nanoseconds by which it is behind the motion that was smoothed, in the middle.
+    /// Returns the nanoseconds by which it lags behind the original motion, in the middle.
     pub fn delay(&self) -> u64 {
         self.step * (self.window + 1) / 2
     }
@@ -174,7 +174,7 @@ impl Spline {
         self.within(piece, steps - piece as f64)
     }
 
-    /// Nanoseconds at which the jerk changes, the beginning first.
+    /// Returns the nanoseconds at which the jerk changes, the beginning first.
     fn knots(&self) -> Vec<u64> {
         let third = |piece: usize| {
             let [a, b, c, d] = [0, 1, 2, 3].map(|i| self.control[piece + i]);

@@ -4,22 +4,23 @@ use cplan_core::model::{Arm, JointType};
 use cplan_core::space::Configuration;
 use cplan_handling::{Derivative, Piece};
 
-/// Share of its limit that the tip's speed may lose, because it is bounded part by part: curves are cut so finely.
+/// Share of its limit that the tip's speed may lose, because it is bounded part by part. It decides how finely curves
+/// are cut.
 pub(super) const TIP_STEP: f64 = 0.01;
 
-/// Parts of a piece in which it is looked how fast the tip is, at the most.
+/// Greatest number of parts of a piece in which the tip's speed is bounded.
 const MOST_PARTS: f64 = 64.0;
 
-/// Greatest speed of an arm's tip over the ground.
+/// Greatest speed of an arm's tip in the plane.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TipSpeed<'a> {
-    /// The arm whose tip it is.
+    /// The arm with the tip.
     pub arm: &'a Arm,
     /// Metres a second, positive.
     pub speed: f64,
 }
 
-/// A part of a curve `q(s)` with a constant second derivative: all of it that is no farther than `half` from `middle`.
+/// A part of a curve `q(s)` with a constant second derivative: everything within `half` of `middle`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Part {
     /// The configuration in the middle.
@@ -79,7 +80,7 @@ impl TipSpeed<'_> {
         let tip = arm.tip.coords;
         match (arm.joints[0].joint_type, arm.joints[1].joint_type) {
             (Revolute { sign: s1 }, Revolute { sign: s2 }) => {
-                // What link 2 turns by.
+                // Turning rate of link 2.
                 let turn = |rate: Configuration| (s1 * rate[0] + s2 * rate[1]).abs();
                 let w = turn(part.slope) + turn(part.bend) * part.half;
                 arm.offset.norm() * (w1 * w1 + b1) + tip.norm() * (w * w + turn(part.bend))

@@ -1,4 +1,4 @@
-//! Torques that joints may not exceed.
+//! Limits on the torques of the joints.
 
 use super::sample::{TimingError, Trajectory};
 use super::tip::Part;
@@ -8,37 +8,38 @@ use cplan_core::space::{Configuration, Path};
 use cplan_dynamics::{Curvature, Rates, Torques};
 use cplan_handling::Piece;
 
-/// Share of an effort by which the torque may be overestimated on a part of a curve: curves are cut so finely.
+/// Share of an effort by which the torque may be overestimated on a part of a curve. It decides how finely curves are
+/// cut.
 const STEP: f64 = 0.01;
 
 /// Rows for two joints in both directions: three coefficients, each with the error of the inertial factor to either
 /// side.
 const ROWS: usize = 24;
 
-/// Parts of a straight stretch for which one acceleration and one speed are to be safe.
+/// Number of parts of a straight stretch for which one acceleration and one speed must be safe.
 const SAFE_PARTS: u32 = 64;
 
 /// On such a part, the share of the remaining effort for acceleration; the rest is for speed.
 const FOR_ACCELERATION: f64 = 0.5;
 
-/// Share of an effort that counts as some that is left.
+/// Least share of an effort that counts as remaining.
 const NOTHING_LEFT: f64 = 1e-12;
 
-/// Share of an effort by which a torque may be greater between two looks at a motion.
+/// Share of an effort by which a torque may be greater between two samples of a motion.
 const FINE: f64 = 2e-4;
 
 /// The same tolerance during the search for a motion.
 const ROUGH: f64 = 2e-3;
 
-/// Parts of a leg on which it is looked whether the arm can be held, at the most.
+/// Greatest number of parts of a leg on which the code checks that the arm can be held.
 const MOST_PARTS: f64 = 1e5;
 
-/// The joints of an arm may not bring more than their efforts.
+/// A limit on the torques of an arm's joints: their efforts.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TorqueLimit<'a> {
-    /// Torques of the arm with what it carries, and its efforts.
+    /// Torques of the arm with its payload, and its efforts.
     pub torques: Torques<'a>,
-    /// Share of what gravity leaves of the efforts that is used.
+    /// Share of the efforts left by gravity that is used.
     pub share: f64,
 }
 
@@ -70,7 +71,7 @@ impl<'a> TorqueLimit<'a> {
             third: [0.0; 2],
         };
         let curvature = self.torques.curvature(part.middle, part.half, &rates);
-        // From a chord over its length of twice the half.
+        // Deviation from a chord over the whole part, which is `2 half` long.
         let off = |curvature: [f64; 2], share: f64| curvature.map(|c| c * part.half * part.half / (2.0 * share));
         let at = |by: f64| {
             let q = part.middle + part.slope * by + part.bend * (by * by / 2.0);
@@ -109,7 +110,7 @@ impl<'a> TorqueLimit<'a> {
                 ];
                 for (inertial, bent, holding) in coefficients {
                     let room = (used * effort - holding - off.holding[k]).max(NOTHING_LEFT * effort);
-                    // The inertial factor is off to whichever side makes it worse.
+                    // The inertial factor deviates to the side that is worse.
                     for inertial in [inertial + off.inertial[k], inertial - off.inertial[k]] {
                         // z' over the part's length, halved.
                         let rising = inertial / (4.0 * part.half);
@@ -153,7 +154,7 @@ impl<'a> TorqueLimit<'a> {
         safe
     }
 
-    /// Changes of the joints' accelerations that together change no torque by more than its effort.
+    /// Returns changes of the joints' accelerations that together change no torque by more than its effort.
     pub(super) fn accelerations(&self) -> [f64; 2] {
         let inertia = self.torques.greatest_inertia();
         let share = |k: usize, l: usize| self.torques.dynamics.effort[l] / (2.0 * inertia[l][k]);
@@ -187,7 +188,7 @@ impl<'a> TorqueLimit<'a> {
     /// Checks that a motion keeps within the efforts.
     ///
     /// # Errors
-    /// The first place where it may not.
+    /// The first place where it may exceed them.
     pub(super) fn kept(&self, pieces: &[Piece]) -> Result<(), TimingError> {
         for piece in pieces {
             for look in torque_looks(&self.torques, piece, FINE) {
@@ -200,7 +201,7 @@ impl<'a> TorqueLimit<'a> {
         Ok(())
     }
 
-    /// Torques at the samples.
+    /// Returns the torques at the samples.
     pub(super) fn along(&self, trajectory: &Trajectory) -> Vec<[f64; 2]> {
         let at = |i: usize| {
             let [q, v, a] =

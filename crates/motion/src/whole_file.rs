@@ -1,14 +1,14 @@
-//! Files that are there whole or not at all.
+//! Files that are written completely or not at all.
 
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
-/// Why a file could not be written. Nothing was changed then.
+/// The reason why a file could not be written. Then nothing was changed.
 #[derive(Debug, Error)]
 pub enum WriteError {
-    /// There is a folder (or a device, a pipe, ...) of that name.
+    /// There is a folder (or a device, a pipe, ...) with that name.
     #[error("cannot write {}: it exists and is not a file", path.display())]
     NotAFile {
         /// The file as given.
@@ -22,12 +22,13 @@ pub enum WriteError {
         /// The missing folder.
         folder: PathBuf,
     },
-    /// The operating system refused. Only the kind is shown: the full error names a temporary file that no longer is.
+    /// The operating system refused. Only the kind is shown, because the full error names a temporary file that is
+    /// already gone.
     #[error("cannot write {}: {}", path.display(), source.kind())]
     Refused {
         /// The file as given.
         path: PathBuf,
-        /// Why the operating system refused.
+        /// The operating system's reason.
         source: io::Error,
     },
 }
@@ -58,7 +59,7 @@ pub fn write_whole_set<B: AsRef<[u8]>>(files: &[(PathBuf, B)]) -> Result<(), Wri
 
 /// A temporary file with the new content; removed unless it is renamed.
 struct Prepared {
-    /// The path of the file that is to be written, as it was given.
+    /// The path of the file to write, as given.
     path: PathBuf,
     target: PathBuf,
     /// Closed, so that the number of files is not limited by that of open ones.
@@ -91,7 +92,7 @@ impl Prepared {
 /// [`WriteError`].
 pub fn check_writable(path: &Path) -> Result<(), WriteError> {
     let Target { folder, .. } = target(path)?;
-    // Gone again at once: its name is never seen by anybody who does not look in this very moment.
+    // The temporary file is removed at once, so its name is visible only for a moment.
     new_temporary(&folder).map(drop).map_err(|source| WriteError::Refused { path: path.to_owned(), source })
 }
 
@@ -100,7 +101,7 @@ struct Target {
     /// The file itself, behind a symbolic link.
     file: PathBuf,
     folder: PathBuf,
-    /// Permissions of the file that is there.
+    /// Permissions of the existing file.
     kept: Option<fs::Permissions>,
 }
 
@@ -108,7 +109,7 @@ fn target(path: &Path) -> Result<Target, WriteError> {
     let refused = |source: io::Error| WriteError::Refused { path: path.to_owned(), source };
     let target = match (path.is_symlink(), fs::canonicalize(path)) {
         (false, _) => path.to_owned(),
-        // The file behind the link is not there yet.
+        // The file behind the link does not exist yet.
         (true, Err(error)) if error.kind() == io::ErrorKind::NotFound => {
             path.with_file_name(fs::read_link(path).map_err(refused)?)
         }

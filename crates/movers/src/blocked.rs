@@ -1,4 +1,5 @@
-//! When the arm may not be somewhere: the times at which what moves is in the way, exact in time as slices are in joint space.
+//! Times at which moving obstacles block the arm at a configuration. They are exact in time, as slices are exact in
+//! joint space.
 
 use cplan_core::check::{Deviation, Posture};
 use cplan_core::model::{Leg, Mover, Pair, Scene};
@@ -8,60 +9,60 @@ use cplan_geometry::{
 use cplan_interrupt::checkpoint;
 use std::cell::OnceCell;
 
-/// What is looked at is larger than it is by this share of the lengths involved: far more than rounding, far less than anybody sees.
+/// Shapes are enlarged by this share of the lengths involved: far more than rounding, but too little to matter.
 const ROOM: f64 = 1e-9;
 
-/// Obstacles that turn are followed in steps in which they move by no more than this share of the lengths involved, or than a quarter of what the arm's
-/// part does: contact may seem to begin so much earlier and to end so much later.
+/// Step of following obstacles that turn. In one step they move by at most this share of the lengths involved, or a
+/// quarter of the motion of the arm's part. Contact may seem to begin too early and to end too late by that much.
 const STEP: f64 = 1e-3;
 
-/// A single posture.
+/// A posture without deviation.
 pub const STILL: Deviation = Deviation::Box([0.0; 2]);
 
-/// What moves, prepared for the question when.
+/// The moving obstacles of a scene, prepared for computing times of contact.
 pub struct Movers<'a> {
     scene: &'a Scene,
     clearance: f64,
-    /// Of each mover, of each of its pieces, of each of its legs.
+    /// One entry for each mover, each of its pieces, and each of its legs.
     stretches: Vec<Stretch>,
-    /// All that can meet.
+    /// All meetings that are possible.
     meetings: Vec<Meeting>,
 }
 
-/// A part of the arm and a piece of a mover on a leg of its course, within some time.
+/// A part of the arm, and a piece of a mover on one leg of its course, within an interval of time.
 #[derive(Debug, Clone, Copy)]
 pub struct Meeting {
     pair: Pair,
-    /// The times of interest.
+    /// The interval of time that is examined.
     within: Interval,
     stretch: usize,
 }
 
 impl Meeting {
-    /// The same within other times.
+    /// Returns the same meeting within another interval of time.
     #[must_use]
     pub fn in_time(self, within: Interval) -> Self {
         Self { within, ..self }
     }
 }
 
-/// A part of the arm at a posture, and how far it deviates from there: all pairs with it share that.
+/// A part of the arm at a posture, and its possible deviation from there. All pairs with this part share it.
 pub struct Around<'a> {
     pair: Pair,
-    /// In its own frame, ...
+    /// The part in its own frame, ...
     part: &'a Convex,
-    /// ... where that is, ...
+    /// ... the pose of that frame, ...
     pose: Pose,
-    /// ... and itself there, once it is needed, with its size.
+    /// ... and the placed part with its size, computed when first needed.
     placed: OnceCell<(Convex, f64)>,
-    /// A disc that holds it.
+    /// A disc that contains the part.
     disc: (Point, f64),
-    /// Farthest that a point of it moves, metres.
+    /// Largest motion of a point of the part, metres.
     moves: f64,
 }
 
 impl<'a> Around<'a> {
-    /// That of a meeting's part; what is known if it is of the same.
+    /// Returns the entry for a meeting's part. Reuses the `known` one if it is for the same part.
     pub fn of<'k>(
         known: &'k mut Option<Self>,
         movers: &Movers<'a>,
@@ -77,7 +78,7 @@ impl<'a> Around<'a> {
         known.as_ref().expect("just made")
     }
 
-    /// Farthest that a point of the part moves, metres.
+    /// Returns the largest motion of a point of the part, metres.
     pub fn moves(&self) -> f64 {
         self.moves
     }
@@ -94,17 +95,17 @@ impl<'a> Around<'a> {
 /// A piece of a mover along a leg of its course.
 struct Stretch {
     leg: Leg,
-    /// In its own frame, with a disc around it.
+    /// The piece in its own frame, with a disc around it.
     own: Convex,
     own_disc: (Point, f64),
-    /// Where the leg begins, ...
+    /// The piece where the leg begins, ...
     piece: Convex,
-    /// ... its size and a disc around it there.
+    /// ... its extent, and a disc around it there.
     reach: f64,
     disc: (Point, f64),
-    /// Of what slides: its direction and speed.
+    /// For a piece that slides without turning: its direction and speed.
     slide: Option<(Vector, f64)>,
-    /// Farthest that a point of it moves in a second, metres.
+    /// Largest speed of a point of the piece, metres per second.
     speed: f64,
 }
 
@@ -124,7 +125,7 @@ impl Stretch {
         }
     }
 
-    /// Whether it stays farther from a disc than a distance within some time.
+    /// Returns true if the piece stays farther from a disc than a distance during an interval of time.
     fn is_beyond(&self, (point, radius): (Point, f64), distance: f64, [from, to]: Interval) -> bool {
         let far = |between: f64, own: f64| distance + radius + own + ROOM * (distance + radius + own + between);
         match self.slide {
@@ -146,7 +147,7 @@ impl Stretch {
         }
     }
 
-    /// How far it is from a part of the arm at a time, if that is no more than this.
+    /// Returns the distance from a part of the arm at a time, or `None` if it exceeds `most`.
     fn distance(&self, around: &Around, time: f64, most: f64) -> Option<f64> {
         let pose = self.leg.pose(time);
         let ((at, extent), (center, radius)) = (around.disc, self.own_disc);
@@ -156,14 +157,15 @@ impl Stretch {
         distance.filter(|distance| *distance <= most)
     }
 
-    /// Times within some at which a part is, or may be, no farther than this from what turns: a superset, in steps in which it moves so far.
+    /// Finds times at which a turning piece is, or may be, no farther from a part than `grow`. The result is a
+    /// superset, in steps in which the piece moves by at most `step`.
     fn turning(&self, around: &Around, within: Interval, [grow, step]: [f64; 2], out: &mut Vec<Interval>) {
         let mut open = vec![within];
         while let Some([from, to]) = open.pop() {
             checkpoint();
             let (middle, drifts) = (f64::midpoint(from, to), self.speed * (to - from) / 2.0);
             let Some(distance) = self.distance(around, middle, grow + drifts) else { continue };
-            // Near all the time, or too short a time to tell.
+            // Near all the time, or the interval is too short to decide.
             if distance + drifts <= grow || drifts <= step {
                 out.push([from, to]);
             } else {
@@ -172,7 +174,8 @@ impl Stretch {
         }
     }
 
-    /// Times within some at which both overlap by more than this: a subset, whose ends are known to so many seconds.
+    /// Finds times at which both overlap by more than `deeper`. The result is a subset, whose ends are accurate to
+    /// `shortest` seconds.
     fn deep(&self, around: &Around, within: Interval, [deeper, shortest]: [f64; 2], out: &mut Vec<Interval>) {
         let mut open = vec![within];
         while let Some([from, to]) = open.pop() {
@@ -187,8 +190,9 @@ impl Stretch {
         }
     }
 
-    /// The same where it slides. How deep it is is a concave function of time, as the distance to a convex set is a convex one of the place: where the
-    /// chord from an end, at which it is as deep as both are round, to a place where it is deeper, is deep enough, so is the function.
+    /// Finds these times for a piece that slides. The depth is a concave function of time, because the distance to a
+    /// convex set is a convex function of the place. At `ends` the depth is `round`, the sum of both radii. So where
+    /// the chord from an end to a deeper time is deep enough, the depth is as well.
     fn deep_in_passing(
         &self,
         around: &Around,
@@ -215,11 +219,11 @@ impl Stretch {
 }
 
 impl<'a> Movers<'a> {
-    /// Those of a scene, from which this distance is to be kept, metres.
+    /// Prepares the movers of a scene, from which this clearance must be kept, metres.
     #[must_use]
     pub fn new(scene: &'a Scene, clearance: f64) -> Self {
         let mut stretches = Vec::new();
-        // Where those of a piece begin.
+        // Index of the first stretch of each piece.
         let mut first = Vec::new();
         for (mover, Mover { course, .. }) in scene.workspace().movers.iter().enumerate() {
             let of = |piece: &Convex| {
@@ -243,7 +247,7 @@ impl<'a> Movers<'a> {
         Self { scene, clearance, stretches, meetings }
     }
 
-    /// The scene that they are in.
+    /// Returns the scene.
     #[must_use]
     pub fn scene(&self) -> &'a Scene {
         self.scene
@@ -254,8 +258,8 @@ impl<'a> Movers<'a> {
         &self.meetings
     }
 
-    /// The times of a meeting at which the part is, or may be, nearer than the clearance while it deviates as it is known to:
-    /// a superset, in no order. Whether there are any.
+    /// Finds the times of a meeting at which the part, for any deviation, is or may be nearer than the clearance. The
+    /// result is a superset, in no order. Returns true if there are any.
     ///
     /// A shape that slides past another one, grown by how far the arm's part moves, meets it for one interval of time, in closed form
     /// ([`sliding`]); where it turns, time is halved.
@@ -270,7 +274,7 @@ impl<'a> Movers<'a> {
         let scale = reach + stretch.reach;
         let grow = around.moves + self.clearance + ROOM * scale;
         match slide {
-            // Seen from the obstacle the part slides backwards.
+            // Relative to the obstacle, the part slides backwards.
             Some((direction, speed)) => {
                 let met = sliding(part, -direction, piece, grow);
                 let met = met.map(|[first, last]| [leg.from + first / speed - ROOM, leg.from + last / speed + ROOM]);
@@ -285,8 +289,8 @@ impl<'a> Movers<'a> {
         out.len() > before
     }
 
-    /// Times of a meeting at which both overlap, grown by the clearance, however the part deviates as it is known to: a subset, in no order, whose
-    /// ends are known to so many seconds.
+    /// Finds times of a meeting at which the part, grown by the clearance, overlaps the obstacle for every deviation.
+    /// The result is a subset, in no order, whose ends are accurate to `shortest` seconds.
     ///
     /// The part is to be deeper than it moves.
     pub(crate) fn met(&self, around: &Around, meeting: Meeting, shortest: f64, out: &mut Vec<Interval>) {
@@ -307,7 +311,7 @@ impl<'a> Movers<'a> {
                 } else if let Some(met) = stretch.deep_in_passing(around, met, round, [deeper, shortest]) {
                     out.extend(common(met, meeting.within));
                 } else if let Some(within) = common(met, meeting.within) {
-                    // Not in the middle, at least.
+                    // At the middle, the overlap is not deep enough.
                     stretch.deep(around, within, [deeper, shortest], out);
                 }
             }
@@ -318,7 +322,7 @@ impl<'a> Movers<'a> {
         }
     }
 
-    /// The times at which nothing that moves is nearer to the arm at a posture than the clearance; in order.
+    /// Returns the times, in order, at which no moving obstacle is nearer to the arm at a posture than the clearance.
     pub fn safe_intervals(&self, posture: &Posture) -> Vec<Interval> {
         let (mut near, mut known) = (Vec::new(), None);
         for &meeting in &self.meetings {
@@ -336,19 +340,19 @@ impl<'a> Movers<'a> {
     }
 }
 
-/// What two intervals have in common.
+/// Returns the intersection of two intervals.
 fn common([a, b]: Interval, [from, to]: Interval) -> Option<Interval> {
     let both = [a.max(from), b.min(to)];
     (both[0] <= both[1]).then_some(both)
 }
 
-/// A disc around a shape.
+/// Returns a disc around a shape.
 fn disc(shape: &Convex) -> (Point, f64) {
     let [low, high] = shape.bounds();
     (nalgebra::center(&low, &high), (high - low).norm() / 2.0)
 }
 
-/// What is left of the times from 0 on; ends of the intervals given count as theirs.
+/// Returns the times from 0 on that are outside the intervals. The ends of the intervals belong to them.
 pub fn complement(intervals: &[Interval]) -> Vec<Interval> {
     let (mut left, mut from) = (Vec::new(), 0.0);
     for &[lower, upper] in intervals {

@@ -1,4 +1,4 @@
-//! When a motion may depart: at which times it would meet nothing that moves.
+//! Times at which a motion may depart without meeting a moving obstacle.
 
 use super::blocked::{Around, Movers, STILL};
 use cplan_core::check::Posture;
@@ -7,19 +7,21 @@ use cplan_handling::Piece;
 use cplan_interrupt::checkpoint;
 use cplan_motion::{Place, Span};
 
-/// Stretches of a motion are halved until no point of the arm moves farther in half of one than this share of the arm's reach, ...
+/// Stretches of a motion are halved until no point of the arm moves farther within half a stretch than this share of
+/// the arm's reach, ...
 const MOTION: f64 = 4e-3;
 
 /// ... or until they are as short as this, seconds.
 const TIME: f64 = 2e-3;
 
-/// The times within a window at which a motion must not begin: if it did, something that moves would, or might, be nearer to the arm than the
-/// clearance at some time of it. In order and disjoint; a superset.
+/// Returns the times within a window at which a motion must not begin, because a moving obstacle would, or might, come
+/// nearer to the arm than the clearance. The result is a superset, in order and disjoint.
 ///
-/// In a stretch of the motion, which takes from `a` to `b` seconds after it began, the arm is in the way of what moves at times `[c, d]`
-/// ([`Movers::near`]); so it must not begin in `[c - b, d - a]`. Of long stretches that is far too much, at a single moment it is exact: stretches
-/// are halved, the longest first, until what is blocked by what happens at the moments in their middles covers them. So it is only near the ends of
-/// what is blocked that it is looked closely.
+/// Consider a stretch of the motion from `a` to `b` seconds after departure. If obstacles block it at times `[c, d]`
+/// ([`Movers::near`]), the motion must not begin in `[c - b, d - a]`. For long stretches that is far too much; for a
+/// single moment it is exact. So stretches are halved, the longest first. A stretch needs no further halving once the
+/// departures that are blocked at the middles of stretches cover its own. Fine stretches are therefore needed only near
+/// the ends of the blocked intervals.
 pub fn blocked_departures(movers: &Movers, pieces: &[Piece], window: Interval) -> Vec<Interval> {
     let scene = movers.scene();
     let finest = MOTION * scene.arm().reach();
@@ -33,7 +35,7 @@ pub fn blocked_departures(movers: &Movers, pieces: &[Piece], window: Interval) -
             let posture = Posture::new(scene, middle);
             let [begins, ends] = span.ends().map(|place| since(pieces, place));
             let (mut moves, mut known) = (0.0_f64, None);
-            // What is not known to be blocked, and the meetings that it is because of.
+            // Departures that are not known to be blocked, and the meetings that may block them.
             let (mut departures, mut open) = (Vec::new(), Vec::new());
             for meeting in meetings {
                 let around = Around::of(&mut known, movers, &posture, deviation, meeting);
@@ -74,12 +76,13 @@ pub fn blocked_departures(movers: &Movers, pieces: &[Piece], window: Interval) -
     blocked
 }
 
-/// Seconds after a motion began.
+/// Returns the seconds since the motion began.
 fn since(pieces: &[Piece], (piece, share): Place) -> f64 {
     pieces[piece].time(share) - pieces[0].from
 }
 
-/// What is left of an interval if others, in order and disjoint, take away from its ends; none if one of them holds it.
+/// Returns the rest of an interval after others, in order and disjoint, remove parts at its ends. `None` if one of them
+/// contains it.
 fn uncovered(others: &[Interval], [from, to]: Interval) -> Option<Interval> {
     let holding = |time: f64| {
         let next = others.partition_point(|[begins, _]| *begins <= time);
@@ -89,7 +92,8 @@ fn uncovered(others: &[Interval], [from, to]: Interval) -> Option<Interval> {
     (from <= to && left[0] <= left[1]).then_some(left)
 }
 
-/// The first time from one to another, ends included, at which a motion may begin; none if there is none.
+/// Returns the first time between two times, ends included, at which a motion may begin. `None` if there is no such
+/// time.
 pub fn first_departure(blocked: &[Interval], from: f64, to: f64) -> Option<f64> {
     let mut time = from;
     for &[lower, upper] in blocked {
@@ -100,11 +104,11 @@ pub fn first_departure(blocked: &[Interval], from: f64, to: f64) -> Option<f64> 
             time = after(upper);
         }
     }
-    // Nobody departs after all time.
+    // An infinite time is not a departure.
     (time <= to && time < f64::INFINITY).then_some(time)
 }
 
-/// A nanosecond after: times of trajectories are whole ones.
+/// Returns a time just after. Times of trajectories are whole nanoseconds.
 fn after(time: f64) -> f64 {
     time + 2e-9
 }

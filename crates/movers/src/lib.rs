@@ -1,11 +1,13 @@
-//! Motions among obstacles that move: which certified path to take, when to go, and where to wait.
+//! Motions among moving obstacles: which certified path to take, when to depart, and where to wait.
 //!
-//! Place on a path and time are a plane, in which what moves is a set of forbidden regions. A path among what stands is certified
-//! first, as if nothing moved; what stands in the way then stands in it always. Along it the arm goes from rest to rest between places at which it
-//! may wait: the departures of each such motion that are blocked are known as intervals of time (`departures`), exact as slices are in joint
-//! space (`blocked`), and the earliest way is a search over safe intervals (`schedule`). Where none is found it is tried to prove that no
-//! timing at all helps along this path (`refutation`). Other ways are those that go around what is met where it is met. What comes of it is
-//! judged in time as anybody's recording is, by [`cplan_motion::recorded::certify_in_time`].
+//! Position on a path and time form a plane, in which moving obstacles are forbidden regions. The steps are:
+//! - A path past the static obstacles is certified first, without the moving ones.
+//! - Along it, the arm moves from rest to rest between places at which it may wait. For each of these motions, the
+//!   blocked departures are intervals of time (`departures`). They are exact, as slices are in joint space (`blocked`).
+//! - A search over safe intervals finds the earliest motion (`schedule`).
+//! - If it finds no motion, `refutation` tries to prove that no timing avoids the obstacles along this path.
+//! - Other paths lead around the moving obstacle at the place where the motion meets it.
+//! - The result is judged in time, like any recording, by [`cplan_motion::recorded::certify_in_time`].
 
 mod blocked;
 mod departures;
@@ -27,45 +29,46 @@ use refutation::no_timing;
 use schedule::{Effort, Scheduled, schedule};
 use serde::Serialize;
 
-/// Ways that are tried: the planner's, and others around what is met on those before.
+/// Largest number of paths tried: the planner's path, and others around the obstacles met on earlier ones.
 const WAYS: usize = 3;
 
-/// How much longer than the shortest other ways may be, as a share, unless a gap is asked for. They are found in a fraction of the time, have fewer
-/// corners, and that makes most of them faster.
+/// Allowed excess of other paths over the shortest, as a share, unless a gap is requested. Such paths are found in a
+/// fraction of the time. They have fewer corners, which makes most of them faster to drive.
 const GAP: f64 = 0.03;
 
-/// Times that differ by no more than this are the same, seconds: clocks count nanoseconds.
+/// Times that differ by no more than this, seconds, count as equal: clocks count nanoseconds.
 const ROUNDING: f64 = 1e-8;
 
 /// A motion that is certified in time.
 #[derive(Debug, Clone)]
 pub struct InTime {
-    /// What it follows, and the motion; the clearance is that from what moves, too.
+    /// The curve and the motion along it. Its clearance includes moving obstacles.
     pub timed: Timed,
-    /// What there is to say of it.
+    /// Figures for the result.
     pub figures: Timing,
 }
 
-/// What there is to say of a motion among obstacles that move.
+/// Figures about a motion among moving obstacles.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Timing {
-    /// How many obstacles move; of a task, the objects that do so until they are picked are among them.
+    /// Number of moving obstacles. In a task, objects that move until they are picked are included.
     pub obstacles: usize,
-    /// How many ways were tried.
+    /// Number of paths tried.
     pub ways: usize,
-    /// Where the arm stands on its way, and when.
+    /// Places and times at which the arm waits.
     pub waits: Vec<Wait>,
-    /// Proven lower bound on the distance to what moves, metres; none if nothing that moves can meet the arm.
+    /// Proven lower bound on the distance to moving obstacles, metres. `None` if none can meet the arm.
     pub clearance: Option<f64>,
-    /// Until when the arm may stay at the goal, seconds; none if for ever.
+    /// Time until which the arm may stay at the goal, seconds. `None` if it may stay for ever.
     pub free_until: Option<f64>,
 }
 
-/// The earliest motion among those along the ways tried: the certified path's, which `first` drives along as if nothing moved, at the
-/// demand's speed, and others. Or why there is none, in words.
+/// Returns the earliest motion along the paths tried: first along the certified path, and then along others. `first` is
+/// the motion along the certified path without moving obstacles, at the demand's speed. If there is no motion, returns
+/// the reason in words.
 ///
 /// # Errors
-/// Paths that cannot be timed.
+/// Fails if a path cannot be timed.
 pub fn in_time(
     problem: &MotionProblem,
     certified: &CertifiedPath,
@@ -84,12 +87,14 @@ pub fn in_time(
         ways += 1;
         let best = found.last();
         let for_good = best.filter(|best| best.is_for_good()).map(Scheduled::duration);
-        // Only what is sooner counts, once the arm can stay where what is known ends: a way that takes longer without a wait is none.
+        // Once the best motion ends where the arm can stay, only earlier motions count. So a path that takes longer
+        // even without a wait is skipped.
         let latest = demand.arrival.map_or(f64::INFINITY, |[_, ends]| ends + ROUNDING);
         let before = for_good.unwrap_or(f64::INFINITY).min(latest);
         if whole.trajectory.duration() < before {
             let along = |effort: Effort| {
-                // With limits on jerks corners take as long to round as all else together, and here there are many motions with them.
+                // With limits on jerks, rounding corners takes as long as everything else together, and there are many
+                // motions here.
                 let stops = effort == Effort::THOROUGH && Limits::from(&scene.arm().joints).stops_at_corners();
                 let drive = if stops { options.drive.stopping_at_corners() } else { options.drive };
                 let along = schedule(&movers, &path, &whole, &drive, demand, effort, before)?;
@@ -105,7 +110,7 @@ pub fn in_time(
             }
             found.extend(better);
         }
-        // What ends as soon as it may is as good along any way.
+        // A motion that ends as early as allowed cannot be improved along another path.
         let soonest = demand.until.or(demand.arrival.map(|[begins, _]| begins)).unwrap_or(0.0);
         let is_best =
             |best: &Scheduled| best.is_for_good() && (best.waits.is_empty() || best.duration() <= soonest + ROUNDING);
@@ -141,11 +146,11 @@ fn reason(ways: usize, refuted: usize, scene: &Scene) -> String {
     format!("there are ways among what stands, but {moves}; {known}")
 }
 
-/// A motion as it is judged: in both ways in which consumers join its samples.
+/// Certifies a motion in both forms in which consumers join its samples.
 fn certified_in_time(scene: &Scene, found: Scheduled, ways: usize) -> Option<InTime> {
     let Scheduled { timed: Timed { curve, trajectory }, waits, free_until } = found;
     let (mut clearance, mut nearest) = (f64::INFINITY, None);
-    // On straight pieces both readings are the same motion.
+    // Without blends, both forms are the same motion.
     let is_curved = curve.radii().iter().any(|radius| *radius > 0.0);
     for recording in recordings(&trajectory)?.into_iter().take(if is_curved { 2 } else { 1 }) {
         match certify_in_time(scene, &recording, scene.workspace().clearance) {
@@ -163,8 +168,8 @@ fn certified_in_time(scene: &Scene, found: Scheduled, ways: usize) -> Option<InT
     Some(InTime { timed: Timed { curve, trajectory }, figures })
 }
 
-/// The distance that the arm is proven to keep from what moves while it stands for so many seconds from the beginning of the scene's clock on; none
-/// where that is not more than the clearance.
+/// Returns the distance that the arm provably keeps from moving obstacles while it stands at `q` for some seconds, from
+/// the beginning of the scene's clock. `None` if that is not more than the clearance.
 pub fn stands(scene: &Scene, q: Configuration, seconds: f64) -> Option<f64> {
     let times = if seconds > 0.0 { vec![0.0, seconds] } else { vec![0.0] };
     let (positions, velocities) = (vec![q; times.len()], vec![Configuration::zeros(); times.len()]);
@@ -175,7 +180,7 @@ pub fn stands(scene: &Scene, q: Configuration, seconds: f64) -> Option<f64> {
     }
 }
 
-/// A motion by its cubics, and by the polynomials that it states.
+/// Returns a motion by its cubics, and by the polynomials that it states.
 fn recordings(trajectory: &Trajectory) -> Option<[Recording; 2]> {
     let rows = |values: &[[f64; 2]]| values.iter().map(|&row| Configuration::from(row)).collect::<Vec<_>>();
     let (position, velocity) = (rows(&trajectory.position), rows(&trajectory.velocity));
@@ -184,7 +189,8 @@ fn recordings(trajectory: &Trajectory) -> Option<[Recording; 2]> {
     Some([cubic, quartic])
 }
 
-/// The same problem with what a motion first meets standing where it meets it; none if it meets nothing, or start or goals are not free then.
+/// Returns the same problem, in which the first mover that the motion meets becomes a static obstacle at the place of
+/// contact. `None` if the motion meets nothing, or if the start or all goals are blocked then.
 fn around_what_is_met(problem: &MotionProblem, trajectory: &Trajectory) -> Option<MotionProblem> {
     let scene = problem.scene();
     let [cubic, _] = recordings(trajectory)?;

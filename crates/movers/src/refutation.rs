@@ -1,4 +1,4 @@
-//! Proofs that no timing helps: that whoever goes along a path, in whatever way, meets what moves.
+//! Proofs that no timing along a path avoids the moving obstacles.
 
 use super::blocked::{Around, Movers, complement};
 use cplan_core::check::{Deviation, Posture};
@@ -10,23 +10,24 @@ use std::cell::OnceCell;
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BinaryHeap};
 
-/// Stretches that a path is cut into, at least.
+/// Least number of stretches into which a path is cut.
 const STRETCHES: usize = 64;
 
-/// Times of overlap are found to this, seconds.
+/// Accuracy of times of overlap, seconds.
 const STEP: f64 = 1e-3;
 
-/// What a stretch takes at least is lowered by this share of it: far more than rounding.
+/// Share by which the least duration of a stretch is lowered: far more than rounding.
 const ROUNDING: f64 = 1e-9;
 
 /// A stretch of a path.
 struct Stretch {
-    /// Its middle, and how far it goes to either side.
+    /// The middle of the stretch, and half of its extent.
     middle: Configuration,
     half: Configuration,
-    /// What it takes at least to go from one end to the other, seconds.
+    /// Least duration of a motion from one end to the other, seconds.
     takes: f64,
-    /// The times that are left, once they are asked for: at all others each of its postures meets something that moves.
+    /// Times at which the arm may be in the stretch, computed when first needed. At all other times every posture of
+    /// the stretch meets a moving obstacle.
     left: OnceCell<Vec<Interval>>,
 }
 
@@ -45,19 +46,21 @@ impl Stretch {
     }
 }
 
-/// Whether it is proven that no motion along a path gets to its end, forwards and backwards as it pleases and at whatever speeds the joints allow, without
-/// coming nearer to what moves than the clearance, or meeting it.
+/// Returns true if it is proven that no motion along a path gets to its end without coming nearer to a moving obstacle
+/// than the clearance. The motion may move forwards and backwards, at any speeds that the joints allow.
 ///
-/// Place on the path and time are a plane. For each of some stretches of the path the times are found at which all of its postures overlap
-/// something that moves, deeper than the arm moves in the stretch; of what is left only that counts which is reached: from the
-/// start at time 0, on to neighbouring stretches at times that are left in both, not faster than the joints' top speeds.
+/// Position on the path and time form a plane. For each stretch of the path, the times are found at which all of its
+/// postures overlap a moving obstacle, deeper than the arm moves within the stretch. From the start at time 0, the
+/// search then extends to neighbouring stretches at times that are open in both, at no more than the joints' top
+/// speeds. Only stretches and times that it reaches count.
 pub fn no_timing(movers: &Movers, path: &Path) -> bool {
     let stretches = stretches(path, movers.scene().arm());
     let Some(first) = stretches.first() else { return false };
     if first.left(movers).first().is_none_or(|left| left[0] > 0.0) {
         return true;
     }
-    // When a stretch's first (0) or second (1) end can be reached at the soonest, within one of the times that are left.
+    // Earliest times at which the first (0) or second (1) end of a stretch can be reached, within one of its open
+    // intervals.
     let mut known: BTreeMap<(usize, usize, usize), f64> = BTreeMap::new();
     let mut open = BinaryHeap::from([Reverse((Ordered(0.0), 0, 0, 0))]);
     known.insert((0, 0, 0), 0.0);

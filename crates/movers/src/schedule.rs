@@ -1,4 +1,4 @@
-//! When to go along a certified path, and where to wait.
+//! Departures and waits of a motion along a certified path.
 
 use super::blocked::Movers;
 use super::departures::{blocked_departures, first_departure};
@@ -12,85 +12,87 @@ use serde::Serialize;
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BinaryHeap};
 
-/// Places on a path at which it is looked when they are safe.
+/// Number of places on a path for which safe times are computed.
 const LOOKS: usize = 64;
 
-/// How hard it is looked for a motion along a path.
+/// Effort of the search for a motion along a path.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Effort {
-    /// Places at which the arm may wait, beside the ends: each pair of them is a motion to be timed.
+    /// Largest number of places where the arm may wait, in addition to the ends. Each pair of them is a motion to be
+    /// timed.
     most_stops: usize,
-    /// Whether they are spread over the path where there is nothing better.
+    /// True if remaining places are spread evenly over the path.
     spread: bool,
-    /// Whether the arm may go back along the path, too.
+    /// True if the arm may also move back along the path.
     backward: bool,
 }
 
 impl Effort {
-    /// Enough for most, in milliseconds.
+    /// Enough for most motions; takes milliseconds.
     pub const QUICK: Self = Self { most_stops: 6, spread: false, backward: false };
-    /// For what is tight.
+    /// For motions in tight intervals of time.
     pub const THOROUGH: Self = Self { most_stops: 12, spread: true, backward: true };
 }
 
-/// What is asked of a motion beside its path.
+/// Requirements on a motion other than its path.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Demand {
-    /// Share of the joints' top speeds that it takes.
+    /// Share of the joints' top speeds at which it moves.
     pub speed: f64,
-    /// The times at which it may arrive, seconds since it may begin: what becomes of the arm then is no question of it. If none is given it is to
-    /// arrive where it can stay for ever, as far as that is possible.
+    /// Times at which the motion may arrive, seconds after it may begin. The time after arrival is not considered. If
+    /// `None`, the motion must arrive where the arm can stay for ever, if possible.
     pub arrival: Option<Interval>,
-    /// Until when the arm stands at the goal, where that is asked for, if it is early.
+    /// Time until which the arm must wait at the goal if it arrives early, if requested.
     pub until: Option<f64>,
 }
 
 impl Demand {
-    /// A motion by itself.
+    /// Requirements on a single motion.
     pub const ALONE: Self = Self { speed: 1.0, arrival: None, until: None };
 }
 
-/// A time at which the arm stands still on its way.
+/// A wait of the arm during a motion.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Wait {
-    /// Seconds since the start.
+    /// Begin, seconds since the start.
     pub from: f64,
-    /// Likewise.
+    /// End, seconds since the start.
     pub to: f64,
-    /// Where that is.
+    /// Configuration of the arm.
     pub at: [f64; 2],
 }
 
-/// A motion that goes along a path when it may.
+/// A motion along a path, with waits.
 #[derive(Debug, Clone)]
 pub struct Scheduled {
-    /// What is followed, with corners where the arm waits, and the whole motion.
+    /// The curve, with corners where the arm waits, and the whole motion.
     pub timed: Timed,
-    /// Where it waits.
+    /// Waits in order.
     pub waits: Vec<Wait>,
-    /// Until when nothing that moves comes too near to the goal; infinite if nothing ever does.
+    /// Time until which no moving obstacle comes too near to the goal; infinite if none ever does.
     pub free_until: f64,
 }
 
 impl Scheduled {
-    /// Seconds, waits included.
+    /// Returns the duration in seconds, waits included.
     pub fn duration(&self) -> f64 {
         self.timed.trajectory.duration()
     }
 
-    /// Whether the arm may stay where it ends.
+    /// Returns true if the arm may stay for ever where the motion ends.
     pub fn is_for_good(&self) -> bool {
         self.free_until == f64::INFINITY
     }
 
-    /// Whether this one is to be had rather than another: one after which the arm can stay, then the sooner one.
+    /// Returns true if this motion is better than another. Motions after which the arm can stay come first, then
+    /// earlier ones.
     pub fn is_better_than(&self, other: &Self) -> bool {
         let rank = |it: &Self| (!it.is_for_good(), it.duration());
         rank(self) < rank(other)
     }
 }
 
-/// Departures along a path that some stops divide.
+/// Stops along a path, and the departures between them.
 struct Stops<'a> {
     movers: &'a Movers<'a>,
     path: &'a CertifiedPath,
@@ -99,9 +101,9 @@ struct Stops<'a> {
     demand: &'a Demand,
     /// Distances along the path, ascending; the first and the last are its ends.
     at: Vec<f64>,
-    /// Seconds up to there at the joints' top speeds.
+    /// Seconds to each stop at the joints' top speeds.
     gone: Vec<f64>,
-    /// When the arm may stand there.
+    /// Intervals of time in which the arm may stay there.
     safe: Vec<Vec<Interval>>,
     /// Motions from one stop to another.
     legs: BTreeMap<(usize, usize), Timed>,
@@ -110,26 +112,26 @@ struct Stops<'a> {
 /// A stop and one of its safe intervals, by number.
 type SafeStop = (usize, usize);
 
-/// When the arm arrives at a stop; from which other, and when that was left.
+/// Time of arrival at a stop, with the previous stop and the departure from it.
 #[derive(Debug, Clone, Copy)]
 struct Arrival {
     time: f64,
     from: Option<(SafeStop, f64)>,
 }
 
-/// A way from the first stop to the last.
+/// A sequence of stops from the first to the last.
 struct Way {
-    /// The stops, and when each is left; the last, when it is reached.
+    /// Each stop with the departure from it; for the last, with the arrival.
     stops: Vec<(usize, f64)>,
-    /// Until when the arm may stay at the last.
+    /// Time until which the arm may stay at the last stop.
     free_until: f64,
 }
 
-/// The earliest known arrivals, and those from which the search goes on.
+/// Earliest known arrivals, and those from which the search must continue.
 struct Reached {
     known: BTreeMap<SafeStop, Arrival>,
     open: BinaryHeap<Reverse<(Ordered, usize, usize)>>,
-    /// What does not reach the goal for good sooner than this is of no use.
+    /// Time by which the goal must be reached for good. Later arrivals are useless.
     soonest_for_good: f64,
 }
 
@@ -140,23 +142,23 @@ impl Reached {
         reached
     }
 
-    /// Takes the earliest arrival from which the search has not gone on yet.
+    /// Takes the earliest arrival from which the search has not continued yet.
     fn next(&mut self) -> Option<(SafeStop, f64)> {
         loop {
             let Reverse((Ordered(time), stop, interval)) = self.open.pop()?;
-            // A later one than this may be left from before.
+            // An entry of an older, later arrival may remain.
             if self.known[&(stop, interval)].time >= time {
                 return Some(((stop, interval), time));
             }
         }
     }
 
-    /// Whether nothing as early is known.
+    /// Returns true if no arrival as early is known.
     fn is_improved_by(&self, at: SafeStop, time: f64) -> bool {
         self.known.get(&at).is_none_or(|known| known.time > time)
     }
 
-    /// Keeps an arrival that is earlier than what is known.
+    /// Stores an arrival if it is earlier than the known one.
     fn arrive(&mut self, at: SafeStop, arrival: Arrival, is_for_good: bool) {
         if !self.is_improved_by(at, arrival.time) {
             return;
@@ -168,7 +170,7 @@ impl Reached {
         self.open.push(Reverse((Ordered(arrival.time), at.0, at.1)));
     }
 
-    /// The stops up to an arrival, and when each is left; the last, when it is reached.
+    /// Returns the stops up to an arrival, each with its departure; the last with its arrival.
     fn stops_to(&self, end: SafeStop) -> Vec<(usize, f64)> {
         let mut stops = vec![(end.0, self.known[&end].time)];
         let mut at = end;
@@ -181,14 +183,15 @@ impl Reached {
     }
 }
 
-/// The earliest motion along a path, from rest to rest between some places on it at which it may wait; none if there is none, or none that ends for
-/// good before a time. `whole` is the motion without a wait.
+/// Computes the earliest motion along a path, from rest to rest between some places at which it may wait. `None` if
+/// there is no such motion, or if it cannot end for good before the time `before`. `whole` is the motion without a
+/// wait.
 ///
-/// Safe intervals (Phillips, Likhachev 2011): who is at a stop at all within an interval in which it is safe had best be there as early as possible.
-/// It arrives where it can stay for ever, if that is possible.
+/// Uses safe intervals (Phillips, Likhachev 2011): within one safe interval of a stop, the earliest arrival is always
+/// the best. The motion ends where the arm can stay for ever, if possible.
 ///
 /// # Errors
-/// Parts of the path that cannot be timed.
+/// Fails if a part of the path cannot be timed.
 pub fn schedule(
     movers: &Movers,
     path: &CertifiedPath,
@@ -216,7 +219,7 @@ pub fn schedule(
 }
 
 impl Stops<'_> {
-    /// The motion from one stop to another.
+    /// Returns the motion from one stop to another.
     fn leg(&mut self, from: usize, to: usize) -> Result<&Timed, TimingError> {
         if !self.legs.contains_key(&(from, to)) {
             checkpoint();
@@ -227,15 +230,16 @@ impl Stops<'_> {
         Ok(&self.legs[&(from, to)])
     }
 
-    /// About the least that a motion from rest to rest between two stops takes: blends cut corners.
+    /// Returns approximately the least duration of a motion from rest to rest between two stops. It is approximate
+    /// because blends cut corners.
     fn least(&self, from: usize, to: usize) -> f64 {
         let limits = Limits::from(&self.movers.scene().arm().joints);
         least_duration((self.gone[to] - self.gone[from]).abs(), &limits)
     }
 
-    /// Finds the earliest way to the last stop, of those that do not end for good after `before`.
+    /// Finds the earliest sequence of stops to the last one, except those that end for good after `before`.
     fn search(&mut self, before: f64) -> Result<Option<Way>, TimingError> {
-        // At the start the interval that holds time 0 is the first.
+        // At the start, only the first interval can contain time 0.
         if self.safe[0].first().is_none_or(|first| first[0] > 0.0) {
             return Ok(None);
         }
@@ -255,7 +259,7 @@ impl Stops<'_> {
                 continue;
             }
             let backward = self.effort.backward;
-            // The goal first: what is known to be reached sooner needs no other way.
+            // The goal comes first: an early arrival there prunes other departures.
             for next in (0..=last).rev().filter(|&next| next != stop && (backward || next > stop)) {
                 self.depart(&mut reached, at, time, next)?;
             }
@@ -263,7 +267,7 @@ impl Stops<'_> {
         Ok(fallback)
     }
 
-    /// Departs for another stop, for each of its safe intervals as early as that is possible.
+    /// Departs for another stop: for each of its safe intervals, as early as possible.
     fn depart(
         &mut self,
         reached: &mut Reached,
@@ -304,19 +308,20 @@ impl Stops<'_> {
         Ok(())
     }
 
-    /// Until when the arm may stay at the goal that it reaches at a time; for ever, as far as anybody asks, where it is to arrive in time.
+    /// Returns the time until which the arm may stay at the goal, after arriving at `time`. Infinite if the demand
+    /// states arrival times, since what follows is not considered.
     fn stays(&self, interval: usize, time: f64) -> f64 {
         let last = self.at.len() - 1;
         let until = self.safe[last][interval][1];
         match self.demand.arrival {
             None => until,
-            // On a way of no length nothing arrives: the arm stands where it is until then.
+            // On a path of no length there is no arrival: the arm must be able to stay there until the requested time.
             Some([begins, _]) if last == 0 && self.demand.until.unwrap_or(begins).max(time) > until => until,
             Some(_) => f64::INFINITY,
         }
     }
 
-    /// The motion along a way.
+    /// Returns the motion along a sequence of stops.
     fn driven(&mut self, way: &[(usize, f64)]) -> Result<(Timed, Vec<Wait>), TimingError> {
         let start = self.path.part(0.0, 0.0);
         let mut trajectory = Trajectory::default();
@@ -354,12 +359,13 @@ impl Stops<'_> {
     }
 }
 
-/// The arm at a distance along a path.
+/// Returns the posture of the arm at a distance along a path.
 fn posture_at<'a>(movers: &Movers<'a>, path: &Path, distance: f64) -> Posture<'a> {
     Posture::new(movers.scene(), path.part(distance, distance).start())
 }
 
-/// Where the arm may wait: the ends of the path; the ends of its parts that nothing ever comes near to; and, with more effort, some places more.
+/// Returns the places where the arm may wait: the ends of the path and the ends of its parts that no obstacle ever
+/// comes near to. With more effort, adds some more places.
 fn places(movers: &Movers, path: &Path, effort: Effort) -> Vec<f64> {
     let length = path.length();
     if length == 0.0 {

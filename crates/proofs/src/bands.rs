@@ -1,4 +1,4 @@
-//! What joint 1 alone decides: the bands of `q1` that link 1 forbids.
+//! Bands of `q1` that joint 1 alone decides, because link 1 collides there.
 
 use super::slab::{OUTWARD, is_stuck};
 use cplan_core::check::Cell;
@@ -8,7 +8,7 @@ use cplan_core::model::{Contacts, on_axis};
 use cplan_geometry::merge_in_place;
 use nalgebra::Vector2;
 
-/// Where in a band a wall is looked for, as shares of each pair's interval: halfway shapes overlap most, as a rule.
+/// Places in a band where a wall is searched, as shares of each pair's interval. Shapes usually overlap most in the middle.
 const PLACES: [f64; 5] = [0.5, 0.25, 0.75, 0.1, 0.9];
 
 /// A stretch of joint 1's domain.
@@ -18,17 +18,17 @@ pub(super) struct Stretch {
     pub kind: Kind,
 }
 
-/// What link 1 says about a stretch.
+/// State of link 1 over a stretch.
 pub(super) enum Kind {
-    /// It keeps its distance everywhere.
+    /// Link 1 keeps its distance everywhere in the stretch.
     Free,
-    /// Somewhere in the stretch it is too near over a width that is proven: no way leads through.
+    /// Link 1 is proven too near over some width within the stretch, so no path crosses the stretch.
     Wall(StuckBox),
-    /// Neither free for certain nor hit for certain.
+    /// Neither certainly free nor certainly in collision.
     Unknown,
 }
 
-/// The domain of joint 1 in stretches, ascending. `O(n log n)` in the contacts of link 1.
+/// Splits the domain of joint 1 into stretches, ascending. Takes `O(n log n)` in the contacts of link 1.
 pub(super) fn bands(contacts: &Contacts, clearance: f64) -> Vec<Stretch> {
     let scene = contacts.scene();
     let joint = &scene.arm().joints[0];
@@ -50,7 +50,7 @@ pub(super) fn bands(contacts: &Contacts, clearance: f64) -> Vec<Stretch> {
         }
         let within = of_pairs.iter().filter(|(_, i)| band[0] <= i[0] && i[1] <= band[1]);
         let wall = within.filter_map(|(index, interval)| wall(contacts, clearance, *index, *interval)).next();
-        // A band may be a single value: a graze, or the end of the domain.
+        // A band may be a single value, if shapes graze or at the end of the domain.
         if band[0] < band[1] || wall.is_none() {
             stretches.push(Stretch { from: band[0], to: band[1], kind: wall.map_or(Kind::Unknown, Kind::Wall) });
         }
@@ -62,7 +62,7 @@ pub(super) fn bands(contacts: &Contacts, clearance: f64) -> Vec<Stretch> {
     stretches
 }
 
-/// A box, as high as the domain, in which the pair is stuck, within an interval of `q1` where it is too near.
+/// Finds a collision box of the pair, as high as the domain, within an interval of `q1` where the pair is too near.
 fn wall(contacts: &Contacts, clearance: f64, index: usize, [from, to]: [f64; 2]) -> Option<StuckBox> {
     let scene = contacts.scene();
     let (pair, lever) = (scene.pairs()[index], contacts.lever(index));
@@ -71,7 +71,7 @@ fn wall(contacts: &Contacts, clearance: f64, index: usize, [from, to]: [f64; 2])
         let middle = from + (to - from) * share;
         let posture = Posture::new(scene, Vector2::new(middle, (bottom + top) / 2.0));
         let depth = clearance - posture.greatest(pair, Deviation::Box([0.0, 0.0]));
-        // Half of what the depth allows; the rest is for the rounding of whoever checks it.
+        // Half of the width that the depth allows. The rest is a margin for rounding in the checker.
         let half = (depth / lever / 2.0).min(middle - from).min(to - middle);
         let cell = Cell { lower: [middle - half, bottom], upper: [middle + half, top] };
         let stands = cell.lower[0] < cell.upper[0] && bottom < top;

@@ -1,4 +1,4 @@
-//! Subdivision of the configuration space into free, stuck and mixed boxes.
+//! Subdivision of the configuration space into free boxes, collision boxes and undecided boxes.
 
 use super::chain::{Mosaic, Openness};
 use cplan_core::check::{Cell, Deviation, Posture};
@@ -6,7 +6,7 @@ use cplan_core::model::{Pair, Scene};
 use cplan_core::space::{Configuration, Segment, Topology};
 use cplan_interrupt::checkpoint;
 
-/// The two halves along `axis`.
+/// Returns the two halves of a box along `axis`.
 fn halves(cell: &Cell, axis: usize) -> [Cell; 2] {
     let middle = cell.center()[axis];
     let (mut below, mut above) = (*cell, *cell);
@@ -15,8 +15,8 @@ fn halves(cell: &Cell, axis: usize) -> [Cell; 2] {
     [below, above]
 }
 
-/// The portal from this cell to the other, if the two share a piece of side of positive length. Corners do not count:
-/// where only a corner is shared, it belongs to the two other boxes as well.
+/// Returns the portal from this cell to another, if the two share a piece of a side of positive length. Corners do not
+/// count: two other boxes share the same corner.
 pub(super) fn portal(cell: &Cell, other: &Cell, topology: &Topology) -> Option<Portal> {
     (0..2).find_map(|axis| portal_along(cell, other, axis, topology))
 }
@@ -47,54 +47,55 @@ fn portal_along(cell: &Cell, other: &Cell, axis: usize, topology: &Topology) -> 
     };
     let mut by = Configuration::zeros();
     by[axis] = shift;
-    // Who goes towards greater `q1` has greater `q2` to the left; who goes towards greater `q2`, lesser `q1`.
+    // In the direction of growing `q1`, greater `q2` is to the left. In the direction of growing `q2`, lesser `q1` is
+    // to the left.
     let (left, right) = if ahead == (axis == 0) { (to, from) } else { (from, to) };
     Some(Portal { left: end(left), right: end(right), shift: by })
 }
 
-/// The piece of side that two cells share, as seen by who passes from one to the other.
+/// The piece of a side that two cells share, as seen when passing from one cell to the other.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Portal {
-    /// End to the left hand.
+    /// The left end.
     pub left: Configuration,
-    /// End to the right hand.
+    /// The right end.
     pub right: Configuration,
-    /// By how much the other cell is to be shifted to lie beside the first one: a turn, or nothing.
+    /// Shift that places the other cell beside the first one: a whole turn, or nothing.
     pub shift: Configuration,
 }
 
 impl Portal {
-    /// Halfway between the ends.
+    /// Returns the point halfway between the ends.
     pub fn middle(&self) -> Configuration {
         (self.left + self.right) / 2.0
     }
 }
 
-/// What is known about a box.
+/// State of a box.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum State {
-    /// No pair comes too near anywhere in it.
+    /// No pair comes too near anywhere in the box.
     Free,
-    /// This pair is too near everywhere in it.
+    /// This pair is too near everywhere in the box.
     Stuck(Pair),
-    /// These pairs are undecided; no other pair comes too near.
+    /// These pairs are undecided. No other pair comes too near.
     Mixed(Vec<Pair>),
-    /// Undecided, and too small for halves to tell more: link 1 alone is open in a finest column, or it is of the finest
-    /// size.
+    /// Undecided, and halving would not help: either only link 1 is undecided in a column of the finest width, or the
+    /// box has the finest size.
     Finest,
-    /// Replaced by two halves: the node of this index and the next.
+    /// Replaced by two halves: the nodes of this index and the next.
     Split(u32),
 }
 
 pub(super) struct Node {
     pub cell: Cell,
     pub state: State,
-    /// Boxes that share a side with this one; empty if this one is stuck or split.
+    /// Boxes that share a side with this one. Empty for a collision box or a split box.
     pub neighbors: Vec<u32>,
 }
 
 impl Node {
-    /// Whether it may hold a free configuration: neither stuck nor replaced.
+    /// Returns true if it may contain a free configuration: it is neither a collision box nor split.
     pub fn is_open(&self) -> bool {
         matches!(self.state, State::Free | State::Mixed(_) | State::Finest)
     }
@@ -106,24 +107,25 @@ pub(super) struct Subdivision<'a> {
     topology: Topology,
     clearance: f64,
     pub nodes: Vec<Node>,
-    /// So many nodes are halves of no other.
+    /// Number of boxes of the initial columns. They are halves of no other box.
     roots: usize,
 }
 
-/// Columns and rows to begin with; at least three, so that across a seam no box is its own neighbour.
+/// Number of initial columns and rows. At least three, so that across a seam no box is its own neighbour.
 const FIRST: usize = 8;
 
-/// Link 1 alone is decided on intervals of `q1`, down to this share of the domain: they are as tall as the domain, so
-/// fine ones cost nothing, and a thin wall of link 1 (a corner that just reaches an obstacle) needs fine ones.
+/// Finest width of a column, as a share of the domain. Link 1 alone is decided on such intervals of `q1`. Columns are
+/// as tall as the domain, so fine ones cost little. A thin wall of link 1, such as a corner that just reaches an
+/// obstacle, needs fine columns.
 const FINEST_COLUMN: f64 = 1e-8;
 
-/// Columns of one width are halved beforehand only if there are no more of them. The ends of contacts leave a few open ones
-/// each; far more of them mean that link 1 slides along an obstacle at the very distance to keep, and halves would tell
-/// nothing. Such columns are left to the search, which halves boxes where it matters.
+/// Maximum number of undecided columns of one width that are halved in advance. Each end of a contact leaves a few
+/// undecided columns. Far more of them mean that link 1 slides along an obstacle at exactly the clearance, and halving
+/// would not help. The search then halves boxes of such columns only where it matters.
 const MOST_OPEN_COLUMNS: usize = 512;
 
-/// Boxes of link 2 are decided down to this share of the domain along each axis. Finer ones are no wider than what
-/// rounding leaves uncertain in a clearance, and a start or goal without any room would never be done with.
+/// Finest size of a box, as a share of the domain along each axis. Finer boxes would be within the rounding error of a
+/// clearance, and a start or goal without any free space around it would never be decided.
 const FINEST_BOX: f64 = 1e-10;
 
 impl<'a> Subdivision<'a> {
@@ -133,7 +135,7 @@ impl<'a> Subdivision<'a> {
         let (bottom, top) = topology.ranges[1].domain();
         let row = |j: usize| if j == FIRST { top } else { bottom + (top - bottom) * j as f64 / FIRST as f64 };
         let second: Vec<Pair> = scene.pairs().iter().copied().filter(|p| p.link > 0).collect();
-        // Only boxes of one column, of neighbouring columns, and of the first and the last one can be adjacent.
+        // Only boxes of the same column, of neighbouring columns, or of the first and the last column can be adjacent.
         let (mut end_of_first, mut previous) = (0, 0);
         for (lower, upper, state) in this.columns() {
             let begin = this.nodes.len();
@@ -162,7 +164,8 @@ impl<'a> Subdivision<'a> {
         this
     }
 
-    /// The domain of `q1` as intervals, ascending, on which link 1 is free, stuck, or (at the end of halving) mixed.
+    /// Splits the domain of `q1` into intervals, ascending, on which link 1 is free, in collision, or (when halving
+    /// ends) undecided.
     fn columns(&self) -> Vec<(f64, f64, State)> {
         let (lower, upper) = self.topology.ranges[0].domain();
         let first: Vec<Pair> = self.scene.pairs().iter().copied().filter(|p| p.link == 0).collect();
@@ -192,7 +195,7 @@ impl<'a> Subdivision<'a> {
         let mut node = Node { cell, state, neighbors: Vec::new() };
         for &other in candidates {
             let beside = &mut self.nodes[other as usize];
-            // Two walls side by side do not matter; split boxes are there no more.
+            // Adjacency of two collision boxes does not matter. Split boxes no longer exist.
             let matters = beside.is_open() || node.is_open() && matches!(beside.state, State::Stuck(_));
             if !matters || portal(&cell, &beside.cell, &self.topology).is_none() {
                 continue;
@@ -207,7 +210,8 @@ impl<'a> Subdivision<'a> {
         self.nodes.push(node);
     }
 
-    /// Replaces a mixed box by two halves, or takes note that they would tell no more. Whether it did.
+    /// Replaces an undecided box by its two halves and returns true. If halving would not help, marks the box as finest
+    /// and returns false.
     pub fn split(&mut self, index: u32) -> bool {
         let State::Mixed(pairs) = &self.nodes[index as usize].state else { return false };
         let cell = self.nodes[index as usize].cell;
@@ -236,7 +240,7 @@ impl<'a> Subdivision<'a> {
         true
     }
 
-    /// The axis along which the open pairs move more within the box.
+    /// Returns the axis along which the undecided pairs move more within the box.
     fn longer(&self, cell: &Cell, open: &[Pair]) -> Option<usize> {
         let half = cell.half();
         let posture = Posture::new(self.scene, cell.center());
@@ -248,7 +252,7 @@ impl<'a> Subdivision<'a> {
         (!open.is_empty()).then(|| usize::from(along(1) > along(0)))
     }
 
-    /// All boxes that hold any of a segment in the domain, but for those that were replaced.
+    /// Returns all boxes that meet a segment in the domain, without split boxes.
     pub fn holding(&self, piece: &Segment) -> Vec<u32> {
         let mut found = Vec::new();
         let mut waiting: Vec<u32> = (0..index(self.roots)).rev().collect();
@@ -302,12 +306,13 @@ impl Mosaic for Subdivision<'_> {
     }
 }
 
-/// Indices of nodes have 32 bits: four thousand million boxes would not fit into memory.
+/// Converts an index of nodes to 32 bits. Four thousand million boxes would not fit into memory.
 fn index(at: usize) -> u32 {
     u32::try_from(at).unwrap_or(u32::MAX)
 }
 
-/// Decides a box by the pairs that are open in a box around it; `fixed` ones stay open unheard.
+/// Computes the state of a box from the pairs that are undecided in a larger box. The `fixed` pairs stay undecided
+/// without a test.
 fn judge(scene: &Scene, clearance: f64, cell: &Cell, pairs: &[Pair], fixed: &[Pair]) -> State {
     checkpoint();
     let posture = Posture::new(scene, cell.center());

@@ -1,7 +1,8 @@
 //! Chains of adjacent boxes.
 //!
-//! Own searches, not petgraph's: boxes are split between one search and the next, so that there is no graph to keep; where
-//! free boxes cost nothing a queue with two ends does for a heap; and what a way costs depends on where it has entered a box.
+//! These are our own searches instead of petgraph's, for three reasons. Boxes are split between searches, so there is
+//! no graph to keep. Free boxes cost nothing, so a double-ended queue can replace a heap. And the cost of a path
+//! depends on where it enters a box.
 
 use super::boxes::portal;
 use cplan_core::check::Cell;
@@ -12,39 +13,40 @@ use std::collections::VecDeque;
 
 const NONE: u32 = u32::MAX;
 
-/// What is known about a box that may hold free configurations.
+/// State of a box that may contain free configurations.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Openness {
-    /// All of it is free.
+    /// Entirely free.
     Free,
-    /// Neither proven free nor proven stuck.
+    /// Neither proven free nor proven in collision.
     Mixed,
-    /// Undecided, and halves would tell no more.
+    /// Undecided, and halving would not help.
     Finest,
 }
 
-/// Boxes side by side that cover the domain, by number.
+/// Numbered boxes that cover the domain side by side.
 pub(super) trait Mosaic {
-    /// One more than the greatest number of a box.
+    /// Returns an upper limit of the numbers of boxes.
     fn count(&self) -> usize;
-    /// The configurations that a box holds.
+    /// Returns the configurations of a box.
     fn cell(&self, index: u32) -> Cell;
-    /// None for a stuck box, or one that is there no more.
+    /// Returns the state of a box. Returns `None` for a collision box or a box that no longer exists.
     fn openness(&self, index: u32) -> Option<Openness>;
     /// Calls `f` with the boxes that share a side with this one, in a fixed order.
     fn for_each_neighbor(&self, index: u32, f: impl FnMut(u32));
-    /// A box that holds `q` and is not stuck.
+    /// Returns a box that contains `q` and is not a collision box.
     fn locate(&self, q: Configuration) -> Option<u32>;
-    /// Boxes that are not stuck and hold any of a segment in the domain: all of them, but for a point one will do.
+    /// Returns the boxes, without collision boxes, that meet a segment in the domain: all of them, or at least one if
+    /// the segment is a point.
     fn meeting(&self, piece: &Segment) -> Vec<u32>;
-    /// Of the configuration space.
+    /// Returns the topology of the configuration space.
     fn topology(&self) -> &Topology;
 }
 
-/// Goals in a box.
+/// Goals within a box, with the number of the box.
 pub(super) type End = (u32, Segment);
 
-/// The boxes that are not stuck and hold goals, and which, by number.
+/// Returns the boxes with goals that are not collision boxes, and their goals, sorted by number.
 pub(super) fn ends(boxes: &impl Mosaic, goals: &GoalSet) -> Vec<End> {
     let mut ends: Vec<End> = Vec::new();
     for piece in goals.wrapped(boxes.topology()) {
@@ -54,20 +56,20 @@ pub(super) fn ends(boxes: &impl Mosaic, goals: &GoalSet) -> Vec<End> {
     ends
 }
 
-/// The goals in a box, of those given by number.
+/// Returns the goals within a box. The given goals must be sorted by number.
 pub(super) fn ends_in(ends: &[End], index: u32) -> impl Iterator<Item = &Segment> {
     let first = ends.partition_point(|end| end.0 < index);
     ends[first..].iter().take_while(move |end| end.0 == index).map(|end| &end.1)
 }
 
-/// The chain of adjacent open boxes from `from` to one of `ends` with the fewest undecided ones, those of the finest
-/// size only if `finest`: breadth-first search in which free boxes cost nothing. `O(boxes + adjacencies)`.
+/// Finds the chain of adjacent boxes from `from` to one of `ends` with the fewest undecided boxes. It uses boxes of the
+/// finest size only if `finest`. Breadth-first search in which free boxes cost nothing. Takes `O(boxes + adjacencies)`.
 pub(super) fn fewest_mixed(boxes: &impl Mosaic, from: u32, ends: &[End], finest: bool) -> Option<Vec<u32>> {
     let (_, parent, last) = search(boxes, &[from], ends, finest);
     last.map(|last| back(&parent, last))
 }
 
-/// All undecided boxes, ascending, that lie on any of the chains with the fewest of them: two such searches.
+/// Returns all undecided boxes, ascending, that lie on a chain with the fewest undecided boxes. Takes two searches.
 pub(super) fn all_of_fewest_mixed(boxes: &impl Mosaic, from: u32, ends: &[End], finest: bool) -> Vec<u32> {
     let (here, ..) = search(boxes, &[from], &[], finest);
     let starts: Vec<u32> = ends.iter().map(|end| end.0).collect();
@@ -78,7 +80,7 @@ pub(super) fn all_of_fewest_mixed(boxes: &impl Mosaic, from: u32, ends: &[End], 
     (0..here.len()).filter(mixed).filter(|&index| cost(index) == fewest).map(|index| index as u32).collect()
 }
 
-/// What it costs to pass a box: nothing if it is free; none if it cannot be passed.
+/// Returns the cost of passing a box: nothing if it is free. Returns `None` if it cannot be passed.
 fn cost_of(boxes: &impl Mosaic, index: u32, finest: bool) -> Option<u32> {
     match boxes.openness(index) {
         Some(Openness::Free) => Some(0),
@@ -88,7 +90,8 @@ fn cost_of(boxes: &impl Mosaic, index: u32, finest: bool) -> Option<u32> {
     }
 }
 
-/// Costs of reaching each box from `starts`, their own included, and the box before it, until one of `ends` is reached.
+/// Computes the cost of reaching each box from `starts`, including their own, and the box before it. Stops when one of
+/// `ends` is reached.
 fn search(boxes: &impl Mosaic, starts: &[u32], ends: &[End], finest: bool) -> (Vec<u32>, Vec<u32>, Option<u32>) {
     let mut cost = vec![u32::MAX; boxes.count()];
     let mut parent = vec![NONE; boxes.count()];
@@ -118,12 +121,13 @@ fn search(boxes: &impl Mosaic, starts: &[u32], ends: &[End], finest: bool) -> (V
     (cost, parent, None)
 }
 
-/// The chain of free boxes from the start, in box `from`, to a goal along which a polyline through the middles of the portals is
-/// the shortest, as far as one way into each box tells (Dijkstra). Some chain must exist.
+/// Finds the chain of free boxes from the start, in box `from`, to a goal that gives the shortest polyline through the
+/// middles of the portals. It considers one entry point per box (Dijkstra), so the result is approximate. A chain must
+/// exist.
 pub(super) fn shortest(boxes: &impl Mosaic, start: Configuration, from: u32, ends: &[End]) -> Vec<u32> {
     let topology = boxes.topology();
     let mut length = vec![f64::INFINITY; boxes.count()];
-    // Where each box is entered, in the fundamental domain.
+    // The point where each box is entered, in the fundamental domain.
     let mut entry = vec![topology.wrap(start); boxes.count()];
     let mut parent = vec![NONE; boxes.count()];
     let mut open = OpenList::default();
@@ -164,7 +168,7 @@ pub(super) fn shortest(boxes: &impl Mosaic, start: Configuration, from: u32, end
     back(&parent, best.1)
 }
 
-/// The chain that leads to `last`.
+/// Returns the chain that leads to `last`.
 fn back(parent: &[u32], last: u32) -> Vec<u32> {
     let mut chain = vec![last];
     let mut at = last;

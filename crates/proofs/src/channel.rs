@@ -1,10 +1,10 @@
-//! A chain of free boxes, as a way to go.
+//! A chain of free boxes that contains paths.
 
 use super::boxes::{Portal, portal};
 use super::chain::{End, Mosaic, ends_in};
 use cplan_core::space::{Configuration, Measure, Metric, Path, Segment};
 
-/// A chain of adjacent free boxes. Each is convex, so any way that goes straight from portal to portal is free.
+/// A chain of adjacent free boxes. Each box is convex, so any path that runs straight from portal to portal is free.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Channel {
     start: Configuration,
@@ -14,10 +14,10 @@ pub struct Channel {
 }
 
 impl Channel {
-    /// The portals of a chain of boxes, the last of which holds goals.
+    /// Computes the portals of a chain of boxes. The last box contains goals.
     pub(super) fn new(boxes: &impl Mosaic, chain: &[u32], start: Configuration, ends: &[End]) -> Self {
         let topology = boxes.topology();
-        // What to add to values in the fundamental domain to continue the way from `start`.
+        // The shift from values in the fundamental domain to the turns of a path that continues from `start`.
         let mut lift = start - topology.wrap(start);
         let mut portals = Vec::with_capacity(chain.len());
         for pair in chain.windows(2) {
@@ -33,26 +33,26 @@ impl Channel {
         Self { start, goals: nearest.unwrap_or(Segment::point(start)), portals }
     }
 
-    /// Where it begins.
+    /// Returns its start.
     #[must_use]
     pub fn start(&self) -> Configuration {
         self.start
     }
 
-    /// Where it may end: goals in its last box, or on circles copies of them.
+    /// Returns the goals in its last box. On circles these may be copies of goals.
     #[must_use]
     pub fn goals(&self) -> &Segment {
         &self.goals
     }
 
-    /// The pieces of side between its boxes, in order, in unwrapped values: the ends to the left and to the right hand
-    /// of who passes (seen with `q1` to the right and `q2` upwards).
+    /// Returns the shared side pieces between its boxes, in order, in unwrapped values. Each consists of its left and
+    /// its right end as seen in the direction of passage, with `q1` to the right and `q2` upwards.
     #[must_use]
     pub fn portals(&self) -> &[[Configuration; 2]] {
         &self.portals
     }
 
-    /// The path through the middles of the portals.
+    /// Returns the path through the middles of the portals.
     #[must_use]
     pub fn path(&self) -> Path {
         let middles = self.portals.iter().map(|[left, right]| (left + right) / 2.0);

@@ -1,4 +1,4 @@
-//! Is there a path at all? Proof that there is none, or a path, by subdivision.
+//! Decides whether a path exists, by subdivision: finds a path, or proves that no path exists.
 
 use super::boxes::{State, Subdivision};
 use super::chain::{Mosaic, all_of_fewest_mixed, ends, fewest_mixed, shortest};
@@ -17,23 +17,24 @@ pub enum Connectivity {
     Disconnected(Disconnection),
     /// A chain of free boxes from the start to a goal.
     Connected(Channel),
-    /// Neither, when this many boxes were reached or could not be told apart any more.
+    /// Undecided when this many boxes were reached or could not be separated any further.
     Undecided {
-        /// Number of boxes looked at.
+        /// Number of boxes examined.
         boxes: usize,
-        /// Whether nothing that may be open connects them, but boxes do not bear that out, or too many would.
+        /// True if no chain of boxes that may be free connects start and goal, but boxes cannot prove it, or the proof
+        /// would need too many.
         closed: bool,
     },
 }
 
-/// What is known about a box of configurations.
+/// State of a box of configurations.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Occupancy {
-    /// Nothing comes too near anywhere in it.
+    /// No pair comes too near anywhere in the box.
     Free,
-    /// One pair of shapes is too near everywhere in it.
+    /// One pair of shapes is too near everywhere in the box.
     Stuck,
-    /// Neither proven free nor proven stuck.
+    /// Neither proven free nor proven in collision.
     Mixed,
 }
 
@@ -48,13 +49,14 @@ pub struct Exploration {
     pub adjacencies: usize,
 }
 
-/// Decides whether a motion that keeps more than zero and at least `clearance` from every obstacle leads from `start`
-/// to one of `goals`, with at most `max_boxes` boxes.
+/// Decides whether a motion from `start` to one of `goals` keeps more than zero and at least `clearance` from every
+/// obstacle, with at most `max_boxes` boxes.
 ///
-/// Soft subdivision search (Wang, Chiang, Yap 2015): boxes are free, stuck or mixed. While free and mixed boxes together
-/// connect start and goal, the mixed ones on the connection with the fewest of them are halved. If they do not connect,
-/// there is no path; if free ones alone do, there is one. Complete up to the resolution that `max_boxes` allows: a path
-/// with room around it is found, and a way that is closed by overlaps of some depth is proven closed.
+/// Soft subdivision search (Wang, Chiang, Yap 2015): boxes are free, in collision, or undecided. While free and
+/// undecided boxes together connect start and goal, the undecided boxes on the connection with the fewest of them are
+/// halved. If they do not connect, there is no path. If free boxes alone connect, there is a path. The search is
+/// complete up to the resolution that `max_boxes` allows. A path with free space around it is found. A passage that is
+/// closed by overlaps of some depth is proven closed.
 #[must_use]
 pub fn connectivity(
     scene: &Scene,
@@ -66,8 +68,8 @@ pub fn connectivity(
     proven(scene, |scene| decide(&mut Subdivision::new(scene, clearance), start, goals, max_boxes))
 }
 
-/// The answer among shapes that cover what they stand for, which is as good as a path among these; that there is none is asked
-/// again of the shapes within, where they differ.
+/// Decides with the outer shapes first, which contain the exact ones: a path among them is valid. If they prove that
+/// there is no path and the inner shapes differ, the question is decided again with the inner shapes.
 pub(super) fn proven(scene: &Scene, decide: impl Fn(&Scene) -> Connectivity) -> Connectivity {
     match (decide(scene), scene.inner()) {
         (Connectivity::Disconnected(proof), Cow::Owned(inner)) => match decide(&inner) {
@@ -78,7 +80,7 @@ pub(super) fn proven(scene: &Scene, decide: impl Fn(&Scene) -> Connectivity) -> 
     }
 }
 
-/// As [`connectivity`], with the boxes.
+/// Answers the same question as [`connectivity`], and also returns the boxes.
 #[must_use]
 pub fn explore(scene: &Scene, start: Configuration, goals: &GoalSet, clearance: f64, max_boxes: usize) -> Exploration {
     let mut boxes = Subdivision::new(scene, clearance);
@@ -89,7 +91,7 @@ pub fn explore(scene: &Scene, start: Configuration, goals: &GoalSet, clearance: 
         State::Mixed(_) | State::Finest => Some(Occupancy::Mixed),
         State::Split(_) => None,
     };
-    // Open boxes list each other, and stuck ones are listed once.
+    // Undecided and free boxes list each other as neighbours. Collision boxes are listed on one side only.
     let adjacencies = |node: &super::boxes::Node| -> usize {
         node.neighbors.iter().map(|&n| if boxes.nodes[n as usize].is_open() { 1 } else { 2 }).sum()
     };
@@ -100,16 +102,17 @@ pub fn explore(scene: &Scene, start: Configuration, goals: &GoalSet, clearance: 
     }
 }
 
-/// While there are fewer boxes a search costs little beside what it spares: only the boxes of one chain are halved before
-/// the next. With more, all chains with the fewest mixed boxes are refined at once, or else a way that is closed along a
-/// curve which boxes cannot prove would take a search for every few boxes along it: quadratic time.
+/// Number of boxes below which only one chain is refined at a time: a search is then cheap compared with the boxes that
+/// it saves. Above it, all chains with the fewest undecided boxes are refined at once. Otherwise a passage that is
+/// closed along a curve, which boxes cannot prove, would need a search for every few boxes along the curve, and so
+/// quadratic time.
 const ONE_BY_ONE: usize = 512;
 
 fn decide(boxes: &mut Subdivision, start: Configuration, goals: &GoalSet, max_boxes: usize) -> Connectivity {
     loop {
         let ends = ends(boxes, goals);
         let Some(from) = boxes.locate(start) else { return disconnected(boxes, start, goals) };
-        // Boxes at the finest size are hopeless: only where nothing else connects do they stand in the way of a proof.
+        // Boxes of the finest size cannot be decided. They prevent a proof only if nothing else connects.
         let chain = fewest_mixed(boxes, from, &ends, false).map(|chain| (chain, false));
         let Some((chain, finest)) = chain.or_else(|| fewest_mixed(boxes, from, &ends, true).map(|chain| (chain, true)))
         else {

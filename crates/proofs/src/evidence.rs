@@ -1,10 +1,11 @@
-//! What closes motions that are shorter than a bound: evidence for a checker.
+//! Evidence that no motion is shorter than a bound, for a checker.
 //!
-//! The evidence is a set of straight segments of configurations, each with the pair of shapes that is too near all along it:
-//! *walls* on slices, where joint 1 stays at one value, and *barriers* across the strips between two slices. No motion crosses
-//! any of them, so none is shorter than the shortest way past all of them. Each segment is looked at again, apart from the search that
-//! found it (`held`: depths from the Minkowski difference, one after the other, each of which covers a part of the segment), and cut to
-//! what is seen closed. The checker of certificates judges the segments in exact arithmetic.
+//! The evidence is a set of straight segments of configurations, each with a pair of shapes that is too near all along
+//! it. *Walls* lie on slices, where joint 1 stays at one value. *Barriers* cross the strips between two slices. No
+//! motion crosses any of them, so no motion is shorter than the shortest path around all of them. Each segment is
+//! tested again, independently of the search that found it, and cut to its proven part. The test (`held`) computes
+//! depths from the Minkowski difference step by step, where each depth covers a part of the segment. The checker of
+//! certificates judges the segments in exact arithmetic.
 
 mod held;
 
@@ -13,62 +14,65 @@ use cplan_core::space::Configuration;
 use cplan_interrupt::checkpoint;
 use held::held;
 
-/// Values of joint 2 at a slice that a pair closes.
+/// Values of joint 2 on a slice at which a pair collides.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Wall {
-    /// The least, ...
+    /// Least value.
     pub lower: f64,
-    /// ... and the greatest; on a circle beyond its domain, if the wall leads across the seam.
+    /// Greatest value. On a circle it lies beyond the domain if the wall crosses the seam.
     pub upper: f64,
-    /// Which shapes are too near there.
+    /// The pair that is too near.
     pub pair: Pair,
 }
 
-/// A straight line across the strip between a slice and the next that a pair closes.
+/// A straight line across the strip between a slice and the next, along which a pair collides.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Barrier {
-    /// Its values of joint 2 at the slice before and at the slice after.
+    /// Values of joint 2 on the slice before and on the slice after.
     pub ends: [f64; 2],
-    /// Which shapes are too near all along it.
+    /// The pair that is too near.
     pub pair: Pair,
 }
 
-/// A value of joint 1, and what is closed there and in the strip up to the next slice. On a circle the first slice follows the last.
+/// A value of joint 1, with the walls there and the barriers across the strip up to the next slice. On a circle the
+/// first slice follows the last.
 #[derive(Debug, Clone)]
 pub(crate) struct Slice {
-    /// The value of joint 1.
+    /// Value of joint 1.
     pub q1: f64,
-    /// What is closed at it.
+    /// Walls on the slice.
     pub walls: Vec<Wall>,
-    /// What is closed across the strip after it.
+    /// Barriers across the strip after it.
     pub barriers: Vec<Barrier>,
 }
 
-/// A straight segment of configurations along all of which a pair is seen too near.
+/// A straight segment of configurations along which a pair is proven too near.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ClosedSegment {
-    /// Its ends; on a circle beyond its domain, if it leads across the seam.
+    /// Ends of the segment. On a circle they lie beyond the domain if the segment crosses the seam.
     pub ends: [Configuration; 2],
-    /// Which shapes are too near.
+    /// The pair that is too near.
     pub pair: Pair,
 }
 
-/// What a search for a lower bound found closed. [`bound_evidence`](crate::bound_evidence) finds it.
+/// Walls and barriers found by a search for a lower bound; see [`bound_evidence`](crate::bound_evidence).
 #[derive(Debug, Clone)]
 pub struct BoundEvidence {
-    /// Ascending, all over the domain of joint 1; its ends are slices if it has ends.
+    /// Slices, ascending, over the whole domain of joint 1. If the domain has ends, these are slices.
     pub(crate) slices: Vec<Slice>,
 }
 
-/// How much farther inside barriers may be than they were found, either way, radians or metres.
+/// Shifts to try for a barrier that is not proven in its place, in either direction, radians or metres.
 const INSIDE: [f64; 9] = [0.0, 1e-7, -1e-7, 1e-6, -1e-6, 1e-5, -1e-5, 1e-4, -1e-4];
 
-/// By how much barriers and walls go past a seam, radians, so that they overlap what goes on beyond it, however that is rounded.
+/// Overlap of barriers and walls beyond a seam, radians. It ensures that they overlap their continuation despite
+/// rounding.
 const SEAM: f64 = 1e-7;
 
 impl BoundEvidence {
-    /// Returns the walls as far as they are seen closed, and the barriers that are, with so many looks along each in either direction.
-    /// Barriers lie a little farther inside what is closed, where they hardly are. What ends at a seam goes a little past it.
+    /// Returns the proven parts of the walls, and the proven barriers, with up to `looks` tests along each in either
+    /// direction. A barrier that is barely in collision is shifted slightly. Segments that end at a seam are extended
+    /// slightly beyond it.
     #[must_use]
     pub fn segments(&self, scene: &Scene, clearance: f64, looks: usize) -> Vec<ClosedSegment> {
         let (scene, mut closed) = (&*scene.inner(), Vec::new());
@@ -104,7 +108,7 @@ impl BoundEvidence {
     }
 }
 
-/// The ends of a wall, a little farther where it ends at a seam.
+/// Returns the ends of a wall, extended slightly if it ends at a seam.
 fn past_seam(scene: &Scene, wall: &Wall) -> [f64; 2] {
     let range = scene.arm().topology().ranges[1];
     let (lower, upper) = range.domain();

@@ -1,24 +1,24 @@
-//! Where proofs and bounds are found: slabs and boxes that tell whether there is a path, and lower bounds on how short one can
-//! be. What it finds passes [`cplan_core::check`], which shares no code with it but the kernels of geometry and
-//! [`cplan_core::check::Deviation`].
+//! Search for proofs and bounds: slabs and boxes decide whether a path exists, and lower bounds limit how short a path
+//! can be. The results pass [`cplan_core::check`], which shares no code with this crate except the kernels of geometry
+//! and [`cplan_core::check::Deviation`].
 //!
-//! [`slab_connectivity`] is asked first: in a slab of `q1`, contact angles with obstacles grown by the slab's motion
-//! leave what is free all over it, those with shapes eroded by it name what is stuck all over it, and slabs are halved
-//! where the connection is undecided. What slabs leave open (shapes without thickness) goes to the boxes
-//! ([`connectivity()`]). Proofs of both are stuck boxes, paths of both a channel of free boxes: both pass the checks.
+//! The question goes to [`slab_connectivity`] first. Within a slab of `q1`, contact angles with obstacles grown by the
+//! slab's motion give the values of joint 2 that are free all over the slab. Contact angles with shapes eroded by that
+//! motion give the values in collision all over it. Slabs are halved where the connection is undecided. Questions that
+//! slabs leave open (shapes without thickness) go to the boxes ([`connectivity()`]). Both prove infeasibility by
+//! collision boxes, and give paths as a channel of free boxes. Both results pass the checks.
 //!
-//! [`least_length`] bounds the optimum from below. Slices at some dozens of values of `q1` say exactly what is closed
-//! there; between two slices straight barriers are proven to be closed. A search in the manner of Polyanya, over all turns
-//! at once, finds the shortest way around both, which no motion is shorter than. Slices are added where that way passes
-//! what is closed, so along smooth boundaries what is left falls with the square of their spacing. [`short_motion`] is
-//! the same search among obstacles grown by a hair.
-//!
+//! [`least_length`] bounds the optimum from below. Slices at some dozens of values of `q1` show exactly which values of
+//! joint 2 are in collision there. Between two slices, straight barriers are proven to be in collision. A search
+//! similar to Polyanya, over all turns at once, finds the shortest path around both. No motion is shorter than this
+//! path. Slices are added where the path crosses a collision region, so along smooth boundaries the gap falls with the
+//! square of their spacing. [`short_motion`] is the same search among obstacles that are grown slightly.
 //! ```
 //! use cplan_core::model::{Arm, MotionProblem, Obstacle, Scene, Workspace};
 //! use cplan_proofs::{Connectivity, slab_connectivity};
 //! use cplan_core::space::Configuration;
 //!
-//! // Beyond the elbow nothing gets past two posts that leave less room between them than the arm is thick.
+//! Two posts leave less space between them than the arm is thick, so nothing beyond the elbow can pass.
 //! let posts = [Obstacle::circle("left", [0.55, 0.35], 0.2)?, Obstacle::circle("right", [0.55, -0.35], 0.2)?];
 //! let scene = Scene::new(Arm::rr([1.0, 0.8], 0.06)?, Workspace::new(posts))?;
 //! let problem = MotionProblem::new(scene, Configuration::new(0.0, 0.5), Configuration::new(2.0, 0.5))?;

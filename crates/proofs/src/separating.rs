@@ -1,14 +1,15 @@
-//! Which stuck boxes separate start and goals.
+//! Selection of the collision boxes that separate start and goals.
 
 use super::boxes::{State, Subdivision};
 use super::chain::Mosaic;
 use cplan_core::check::{Disconnection, StuckBox};
 use cplan_core::space::{Configuration, GoalSet};
 
-/// Of the stuck boxes of a subdivision whose open boxes do not connect start and goals, those that separate them.
+/// Selects the collision boxes that separate start and goals. The boxes of the subdivision that may be free must not
+/// connect them.
 ///
-/// What open boxes connect with the start is bounded by pieces of side that it shares with stuck boxes (or by the
-/// limits), so these boxes alone separate it from all else.
+/// The region that these boxes connect with the start is bounded by sides that it shares with collision boxes, or by
+/// the limits. So these collision boxes alone separate it from everything else.
 pub(super) fn separating(boxes: &Subdivision, start: Configuration, goals: &GoalSet) -> Disconnection {
     let (here, there) = (around(boxes, &start.into()), around(boxes, goals));
     let fewer = if there.len() < here.len() { there } else { here };
@@ -19,8 +20,8 @@ pub(super) fn separating(boxes: &Subdivision, start: Configuration, goals: &Goal
     Disconnection::new(stuck.collect())
 }
 
-/// The stuck boxes, ascending, that share a side with what open boxes connect with any of the places, and those that hold
-/// places themselves; of a single place only if no open box holds it.
+/// Returns the collision boxes, ascending, that share a side with the region connected to any of the places, and those
+/// that contain places themselves. If there is only a single place, the latter count only if no other box contains it.
 fn around(boxes: &Subdivision, places: &GoalSet) -> Vec<u32> {
     let mut reached = vec![false; boxes.nodes.len()];
     let mut waiting = Vec::new();

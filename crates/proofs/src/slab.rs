@@ -1,9 +1,9 @@
-//! What is known about all values of joint 2 while joint 1 stays within a short interval, a *slab*.
+//! Free and colliding values of joint 2 while joint 1 stays within a short interval, a *slab*.
 //!
-//! At a fixed `q1` the values of `q2` at which a pair meets are known in closed form (contact angles). While joint 1
+//! At a fixed `q1`, the values of `q2` at which a pair touches are known in closed form (contact angles). While joint 1
 //! moves by at most `h` from the middle of the slab, link 2 moves rigidly, and a point of it that touches the obstacle
-//! moves by at most a chord `m` about the base. So where the pair keeps more than `m` apart at the middle, it is free all
-//! over the slab; where a point of it lies more than `m` deep in both shapes, it is stuck all over the slab.
+//! moves by at most a chord `m` about the base. So if the pair keeps more than `m` apart at the middle, it is free all
+//! over the slab. If a point of it lies more than `m` deep in both shapes, the pair collides all over the slab.
 
 use cplan_core::check::Cell;
 use cplan_core::check::{Deviation, Posture};
@@ -11,21 +11,20 @@ use cplan_core::model::{Carried, Contacts, Pair, Scene, on_axis};
 use cplan_geometry::{Convex, Features, Hits, Point, ROUNDING, Vector};
 use cplan_interrupt::checkpoint;
 
-/// Distance by which closed forms are taken to be wrong, metres: twice what they state, so that adding up a few numbers
-/// of the arm's size, and angles to whole turns, is covered as well.
+/// Assumed error of closed forms, metres: twice their stated error. This also covers the addition of a few numbers of
+/// the arm's size, and of angles to whole turns.
 pub(super) const OUTWARD: f64 = 2.0 * ROUNDING;
 
-/// By how much more than a slab's motion shapes must overlap to count as stuck: the rest is what joint 2 may move by in
-/// the boxes that state the proof (about as far, at the ends of a stuck interval, as joint 1 moves over a quarter of the
-/// slab).
+/// Required overlap, as a multiple of the slab's motion. The excess allows joint 2 to move within the boxes that state
+/// the proof: at the ends of a colliding interval, about as far as joint 1 moves over a quarter of the slab.
 const OVERLAP: f64 = 1.25;
 
-/// A part of link 2, or what stands still in one of its pairs.
+/// A part of link 2, or the static piece in one of its pairs.
 struct Deep {
-    /// How deep it is, metres.
+    /// Greatest depth of a point within the shape, metres.
     depth: f64,
-    /// The deeper shape of a pair for every width of slab that it was asked for, eroded; none where nothing is left. With the part
-    /// if it is the same for all its pieces.
+    /// For each level of slabs requested so far: the deeper shape of a pair, eroded. The inner `None` means that
+    /// nothing is left. It is stored with the part if it is the same for all of the part's pieces.
     eroded: Vec<Option<Option<Eroded>>>,
 }
 
@@ -35,16 +34,16 @@ impl Deep {
     }
 }
 
-/// A shape of a pair that is nearer to the bone.
+/// An eroded shape of a pair.
 pub(super) enum Eroded {
     Part(Carried),
     Piece(Features),
-    /// Neither: the clearance to keep is more than what has to be taken away; by how much.
+    /// No erosion: the clearance exceeds the required overlap by this much.
     Grown(f64),
 }
 
 impl Eroded {
-    /// Whichever shape is deeper, eroded by `overlap` less `clearance`; none where nothing is left.
+    /// Erodes the deeper of the two shapes by `overlap` less `clearance`. Returns `None` if nothing is left.
     pub fn new(part: &Carried, piece: &Convex, overlap: f64, clearance: f64) -> Option<Self> {
         if part.shape().depth() > piece.depth() {
             Self::part(part, piece, overlap, clearance)
@@ -70,7 +69,7 @@ impl Eroded {
         piece.eroded(-grow).map(|shape| Self::Piece(Features::new(&shape)))
     }
 
-    /// Values of the joint at which the pair's shapes overlap by at least as much as one of them was eroded by.
+    /// Finds the values of the joint at which the pair's shapes overlap by at least the erosion of one of them.
     pub fn hits(
         &self,
         part: &Carried,
@@ -87,12 +86,13 @@ impl Eroded {
     }
 }
 
-/// By how much a piece has to grow until its radius is none: what is to be kept from it then is to be kept from its core.
+/// Returns how much a piece must grow until its radius is zero. Beyond that, a distance from the piece is a distance
+/// from its core.
 fn lacking(piece: &Convex) -> f64 {
     (-piece.radius()).max(0.0)
 }
 
-/// Link 2 and all that it can meet, for slabs of joint 1.
+/// Link 2 and everything it can collide with, for slabs of joint 1.
 pub(super) struct SecondLink<'a> {
     contacts: Contacts<'a>,
     clearance: f64,
@@ -104,12 +104,13 @@ pub(super) struct SecondLink<'a> {
     near: Vec<u32>,
 }
 
-/// The forbidden values of joint 2 in a slab, within the domain; each list by pair, as numbers of [`Contacts`].
+/// The forbidden values of joint 2 in a slab, within the domain. Each list is ordered by pair, numbered as in
+/// [`Contacts`].
 #[derive(Default)]
 pub(super) struct Verdicts {
-    /// Outside these intervals no pair comes too near anywhere in the slab.
+    /// Outside these intervals, no pair comes too near anywhere in the slab.
     pub outer: Vec<[f64; 2]>,
-    /// Within each of these its pair is too near all over the slab.
+    /// Within each of these intervals, its pair is too near all over the slab.
     pub inner: Vec<(usize, [f64; 2])>,
 }
 
@@ -129,18 +130,18 @@ impl<'a> SecondLink<'a> {
         Self { contacts, clearance, parts, pieces, scratch: Vec::new(), near: Vec::new() }
     }
 
-    /// The clearance to keep, metres.
+    /// Returns the required clearance, metres.
     pub fn clearance(&self) -> f64 {
         self.clearance
     }
 
-    /// The scene, prepared.
+    /// Returns the prepared contacts of the scene.
     pub fn contacts(&self) -> &Contacts<'a> {
         &self.contacts
     }
 
-    /// What is known in the slab `from <= q1 <= to`, which is no wider than twice `half`, the half width of all slabs of
-    /// this `level`.
+    /// Computes the verdicts for the slab `from <= q1 <= to`. The slab is no wider than twice `half`, the half width of
+    /// all slabs of this `level`.
     pub fn judge(&mut self, from: f64, to: f64, level: usize, half: f64, verdicts: &mut Verdicts) {
         checkpoint();
         verdicts.outer.clear();
@@ -177,8 +178,8 @@ impl<'a> SecondLink<'a> {
         (self.scratch, self.near) = (scratch, near);
     }
 
-    /// Values of joint 2 at which the shapes of a pair overlap by more than `overlap` less the clearance; `overlap` depends on
-    /// the part and the level alone.
+    /// Finds the values of joint 2 at which the shapes of a pair overlap by more than `overlap` less the clearance. The
+    /// value of `overlap` must depend only on the part and the level.
     fn stuck(
         &mut self,
         index: usize,
@@ -192,7 +193,7 @@ impl<'a> SecondLink<'a> {
         let part = &mut self.parts[self.contacts.part_of(index) - self.contacts.second_link_parts().start];
         let piece = &mut self.pieces[index - self.contacts.second_link_pairs().start];
         let of_part = part.depth > piece.depth;
-        // What is to be kept from all pieces is the part's own.
+        // In this case the eroded part is the same for all pieces.
         let shared = of_part && lacking(shape) == 0.0;
         let known = if shared { &mut part.eroded } else { &mut piece.eroded };
         if known.len() <= level {
@@ -209,7 +210,7 @@ impl<'a> SecondLink<'a> {
     }
 }
 
-/// Whether the pair is too near all over the box, by the bounds that boxes are judged by.
+/// Returns true if the pair is too near all over the box, by the same bounds that the check of boxes uses.
 pub(super) fn is_stuck(scene: &Scene, pair: Pair, cell: &Cell, clearance: f64) -> bool {
     Posture::new(scene, cell.center()).greatest(pair, Deviation::Box(cell.half())) < clearance
 }
@@ -278,7 +279,7 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(600))]
 
-        /// The oracle is the distance of the shapes at sampled configurations, which knows no contact angles.
+        /// The oracle is the distance of the shapes in sampled configurations. It does not use contact angles.
         #[test]
         fn what_is_said_of_a_slab_holds_all_over_it(
             kinds in (any::<bool>(), any::<bool>()), offset in (-1.0..1.0f64, -1.0..1.0f64),
@@ -309,7 +310,7 @@ mod tests {
                     prop_assert!(distance < clearance.max(0.0) || distance < 0.0, "{distance}");
                 }
             }
-            // The boxes that state it say neither more nor less.
+            // The boxes that state the interval cover exactly the interval.
             for &(pair, interval) in &inner {
                 let mut boxes = Vec::new();
                 let pair = scene.pairs()[pair];

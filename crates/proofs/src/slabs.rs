@@ -1,9 +1,9 @@
-//! Is there a path at all? Proof that there is none, or a path, by slabs of joint 1.
+//! Decides whether a path exists, by slabs of joint 1: finds a path, or proves that no path exists.
 //!
-//! The domain of joint 1 is cut into slabs. In each, closed forms say which values of joint 2 are free all over the slab
-//! and which are stuck all over it ([`super::slab`]); what is left between is mixed. While free and mixed spans together
-//! connect start and goal, the slabs in which the connection is mixed are halved: easy questions need few slabs, and a
-//! narrow passage needs fine ones only along itself.
+//! The domain of joint 1 is cut into slabs. In each slab, closed forms give the values of joint 2 that are free all
+//! over the slab, and those in collision all over it ([`super::slab`]). The values between are undecided. While free
+//! and undecided spans together connect start and goal, the slabs in which the connection is undecided are halved. So
+//! easy questions need few slabs, and a narrow passage needs fine slabs only along itself.
 
 mod proof;
 
@@ -18,18 +18,18 @@ use cplan_core::model::Scene;
 use cplan_core::space::{Configuration, GoalSet, Segment, Topology};
 use cplan_geometry::merge_in_place;
 
-/// First slabs are this share of the domain wide (those beside a band of link 1 narrower): halves of halves of it follow.
-/// At least three, so that across a seam no slab is its own neighbour.
+/// Number of initial slabs over the domain; those beside a band of link 1 are narrower. Later slabs are repeated halves
+/// of these. At least three, so that across a seam no slab is its own neighbour.
 const FIRST: usize = 16;
 
-/// Slabs are halved so often at most: finer ones move link 2 by less than what rounding leaves uncertain.
+/// Maximum number of times that a slab is halved. Finer slabs would move link 2 by less than the rounding error.
 const MOST_LEVELS: usize = 26;
 
-/// With so many slabs all the connections with the fewest mixed spans are made certain at once: one at a time, the searches
-/// would take most of the time.
+/// Number of slabs from which all connections with the fewest undecided spans are refined at once. Refining one at a
+/// time, the searches would dominate the time.
 const ONE_BY_ONE: usize = 512;
 
-/// Slabs of a level are alike up to this share of their width, far more than rounding makes of their ends.
+/// Tolerance for slabs of the same level, as a share of their width. It is far greater than the rounding of their ends.
 const ALIKE: f64 = 1e-6;
 
 /// A stretch of `q1` and its spans.
@@ -38,17 +38,18 @@ struct Slab {
     from: f64,
     to: f64,
     level: usize,
-    /// Whether link 1 is free all over it; if not, no span counts as free, but those that link 2 closes are stuck.
+    /// True if link 1 is free all over the slab. Otherwise no span counts as free, but spans in which link 2 collides
+    /// do count.
     clear: bool,
-    /// Whether link 2 was looked at; before, all of it is one mixed span.
+    /// True if link 2 was judged. Before that, the whole slab is one undecided span.
     judged: bool,
-    /// First and one past the last of its spans.
+    /// Index of the first span, and one past the last.
     spans: [u32; 2],
-    /// Into the walls, if it is one.
+    /// Index into the walls, if the slab is a wall.
     wall: Option<u32>,
 }
 
-/// An interval of `q2` in a slab that is not stuck.
+/// An interval of `q2` in a slab that is not in collision.
 #[derive(Clone, Copy)]
 struct Span {
     lower: f64,
@@ -60,20 +61,21 @@ struct Span {
 struct Slabs<'a> {
     topology: Topology,
     second: SecondLink<'a>,
-    /// The slabs by ascending values of joint 1.
+    /// The slabs, by ascending values of joint 1.
     slabs: Vec<Slab>,
-    /// Those of slabs that were halved stay behind, unused.
+    /// The spans. Those of halved slabs remain in the list, unused.
     spans: Vec<Span>,
     walls: Vec<StuckBox>,
     verdicts: Verdicts,
 }
 
-/// Decides whether a motion that keeps more than zero and at least `clearance` from every obstacle leads from `start`
-/// to one of `goals`, with at most `max_slabs` slabs of joint 1 and a proof of at most some `max_boxes` boxes.
+/// Decides whether a motion from `start` to one of `goals` keeps more than zero and at least `clearance` from every
+/// obstacle, with at most `max_slabs` slabs of joint 1 and a proof of at most `max_boxes` boxes.
 ///
-/// The same question as [`super::connectivity`], mostly answered in a small part of the time: a slab decides all of
-/// `q2` at once, in `O(m log m)` for `m` contacts. Undecided where shapes without any inner disc (segments) meet such
-/// shapes, and where there is no more room than some nanometres. Its proofs consist of the same boxes.
+/// This is the same question as [`super::connectivity`], usually answered in a small part of the time: a slab decides
+/// all of `q2` at once, in `O(m log m)` for `m` contacts. The answer is undecided if shapes without any inner disc
+/// (segments) touch other such shapes, or if only some nanometres of free space remain. Its proofs consist of the same
+/// kind of boxes.
 #[must_use]
 pub fn slab_connectivity(
     scene: &Scene,
@@ -86,7 +88,7 @@ pub fn slab_connectivity(
     proven(scene, |scene| decide(&mut Slabs::new(scene, clearance), start, goals, max_slabs, max_boxes))
 }
 
-/// The boxes of configurations that [`slab_connectivity`] ends with: they lie side by side and cover the domain.
+/// Returns the final boxes of [`slab_connectivity`]. They lie side by side and cover the domain.
 #[must_use]
 pub fn slab_boxes(
     scene: &Scene,
@@ -167,7 +169,7 @@ impl<'a> Slabs<'a> {
                     this.slabs.push(Slab { from, to, level: 0, clear: false, judged: true, spans, wall });
                     this.lay(to, stretch.to, false);
                 }
-                // A graze at a single value: nothing to halve, but no way through either.
+                // A graze at a single value cannot be halved, but blocks the passage.
                 Kind::Unknown if stretch.from == stretch.to => {
                     let (from, to, spans) = (stretch.from, stretch.to, this.whole(Openness::Finest));
                     this.slabs.push(Slab { from, to, level: 0, clear: false, judged: false, spans, wall: None });
@@ -179,8 +181,8 @@ impl<'a> Slabs<'a> {
         this
     }
 
-    /// Slabs for a stretch, not looked at yet; cut where the first slabs end, so that all slabs of a level share their
-    /// widths.
+    /// Adds slabs for a stretch, not judged yet. They are cut where the initial slabs end, so that all slabs of a level
+    /// have the same widths.
     fn lay(&mut self, from: f64, to: f64, clear: bool) {
         let (lower, upper) = self.topology.ranges[0].domain();
         let at = |i: usize| lower + (upper - lower) * i as f64 / FIRST as f64;
@@ -194,7 +196,7 @@ impl<'a> Slabs<'a> {
         }
     }
 
-    /// One span for all values of joint 2.
+    /// Adds one span for all values of joint 2.
     fn whole(&mut self, openness: Openness) -> [u32; 2] {
         let (lower, upper) = self.topology.ranges[1].domain();
         let first = index(self.spans.len());
@@ -204,7 +206,7 @@ impl<'a> Slabs<'a> {
 
     /// Adds a slab and judges it.
     fn add(&mut self, from: f64, to: f64, clear: bool) {
-        // The finest level whose slabs are as wide; the first slabs' ends are rounded.
+        // The finest level whose slabs are at least as wide. The ends of the initial slabs are rounded.
         let fits = |&level: &usize| (to - from) / 2.0 <= half_of_level(&self.topology, level) * (1.0 + ALIKE);
         let level = (0..=MOST_LEVELS).take_while(fits).last().unwrap_or(0);
         self.second.judge(
@@ -227,7 +229,7 @@ impl<'a> Slabs<'a> {
         });
     }
 
-    /// Turns the verdicts into spans.
+    /// Converts the verdicts to spans.
     fn cut(&mut self, level: usize, clear: bool) {
         let (bottom, top) = self.topology.ranges[1].domain();
         let Verdicts { outer, inner } = &mut self.verdicts;
@@ -257,7 +259,7 @@ impl<'a> Slabs<'a> {
         add(at, top, free);
     }
 
-    /// Tells the spans which slab they belong to.
+    /// Stores in each span the number of its slab.
     fn number(&mut self) {
         for (number, slab) in self.slabs.iter().enumerate() {
             for span in &mut self.spans[slab.spans[0] as usize..slab.spans[1] as usize] {
@@ -266,7 +268,7 @@ impl<'a> Slabs<'a> {
         }
     }
 
-    /// Replaces slabs, given in ascending order, by their halves; those not looked at yet are judged first.
+    /// Replaces slabs, given in ascending order, by their halves. Slabs that are not judged yet are judged first.
     fn halve(&mut self, which: &[u32]) {
         let before = std::mem::take(&mut self.slabs);
         self.slabs.reserve(before.len() + which.len());
@@ -295,7 +297,7 @@ impl<'a> Slabs<'a> {
         self.number();
     }
 
-    /// All spans, and the stuck stretches between them.
+    /// Returns all spans, and the colliding stretches between them, as boxes.
     fn boxes(&self) -> Vec<(Cell, Occupancy)> {
         let (bottom, top) = self.topology.ranges[1].domain();
         let mut boxes = Vec::new();
@@ -317,7 +319,7 @@ impl<'a> Slabs<'a> {
         boxes
     }
 
-    /// The slabs beside a slab.
+    /// Returns the neighbours of a slab.
     fn beside(&self, slab: u32) -> impl Iterator<Item = u32> {
         let last = index(self.slabs.len()) - 1;
         let round = self.topology.ranges[0].is_circle();
@@ -332,7 +334,7 @@ impl<'a> Slabs<'a> {
     }
 }
 
-/// Half the width of the slabs of a level.
+/// Returns half the width of the slabs of a level.
 fn half_of_level(topology: &Topology, level: usize) -> f64 {
     topology.ranges[0].extent() / FIRST as f64 / 2.0 * 0.5_f64.powi(level as i32)
 }
@@ -413,7 +415,7 @@ impl Mosaic for Slabs<'_> {
     }
 }
 
-/// Numbers have 32 bits: four thousand million spans would not fit into memory.
+/// Converts a number of spans to 32 bits. Four thousand million spans would not fit into memory.
 fn index(at: usize) -> u32 {
     u32::try_from(at).unwrap_or(u32::MAX)
 }

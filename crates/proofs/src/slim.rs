@@ -2,17 +2,17 @@
 
 use cplan_core::check::{CheckedProof, Disconnection, StuckBox};
 
-/// Proofs of no more boxes stay as they are.
+/// Number of boxes up to which proofs are not reduced.
 const SMALL: usize = 256;
 
-/// The share by which a proof may have more boxes than the fewest largest ones that hold.
+/// Tolerance: a proof may exceed the smallest sufficient number of largest boxes by one part in this many.
 const CLOSE: usize = 8;
 
-/// Reduces a proof to about the fewest of its largest boxes, by their extent in `q2`, that still separate start and goal.
-/// `check` judges a choice of boxes; none if it refuses all of them together. Slabs need thousands of boxes where an obstacle's edge
-/// is grazed; a wall through the obstacle's middle needs some dozens.
+/// Reduces a proof to about the fewest of its largest boxes, by their extent in `q2`, that still separate start and
+/// goal. `check` judges a selection of boxes. Returns `None` if it refuses even all boxes together. Slabs need
+/// thousands of boxes where an obstacle's edge is grazed; a wall through the obstacle's middle needs some dozens.
 ///
-/// More boxes separate no less, so doubling and halving find the number. `O(log n)` calls of `check`.
+/// More boxes never separate less, so doubling and bisection find the number. Takes `O(log n)` calls of `check`.
 pub fn slimmed(proof: &Disconnection, check: impl Fn(Disconnection) -> Option<CheckedProof>) -> Option<CheckedProof> {
     let count = proof.stuck().len();
     let height = |b: &StuckBox| b.cell.upper[1] - b.cell.lower[1];

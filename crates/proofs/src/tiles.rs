@@ -1,27 +1,28 @@
-//! What slabs find stuck, as few boxes.
+//! Collision boxes for the colliding intervals of slabs, as few as possible.
 //!
-//! A stuck interval of a slab is cut into boxes as high as the overlap of its shapes allows: towards its ends lower and lower ones,
-//! some dozens. Slabs that are narrow for the sake of one place would all do that wherever else they are stuck. So slabs side by side
-//! share boxes: a rectangle of slabs and values of joint 2 that is not stuck all over is halved, across the joint that moves the
-//! shapes more.
+//! A colliding interval of a slab is cut into boxes. Each box is as high as the overlap of its shapes allows, so boxes
+//! get lower towards the ends of the interval: some dozens per interval. Narrow slabs, needed in one place, would
+//! repeat all these boxes everywhere else. Therefore adjacent slabs share boxes: a rectangle of slabs and values of
+//! joint 2 that does not collide everywhere is halved across the joint that moves the shapes more.
 
 use super::slab::is_stuck;
 use cplan_core::check::{Cell, Deviation, Posture, StuckBox};
 use cplan_core::model::{Pair, Scene};
 use cplan_interrupt::checkpoint;
 
-/// Boxes into which a stuck interval of a slab is cut at most: shallow ends need boxes about as high as the slab is wide.
+/// Maximum number of boxes for a colliding interval of a slab. Shallow ends need boxes about as high as the slab is
+/// wide.
 const MOST_TILES: usize = 4096;
 
-/// A slab `from <= q1 <= to`, and where it is stuck: which pair, and from which value of joint 2 to which.
+/// A slab `from <= q1 <= to` with its collisions: the pair, and the interval of joint 2.
 pub(super) struct Stuck {
     pub from: f64,
     pub to: f64,
     pub by: Vec<(Pair, [f64; 2])>,
 }
 
-/// Boxes over all that is stuck in slabs side by side, within the range of joint 2. Whether the bounds that boxes are judged by see
-/// it, and no more than `most` boxes are there then.
+/// Adds boxes that cover all collisions of adjacent slabs, within the range of joint 2. Returns false if the bounds
+/// that judge boxes cannot confirm a box, or if there are more than `most` boxes.
 pub(super) fn lay(
     scene: &Scene,
     clearance: f64,
@@ -70,8 +71,8 @@ pub(super) fn lay(
     true
 }
 
-/// Boxes that state that a pair is stuck for `q2` in `interval`, all over the slab `from <= q1 <= to`. Whether the bounds that boxes
-/// are judged by see it.
+/// Adds boxes that state a collision of a pair for `q2` in `interval`, all over the slab `from <= q1 <= to`. Returns
+/// false if the bounds that judge boxes cannot confirm one.
 pub(super) fn tile(
     scene: &Scene,
     clearance: f64,

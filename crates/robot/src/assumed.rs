@@ -1,11 +1,11 @@
-//! Limits that a motion keeps although nobody gives them, and the words for them.
+//! Assumed limits for missing ones, and their description.
 
 use cplan_core::model::TIME_TO_TOP_SPEED;
 use cplan_text::short;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// Defaults that were taken for want of limits, by joint: rad/s or m/s, rad/s2 or m/s2. Only timing depends on them; path,
+/// Default limits that replace missing ones, by joint: rad/s or m/s, rad/s2 or m/s2. Only timing depends on them; path,
 /// certificate and proof do not.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
@@ -19,13 +19,13 @@ pub struct AssumedLimits {
 }
 
 impl AssumedLimits {
-    /// Whether all limits are given.
+    /// Returns true if all limits are given.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.velocity.is_empty() && self.acceleration.is_empty()
     }
 
-    /// All of them in words, for joints with these names and units of their values.
+    /// Returns all of them in words, for joints with these names and units of their values.
     #[must_use]
     pub fn notes(&self, joints: [(&str, &str); 2]) -> Vec<String> {
         let of_joint = |(name, unit): (&str, &str)| {
@@ -38,12 +38,12 @@ impl AssumedLimits {
     }
 }
 
-/// The words for a top speed that nobody gives.
+/// Returns the words for a missing top speed.
 fn assumed_speed_note(whose: &str, value: f64, unit: &str) -> String {
     format!("{whose}: no top speed given; assumed {} {unit}/s, for the timing alone", short(value))
 }
 
-/// The words for an acceleration that nobody gives.
+/// Returns the words for a missing acceleration limit.
 pub fn assumed_acceleration_note(whose: &str, value: f64, unit: &str) -> String {
     let value = short(value);
     format!(

@@ -30,7 +30,7 @@ pub struct Diagnostic {
     pub message: String,
     /// Hint for the user. Every diagnostic that reaches the user has one.
     pub help: Option<String>,
-    /// Its category.
+    /// Category.
     pub kind: DiagnosticKind,
 }
 
@@ -78,7 +78,7 @@ impl fmt::Display for Diagnostic {
     }
 }
 
-/// Input that cannot be used. Displays every diagnostic with its file, line and column, the source line, and what to do about it.
+/// Unusable input. Displays every diagnostic with its file, line and column, the source line, and a hint.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("{}", listed(.diagnostics))]
 pub struct InputError {
@@ -109,7 +109,7 @@ impl InputError {
         Self { diagnostics: self.diagnostics.into_iter().map(|diagnostic| diagnostic.about(kind)).collect() }
     }
 
-    /// Makes an error of these diagnostics. There must be at least one, and each needs help.
+    /// Creates an error from these diagnostics. There must be at least one, and each needs a hint.
     #[must_use]
     pub fn of(diagnostics: Vec<Diagnostic>) -> Self {
         debug_assert!(!diagnostics.is_empty(), "an error without a diagnostic");
@@ -123,7 +123,7 @@ impl InputError {
     /// Returns `Ok` when there are no diagnostics.
     ///
     /// # Errors
-    /// All of them.
+    /// All diagnostics.
     pub fn check(diagnostics: Vec<Diagnostic>) -> Result<(), Self> {
         if diagnostics.is_empty() { Ok(()) } else { Err(Self::of(diagnostics)) }
     }
@@ -135,7 +135,7 @@ impl From<Diagnostic> for InputError {
     }
 }
 
-/// More diagnostics than this are counted, not shown: the first ones usually cause the rest.
+/// Greatest number of diagnostics that are shown; the rest are counted, because the first ones usually cause them.
 const SHOWN: usize = 8;
 
 fn listed(diagnostics: &[Diagnostic]) -> String {
@@ -146,7 +146,8 @@ fn listed(diagnostics: &[Diagnostic]) -> String {
     lines.join("\n")
 }
 
-/// More names than this are counted, not listed: nobody reads them, and each diagnostic may have its own list.
+/// Greatest number of names in a list; the rest are counted, because nobody reads them, and each diagnostic may have
+/// its own list.
 const NAMED: usize = 64;
 
 /// Writes names in quotes, separated by commas, for messages.

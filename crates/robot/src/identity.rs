@@ -7,9 +7,9 @@ use std::sync::Mutex;
 /// Identity of a file, independent of the spelling of its path and of links.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct FileIdentity {
-    /// Absolute, without links.
+    /// Absolute path, without links.
     path: PathBuf,
-    /// Device and number of the file, where the system has them: hard links share these.
+    /// Device and number of the file, if the system has them: hard links share these.
     number: Option<(u64, u64)>,
 }
 
@@ -54,7 +54,7 @@ fn number(_: &fs::Metadata) -> Option<(u64, u64)> {
 /// Every input of this process so far: named on the command line, or by another input.
 static READ: Mutex<Vec<(PathBuf, FileIdentity)>> = Mutex::new(Vec::new());
 
-/// Takes note of a file that is read.
+/// Records a file that is read.
 pub(crate) fn note_read(path: &Path) {
     let Some(identity) = FileIdentity::of(path) else { return };
     let mut read = READ.lock().unwrap_or_else(|poisoned| poisoned.into_inner());

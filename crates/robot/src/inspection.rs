@@ -9,7 +9,7 @@ use serde::Serialize;
 /// The report on a robot. Facts that are unknown because of defects in the file are empty or missing.
 #[derive(Debug, Clone, Default, Serialize)]
 pub struct Inspection {
-    /// The path of the URDF, as it was given.
+    /// The path of the URDF, as given.
     pub urdf: String,
     /// The world file, if one was given.
     pub world: Option<String>,
@@ -25,7 +25,7 @@ pub struct Inspection {
     pub pairs: Vec<PairEntry>,
     /// The two joints that the rest of the report is about, base to tip.
     pub chosen: Option<[String; 2]>,
-    /// True if nobody chose them: they are the first pair of joints that forms a planar arm.
+    /// True if the joints were not chosen: they are the first pair that forms a planar arm.
     pub assumed: bool,
     /// Link whose origin is the tip.
     pub tip: Option<String>,
@@ -41,14 +41,14 @@ pub struct Inspection {
     pub ignored: Vec<String>,
     /// Warnings.
     pub warnings: Vec<String>,
-    /// A `[robot]` table for the world file with which the robot loads, where that is all that is missing. Ranges, speeds
-    /// and radii in it are placeholders.
+    /// A `[robot]` table for the world file with which the robot loads, if nothing else is missing. Ranges, speeds and
+    /// radii in it are placeholders.
     #[serde(rename = "remedy")]
     pub help: Option<String>,
     /// Errors that prevent planning, in the order of the stages. Planning would report the first one.
     #[serde(skip)]
     pub errors: Vec<InputError>,
-    /// The arm among the world's obstacles, for a picture: ranges and outlines that are missing are stood in for.
+    /// The arm among the world's obstacles, for a picture. Missing ranges and outlines are replaced by assumed ones.
     #[serde(skip)]
     pub scene: Option<Scene>,
     /// Frames of the two joints' links and of the tip's link at the zero configuration.
@@ -69,7 +69,7 @@ impl Inspection {
 pub struct LinkEntry {
     /// The link's name in the URDF.
     pub name: String,
-    /// The joint above it; none for the root.
+    /// The joint above it; `None` for the root.
     pub above: Option<String>,
     /// Number of collision shapes.
     pub collision: usize,
@@ -103,7 +103,7 @@ pub struct JointEntry {
     /// Joint type in the words of the file.
     #[serde(rename = "type")]
     pub kind: String,
-    /// Whether it slides: its values are metres, not radians.
+    /// True for a prismatic joint, whose values are metres, not radians.
     #[serde(skip)]
     pub slides: bool,
     /// Line of the URDF.
@@ -114,11 +114,11 @@ pub struct JointEntry {
     pub child: String,
     /// For movable joints: axis in the joint's own frame, of unit length.
     pub axis: Option<[f64; 3]>,
-    /// The same in the root frame, with the chosen joints at zero and the others at their held values.
+    /// The axis in the root frame, with the chosen joints at zero and the others at their held values.
     pub direction: Option<[f64; 3]>,
     /// The joint that it mimics.
     pub mimics: Option<String>,
-    /// Its role in the arm.
+    /// Role in the arm.
     pub role: Role,
     /// Value in the arm's zero configuration, radians or metres; `None` for rigid joints.
     pub value: Option<f64>,
@@ -143,7 +143,7 @@ pub enum LimitSource {
     Soft,
     /// `[robot] limits` of the world file.
     World,
-    /// The joint turns without end.
+    /// A continuous joint.
     Continuous,
     /// No range suitable for planning is given.
     Unset,
@@ -152,7 +152,7 @@ pub enum LimitSource {
 /// A joint's range, radians or metres.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct LimitEntry {
-    /// Its source.
+    /// Source of the range.
     pub source: LimitSource,
     /// Both ends; `None` if it is continuous or unset.
     pub range: Option<[f64; 2]>,
@@ -166,7 +166,7 @@ pub enum RateSource {
     Urdf,
     /// The world file.
     World,
-    /// Nobody says; taken in proportion to the top speed.
+    /// Not given; assumed in proportion to the top speed.
     Default,
 }
 
@@ -175,7 +175,7 @@ pub enum RateSource {
 pub struct RateEntry {
     /// Per second, per second squared or cubed; radians or metres.
     pub value: f64,
-    /// Its source.
+    /// Source of the rate.
     pub source: RateSource,
 }
 
@@ -188,7 +188,7 @@ pub struct PairEntry {
     pub kind: String,
     /// True if they form a planar arm.
     pub planar: bool,
-    /// The plane if they do, else why not.
+    /// The plane if they do, otherwise the reason why not.
     pub reason: String,
 }
 
@@ -201,7 +201,7 @@ pub struct PlaneEntry {
     pub v: [f64; 3],
     /// Direction of heights.
     pub normal: [f64; 3],
-    /// The same as text.
+    /// The plane as text.
     pub words: String,
 }
 
@@ -214,9 +214,9 @@ pub struct OutlineEntry {
     pub source: &'static str,
     /// Number of convex parts.
     pub parts: usize,
-    /// Sum of the parts' areas, square metres; what two parts share counts twice.
+    /// Sum of the parts' areas, square metres; areas that two parts share count twice.
     pub area: f64,
-    /// Extent along the plane's normal, metres; none without parts.
+    /// Extent along the plane's normal, metres; `None` without parts.
     pub heights: Option<[f64; 2]>,
     /// The URDF links that the parts belong to.
     pub bodies: Vec<BodyEntry>,
@@ -253,11 +253,11 @@ pub struct ReachEntry {
     pub tip: [f64; 2],
     /// For two revolute joints: least and greatest distance of the tip from joint 1 without limits, metres.
     pub distances: Option<[f64; 2]>,
-    /// Bound on the distance of any part of the arm from joint 1 with sliding joints at zero, metres.
+    /// Bound on the distance of any part of the arm from joint 1 with prismatic joints at zero, metres.
     pub outline: f64,
 }
 
-/// A frame as the plane sees it.
+/// A frame in plane coordinates.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Frame {
     /// Name of the joint, or of the tip's link.

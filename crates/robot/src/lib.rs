@@ -1,4 +1,4 @@
-//! The reader of a robot: URDF or xacro to a planar two-joint arm, and errors with file, line and what to do about it.
+//! The reader of a robot: from URDF or xacro to a planar two-joint arm, and errors with file, line and hint.
 //!
 //! ```text
 //! arm.xacro --> RobotFile --> Source (URDF text) --+--> load -----> Arm, RobotReport
@@ -9,7 +9,8 @@
 //! [`load`] stops at the first stage that fails; [`survey`] reports all stages. The other readers use the same errors
 //! ([`InputError`], [`Diagnostic`]), files ([`Source`]) and numbers ([`Quantity`]).
 //!
-//! To read the code: `error` and `source`, then `robot_table` and `quantity`, then `urdf`, whose first page lists the stages.
+//! Reading order for the code: `error` and `source`, then `robot_table` and `quantity`, then `urdf`, whose module
+//! documentation lists the stages.
 
 mod assumed;
 mod error;

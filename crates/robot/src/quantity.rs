@@ -1,4 +1,4 @@
-//! Numbers, and values of joints and angles, as the world file has them: `0.5`, or `"30deg"`.
+//! Numbers, and values of joints and angles, in the forms of the world file: `0.5`, or `"30deg"`.
 
 use super::error::Diagnostic;
 use super::source::Source;
@@ -8,22 +8,22 @@ use std::collections::BTreeMap;
 use std::fmt;
 use toml::Spanned;
 
-/// A joint's value or an angle: in radians or metres, whether it was written so or in degrees.
+/// A joint's value or an angle, in radians or metres; the file may state it in degrees.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Quantity {
     /// Radians or metres.
     pub value: f64,
-    /// Written in degrees, so that it is no length.
+    /// True if the file states degrees, so that it is no length.
     pub in_degrees: bool,
 }
 
-/// A value and where it stands.
+/// A value and its place in the file.
 pub type Written = Spanned<Quantity>;
 
-/// A number and where it stands.
+/// A number and its place in the file.
 pub type Number = Spanned<f64>;
 
-/// Several numbers, and where they and each of them stand.
+/// Several numbers, with the places of all and of each of them.
 pub type Numbers = Spanned<Vec<Number>>;
 
 /// Values by joint name, with the place of both.
@@ -68,7 +68,7 @@ impl Source {
     /// Returns the value of a number of this file; `what` names it in the message.
     ///
     /// # Errors
-    /// When it is not finite, or beyond [`LARGEST`].
+    /// If it is not finite, or beyond [`LARGEST`].
     pub fn finite(&self, number: &Number, what: &str) -> Result<f64, Diagnostic> {
         let value = *number.get_ref();
         if !value.is_finite() {

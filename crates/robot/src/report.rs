@@ -15,16 +15,16 @@ pub struct RobotReport {
     pub notes: Vec<String>,
     /// Warnings: links that cannot collide, meshes replaced by a bar.
     pub warnings: Vec<String>,
-    /// Limits that nobody gives.
+    /// Limits that are assumed because the files give none.
     pub assumed: AssumedLimits,
     /// Joints that could move but are held, and whose value matters to the arm: names and values, radians or metres.
     pub held: Vec<(String, f64)>,
-    /// The same joints with the effects of their motion.
+    /// These joints with the effects of their motion.
     #[serde(default)]
     pub held_joints: Vec<HeldJoint>,
     /// All movable joints, for messages that name them.
     pub joints: RobotJoints,
-    /// Why torques are not known, unless they are.
+    /// The reason why torques are unknown, if they are.
     #[serde(default)]
     pub no_dynamics: Option<String>,
 }
@@ -38,7 +38,7 @@ impl RobotReport {
         warnings.chain(self.assumptions(arm).iter().map(|assumption| format!("note: {assumption}"))).collect()
     }
 
-    /// Limits of an arm that nobody gives, in words: the same wherever they matter.
+    /// Returns the assumed limits of an arm, in the same words everywhere.
     #[must_use]
     pub fn assumptions(&self, arm: &Arm) -> Vec<String> {
         self.assumed.notes(arm.joints.each_ref().map(|joint| (joint.name.as_str(), joint.unit())))

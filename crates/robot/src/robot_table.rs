@@ -75,7 +75,7 @@ pub struct RobotTable {
 }
 
 impl RobotTable {
-    /// Returns the same table for a robot that stands in the origin. This is all that the URDF is read by.
+    /// Returns the same table for a robot at the origin. The URDF is read with this table alone.
     #[must_use]
     pub fn unplaced(&self) -> Self {
         Self { at: None, angle: None, ..self.clone() }

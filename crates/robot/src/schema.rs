@@ -1,10 +1,10 @@
-//! Types that stand for fields in the JSON schema of files in TOML.
+//! Types that represent fields in the JSON schema of files in TOML.
 
 /// Two numbers.
 pub type Two = [f64; 2];
 
-/// Defines a type that stands in a schema for the values of a field: its documentation, its name and its own schema.
-/// The crate that calls it must depend on `schemars`.
+/// Defines a type that represents the values of a field in a schema: its documentation, its name and its own schema.
+/// The calling crate must depend on `schemars`.
 #[macro_export]
 macro_rules! stands_for {
     ($(#[$doc:meta])* $name:ident, $schema:tt) => {

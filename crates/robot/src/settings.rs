@@ -8,7 +8,7 @@ use crate::source::Source;
 pub struct RobotSettings<'a> {
     /// The `[robot]` table.
     pub table: &'a RobotTable,
-    /// The world file, whose lines messages about the table show.
+    /// The world file, from which messages about the table quote lines.
     pub source: &'a Source,
     /// True if the world has steps, during which the wrist turns.
     pub has_steps: bool,

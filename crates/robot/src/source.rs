@@ -19,7 +19,8 @@ pub struct Position {
     pub column: usize,
 }
 
-/// The text of an input, read from a file or made by the program. As data it is the text with its name: nothing is read again.
+/// The text of an input, read from a file or made by the program. As data it is the text with its name; deserialisation
+/// does not read the file again.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Source {
     /// Path of the file, or name of a text in memory.
@@ -27,7 +28,7 @@ pub struct Source {
     text: String,
     /// True if the file exists, so that other files can be relative to it.
     is_file: bool,
-    /// The xacro files that the text was expanded from. Places in the text are reported as places in them.
+    /// The xacro files from which the text was expanded. Places in the text are reported as places in them.
     #[serde(skip)]
     expansion: Option<Arc<Expansion>>,
     /// Position of every [`MILE`]th byte, computed on first use.
@@ -63,7 +64,7 @@ impl Cursor<'_> {
         for byte in &self.bytes[self.read..offset] {
             match byte {
                 b'\n' => self.at = Position { line: self.at.line + 1, column: 1 },
-                // Bytes that continue a character are no columns of their own.
+                // Bytes that continue a character do not count as columns.
                 byte if byte & 0xc0 != 0x80 => self.at.column += 1,
                 _ => {}
             }
@@ -73,7 +74,8 @@ impl Cursor<'_> {
     }
 }
 
-/// Bytes of the largest file that is read. Real ones, meshes included, stay far below; a device that never ends does not.
+/// Greatest size of a file, bytes. Real files, meshes included, stay far below; this stops the reading of endless
+/// devices.
 const LARGEST_FILE: u64 = 256 << 20;
 
 /// Reads a file, with the error of the system.
@@ -95,11 +97,11 @@ fn read_at_most(path: &Path, most: u64) -> io::Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// Bytes of the largest recording that is read: cplan itself writes hours at a thousand samples a second in as many. Its values take up to
-/// three times as much memory.
+/// Greatest size of a recording, bytes: enough for hours at a thousand samples a second as written by cplan. Its values
+/// take up to three times as much memory.
 const LARGEST_RECORDING: u64 = 2 << 30;
 
-/// Bytes from one place whose line and column are known to the next.
+/// Number of bytes between places whose line and column are stored.
 const MILE: usize = 4096;
 
 /// Reads a file.
@@ -131,7 +133,7 @@ fn unreadable(path: &Path, error: &io::Error, too_large: &str) -> Diagnostic {
     })
 }
 
-/// Characters of a long source line that an excerpt shows on either side of the place.
+/// Number of characters on either side of the place that an excerpt of a long source line shows.
 const EXCERPT_REACH: usize = 60;
 
 impl Source {
@@ -182,7 +184,7 @@ impl Source {
     /// Reads a file as UTF-8, without a byte order mark.
     ///
     /// # Errors
-    /// A file that cannot be read, is larger than 256 MiB, or is no UTF-8.
+    /// A file that cannot be read, is larger than 256 MiB, or is not UTF-8.
     pub fn read(path: &Path) -> Result<Self, InputError> {
         Self::decoded(path, read_bytes(path)?)
     }
@@ -190,7 +192,7 @@ impl Source {
     /// Reads a recording as UTF-8.
     ///
     /// # Errors
-    /// As [`Source::read`], but up to 2 GiB.
+    /// Same as for [`Source::read`], but up to 2 GiB.
     pub fn read_recording(path: &Path) -> Result<Self, InputError> {
         Self::decoded(path, read_recorded(path)?)
     }

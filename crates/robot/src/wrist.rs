@@ -31,7 +31,7 @@ impl WristTable {
     /// Reads the wrist's limits. `source` is the file that the table is from.
     ///
     /// # Errors
-    /// When one is not positive or not finite.
+    /// If a limit is not positive or not finite.
     pub fn read(&self, source: &Source) -> Result<Wrist, Diagnostic> {
         let velocity = positive(source, &self.velocity, "velocity")?;
         let acceleration = self.acceleration.as_ref().map(|a| positive(source, a, "acceleration")).transpose()?;

@@ -1,8 +1,8 @@
 //! Starts and goals that are free, but nearer to an obstacle than a representation grown by a margin allows.
 //!
-//! Rather than to shrink the margin everywhere, which multiplies corners, such an end is replaced by a configuration
-//! that the representation knows as free, at the end of a short straight motion that is certified. The planner's path is
-//! completed by that motion, and judged as a whole like any other.
+//! Shrinking the margin everywhere would multiply corners. Instead, such an end is replaced by a stand-in: a
+//! configuration that is free in the representation, at the end of a short, certified straight motion. The planner's
+//! path is completed by that motion and then judged as a whole, like any other path.
 
 use cplan_core::check::certify;
 use cplan_core::cspace::{Grid, Regions, ZonedGrid, free_stretches};
@@ -13,7 +13,7 @@ use std::f64::consts::TAU;
 
 /// A representation that may block ends which are free.
 pub(super) trait Admit {
-    /// Whether a planner can begin or end at `q`.
+    /// Returns true if a planner can begin or end at `q`.
     fn admits(&self, q: Configuration) -> bool;
 }
 
@@ -35,17 +35,17 @@ impl Admit for ZonedGrid {
     }
 }
 
-/// How many directions are tried.
+/// Number of directions tried.
 const DIRECTIONS: usize = 64;
 
-/// Steps tried in each direction, the shortest first; each is twice the one before.
+/// Number of steps tried in each direction, the shortest first. Each is twice as long as the one before.
 const STEPS: usize = 13;
 
-/// The shortest step, radians or metres: far below what a margin of a thousandth of the reach asks for.
+/// Shortest step, radians or metres. Far smaller than the steps that a margin of a thousandth of the reach requires.
 const SHORTEST: f64 = 1e-4;
 
-/// `q` if the space admits it, else the end of the shortest certified straight motion from it to where it does; `q`
-/// again if there is none.
+/// Returns `q` if the space admits it. Otherwise returns the end of the shortest certified straight motion from `q` to
+/// an admitted configuration, or `q` itself if no such motion is found.
 fn stand_in(scene: &Scene, space: &impl Admit, q: Configuration) -> Configuration {
     if space.admits(q) {
         return q;
@@ -67,28 +67,28 @@ fn stand_in(scene: &Scene, space: &impl Admit, q: Configuration) -> Configuratio
     q
 }
 
-/// Places on a free stretch of goals at which a space is asked whether it knows any of it.
+/// Number of samples on a free stretch of goals when testing whether the space admits any part of it.
 const LOOKS: usize = 17;
 
-/// Stretches for which something stands in at most, the longest ones.
+/// Largest number of stretches that get a stand-in. The longest stretches come first.
 const MOST_STRETCHES: usize = 8;
 
-/// A problem's ends and what stands in for them.
+/// Start and goals of a problem, with their stand-ins.
 pub(super) struct Ends {
     topology: Topology,
     start: Configuration,
-    /// What stands in for a goal, and the goal; as copies near the start.
+    /// Pairs of a stand-in and its goal, as copies near the start.
     stand_ins: Vec<[Configuration; 2]>,
-    /// What the planner is asked.
+    /// The query for the planner.
     pub query: Query,
 }
 
-/// Two ends this near are copies of one another: far above rounding, far below any distance that matters.
+/// Distance below which two ends are copies of each other: far above rounding, far below any distance that matters.
 const SAME: f64 = 1e-9;
 
 impl Ends {
-    /// Single goals that the space does not know are replaced; of segments the space knows some part, as a rule, and for each
-    /// free stretch of which it knows nothing something stands in for its middle.
+    /// Replaces single goals that the space does not admit. The space usually admits some part of a goal segment.
+    /// A free stretch without such a part gets a stand-in for its middle.
     pub fn new(problem: &MotionProblem, space: &impl Admit) -> Self {
         let (scene, start) = (problem.scene(), problem.start());
         let topology = scene.arm().topology();
@@ -115,17 +115,18 @@ impl Ends {
         Self { topology, start, stand_ins, query }
     }
 
-    /// Whether something stands in for a goal.
+    /// Returns true if any goal has a stand-in.
     pub fn has_goal_stand_ins(&self) -> bool {
         self.stand_ins.iter().any(|[stand_in, goal]| stand_in != goal)
     }
 
-    /// The planner's path from the true start to the true goal by way of the stand-ins.
+    /// Completes the planner's path, so that it leads from the true start to the true goal through the stand-ins.
     pub fn complete(&self, path: &Path) -> Path {
         self.join(path.waypoints(), self.goal_reached(path))
     }
 
-    /// The same past the stand-ins, which saves the detour where it is free; none if there is nothing to save.
+    /// Completes the path without visiting the stand-ins, which saves the detour if the direct motion is free. Returns
+    /// `None` if the path has no stand-ins to skip.
     pub fn past_stand_ins(&self, path: &Path) -> Option<Path> {
         let (inner, goal) = (path.waypoints(), self.goal_reached(path));
         let (first, last) = (self.start != path.start(), goal != path.goal());
@@ -133,7 +134,7 @@ impl Ends {
         (inner.len() > 1 && (first || last)).then(past)
     }
 
-    /// The true goal, as the copy that the path leads to.
+    /// Returns the true goal, as the copy that the path leads to.
     fn goal_reached(&self, path: &Path) -> Configuration {
         let end = path.goal();
         let of = |[stand_in, goal]: &[Configuration; 2]| {
@@ -147,8 +148,8 @@ impl Ends {
     }
 }
 
-/// The goals of a segment in the domain that are to be asked for one by one: the middles of free stretches of which the space
-/// knows nothing.
+/// Returns the goals of a segment in the domain that must be queried one by one: the middles of free stretches that the
+/// space does not admit anywhere.
 fn middles_unknown(scene: &Scene, space: &impl Admit, piece: &Segment) -> Vec<Configuration> {
     let knows = |stretch: &Segment| (0..LOOKS).any(|k| space.admits(stretch.at(k as f64 / (LOOKS - 1) as f64)));
     let mut unknown = free_stretches(scene, piece, scene.workspace().clearance);

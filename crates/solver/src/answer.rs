@@ -1,4 +1,4 @@
-//! What a planner answers, and how it came to it.
+//! The outcome of a planner, and how the planner came to it.
 
 use super::{Bound, Method, Space, Stages};
 use cplan_core::check::{CertifiedPath, CheckedProof};
@@ -9,42 +9,42 @@ use std::borrow::Cow;
 use std::cmp::Ordering;
 use std::fmt;
 
-/// The outcome of a single motion, and how the planner came to it. [`solve`](super::solve) finds a path (`F`);
-/// the crate `engine` puts the motion along it in its place.
+/// The outcome of a single motion, and how the planner came to it. [`solve`](super::solve) finds a path,
+/// [`plan`](super::plan()) also computes the motion along it; `F` is the type of the result.
 #[derive(Debug, Clone)]
 pub struct Answer<F = BoundedPath> {
-    /// The planner that was asked.
+    /// The planner.
     pub method: Method,
-    /// What was found, the proof that there is none, or why neither is known.
+    /// The path or motion that was found, or a proof that there is no path, or the reason why neither is known.
     pub outcome: Outcome<F, CheckedProof, Unknown>,
-    /// Which of the method's paths was asked for.
+    /// The requested kind of path.
     pub path_kind: PathKind,
-    /// What became of each attempt before the last, coarse to fine, in words.
+    /// Results of all attempts except the last, from coarse to fine, in words.
     pub history: Vec<String>,
     /// The planner's last run.
     pub run: Run,
-    /// What it worked on.
+    /// The space that the planner worked on.
     pub space: Space,
-    /// Where the time went.
+    /// Time spent in each stage.
     pub stages: Stages,
 }
 
-/// A certified path, and how far it is from the optimum.
+/// A certified path, with a bound on its distance from the optimum.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BoundedPath {
     /// The path.
     pub certified: CertifiedPath,
-    /// Bounds on the optimum, of planners that look for it.
+    /// Bounds on the optimum. `None` if the planner does not look for it.
     pub bound: Option<Bound>,
 }
 
-/// Why it is not known whether there is a path.
+/// The reason why it is unknown whether there is a path.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Unknown {
     /// The reason, in words.
     pub reason: String,
-    /// A path that slabs or boxes found, which the method's own space does not show. It settles the question, but not by the method
-    /// that was asked.
+    /// A path that slabs or boxes found, but that the method's own space does not show. It proves that a path exists,
+    /// but the requested method did not find it.
     pub witness: Option<CertifiedPath>,
 }
 
@@ -55,7 +55,8 @@ impl BoundedPath {
         self.certified.path()
     }
 
-    /// Returns a proven lower bound on the distance between arm and obstacles along the path, metres; infinite if nothing can be hit.
+    /// Returns a proven lower bound on the distance between arm and obstacles along the path, metres. Infinite if no
+    /// obstacle is within reach.
     #[must_use]
     pub fn clearance(&self) -> f64 {
         self.certified.clearance()
@@ -93,7 +94,8 @@ impl From<String> for Unknown {
     }
 }
 
-/// A visibility graph of more corners than this is drawn as far as it was searched: more lines make a grey surface.
+/// Largest number of corners of a visibility graph that is drawn completely. Larger graphs are drawn only as far as
+/// they were searched, since more lines make a grey surface.
 const MOST_CORNERS: usize = 5_000;
 
 impl<F: AsRef<BoundedPath>> Answer<F> {
@@ -103,7 +105,7 @@ impl<F: AsRef<BoundedPath>> Answer<F> {
         self.outcome.found().map(|found| found.as_ref().path())
     }
 
-    /// Returns how far the path is from the optimum at the most, if one was found and the planner bounds it.
+    /// Returns the bounds on the path's length, if a path was found and the planner bounds it.
     #[must_use]
     pub fn bound(&self) -> Option<Bound> {
         self.outcome.found().and_then(|found| found.as_ref().bound)
@@ -111,7 +113,7 @@ impl<F: AsRef<BoundedPath>> Answer<F> {
 }
 
 impl<F> Answer<F> {
-    /// Returns why there is no motion, in words; none if there is one.
+    /// Returns the reason, in words, why there is no motion. `None` if there is one.
     #[must_use]
     pub fn reason(&self) -> Option<String> {
         match &self.outcome {
@@ -121,14 +123,14 @@ impl<F> Answer<F> {
         }
     }
 
-    /// What to draw of the planner's work: its trace; to that of a visibility graph all arcs between corners are added, which
+    /// Returns the trace to draw: the planner's own. For a visibility graph, all arcs between corners are added, which
     /// takes the time to find them.
     #[must_use]
     pub fn drawn(&self) -> Cow<'_, Trace> {
         if let (Trace::Roadmap { edges, whole: false }, Space::Regions(regions)) = (&self.run.trace, &self.space) {
             let map = Visibility::default().build(regions);
             if map.corners() <= MOST_CORNERS {
-                // Those that were searched end at start and goals too, and may be directed the other way.
+                // Searched arcs may also end at start and goals, and may have the opposite direction.
                 let key = |[a, b]: [Configuration; 2]| [a[0], a[1], b[0], b[1]];
                 let directed = |[a, b]: [Configuration; 2]| if key([a, b]) <= key([b, a]) { [a, b] } else { [b, a] };
                 let mut arcs: Vec<_> = map.arcs().into_iter().chain(edges.iter().copied()).map(directed).collect();

@@ -1,4 +1,4 @@
-//! How far a path is from the optimum, at the most.
+//! Upper bound on a path's distance from the optimum.
 
 use super::rungs::extent;
 use cplan_core::cspace::inner_regions;
@@ -7,19 +7,20 @@ use cplan_core::planner::{Planner as _, Proposal, Query, Visibility};
 use cplan_core::space::{Metric, Path};
 use cplan_proofs::{BoundEvidence, Motions, bound_evidence, least_length};
 
-/// A path's length and a proven lower bound on that of every other.
+/// The length of a path, and a proven lower bound on the length of every other path.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bound {
-    /// How lengths are measured.
+    /// The metric in which lengths are measured.
     pub metric: Metric,
-    /// No motion from the start to any of the goals, on whichever turns, is shorter.
+    /// Lower bound on the lengths of all motions from the start to any of the goals, on any turns.
     pub lower: f64,
     /// Length of the path.
     pub upper: f64,
 }
 
 impl Bound {
-    /// By which share the path is longer than the lower bound: 0.001 for a thousandth. Infinite where nothing is known.
+    /// Returns the share by which the path is longer than the lower bound: 0.001 for a thousandth. Infinite if no lower
+    /// bound is known.
     #[must_use]
     pub fn gap(&self) -> f64 {
         if self.upper <= self.lower { 0.0 } else { self.upper / self.lower - 1.0 }
@@ -33,34 +34,36 @@ impl Bound {
     }
 }
 
-/// A bound for `path`; see [`least_length`], and of gantries [`inner_regions`]. It is made better until the gap is known to be
-/// below `gap` (0.001 for a thousandth), or cannot be. Milliseconds, as a rule.
+/// Returns bounds for `path`; see [`least_length`], and [`inner_regions`] for gantries. Refines the lower bound until
+/// the gap is known to be below `gap` (0.001 for a thousandth), or cannot be. Usually takes milliseconds.
 #[must_use]
 pub fn bound(problem: &MotionProblem, path: &Path, metric: Metric, gap: f64) -> Bound {
     let upper = metric.length(path);
     Bound { metric, lower: lower_bound(&motions(problem, metric), upper, gap, &[]), upper }
 }
 
-/// What polygons lose of obstacles, as shares of the gap and the arm's extent: a corner makes a way shorter by about as much.
+/// Loss of the polygons against the obstacles, as a share of the gap times the arm's extent. A corner shortens a path
+/// by about that much.
 const LOST: f64 = 0.02;
 
-/// The same, as a share of the extent, at least: far above rounding.
+/// Smallest such loss, as a share of the extent: far above rounding.
 const LEAST_LOST: f64 = 1e-9;
 
-/// Of gantries the polygons of so many pairs are united at most: as fine as they are, that takes some tenths of a second, and a
-/// minute with a few times as many that overlap.
+/// Largest number of pairs of a gantry whose polygons are united. At this resolution, that many take some tenths of a
+/// second. A few times as many overlapping ones take a minute.
 pub(super) const FEW_POLYGONS: usize = 512;
 
-/// What rounding may add to a length, as a share of it.
+/// Share that rounding may add to a length.
 const ROUNDING: f64 = 1e-9;
 
-/// A lower bound on the lengths of motions. Of gantries it is the shortest way past the exact C-obstacles, up to a hair; otherwise
-/// that of [`least_length`].
+/// Computes a lower bound on the lengths of motions. For gantries it is the length of the shortest path past the exact
+/// C-obstacles, up to a small tolerance; otherwise it is that of [`least_length`].
 pub(super) fn lower_bound(motions: &Motions, upper: f64, gap: f64, slices: &[f64]) -> f64 {
     past_polygons(motions, gap).unwrap_or_else(|| least_length(motions, upper, gap, slices))
 }
 
-/// The length of the shortest way past polygons that lie within the C-obstacles of a gantry; none where these are not known.
+/// Computes the length of the shortest path past polygons inside the C-obstacles of a gantry. `None` if these polygons
+/// are not known.
 fn past_polygons(motions: &Motions, gap: f64) -> Option<f64> {
     let Motions { scene, start, goals, metric, .. } = *motions;
     if scene.pairs().len() > FEW_POLYGONS {
@@ -78,10 +81,10 @@ fn past_polygons(motions: &Motions, gap: f64) -> Option<f64> {
 /// are known beforehand.
 const FINER: f64 = 0.05;
 
-/// The least gap that evidence is looked for.
+/// Smallest gap for which evidence is sought.
 const LEAST_GAP: f64 = 1e-9;
 
-/// All motions that answer a problem.
+/// Returns all motions that answer a problem.
 pub(super) fn motions(problem: &MotionProblem, metric: Metric) -> Motions<'_> {
     let scene = problem.scene();
     let clearance = scene.workspace().clearance;

@@ -1,4 +1,4 @@
-//! How many cells a grid has along its axes.
+//! Number of cells of a grid along its axes.
 
 use super::planner_errors::wrong_number;
 use super::setting::CELLS;
@@ -6,12 +6,13 @@ use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::str::FromStr;
 
-/// Cells along the first joint's axis and along the second's. As text `256`, or `128x512`; as data a number, or a pair.
+/// Numbers of cells along the axes of the first and the second joint. As text: `256` or `128x512`. As data: a number or
+/// a pair.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(from = "Written", into = "Written")]
 pub struct CellCounts(pub [usize; 2]);
 
-/// As data has it.
+/// Serialized form of cell counts.
 #[derive(Debug, Clone, Copy, Serialize, Deserialize)]
 #[serde(untagged)]
 enum Written {
@@ -20,13 +21,13 @@ enum Written {
 }
 
 impl CellCounts {
-    /// As many along both.
+    /// Returns the same count for both axes.
     #[must_use]
     pub fn square(n: usize) -> Self {
         Self([n; 2])
     }
 
-    /// What is wrong with them, in words.
+    /// Describes, in words, the error in the counts. `None` if they are valid.
     #[must_use]
     pub fn error(self) -> Option<String> {
         self.0.into_iter().find_map(|n| wrong_number("cells", n, &CELLS))
@@ -88,7 +89,7 @@ mod tests {
             let written = serde_json::to_string(&counts).unwrap();
             assert_eq!(serde_json::from_str::<CellCounts>(&written).unwrap(), counts);
         }
-        // As it was stored before there were two.
+        // The format from the time when both counts were equal.
         assert_eq!(serde_json::to_string(&CellCounts::square(64)).unwrap(), "64");
         assert_eq!(CellCounts([8, 7]).error(), Some("cells: 7 is not from 8 to 2048".to_owned()));
     }

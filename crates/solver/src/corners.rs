@@ -1,22 +1,25 @@
-//! Fewer corners: a path that is a little longer, and smoother to drive.
+//! Removal of corners: the path becomes a little longer, and smoother to drive.
 //!
-//! Shortest paths hug what they lead past in many short pieces. Where a path turns to the same side at both ends of a piece, the
-//! pieces before and after it are drawn out until they meet: away from what the path hugs, with one corner less.
+//! Shortest paths follow obstacles in many short pieces. Where a path turns to the same side at both ends of a piece,
+//! the pieces before and after it are extended until they meet. The new corner lies away from the obstacle, and the
+//! path has one corner less.
 
 use cplan_core::check::{CertifiedPath, Rejection, certify};
 use cplan_core::model::Scene;
 use cplan_core::space::{Configuration, Metric, Path, Topology};
 use cplan_geometry::OpenList;
 
-/// Times that pieces which have come too near to something are left as they are, and the rest is certified again.
+/// Number of attempts. After each one, pieces that came too near to an obstacle are kept, and the rest is certified
+/// again.
 const TRIES: usize = 6;
 
-/// Pieces are drawn out no farther than this many times the length of the piece that they replace: they meet at an angle.
+/// Longest extension of a piece, as a multiple of the length of the piece that it replaces. Without it, pieces that
+/// meet at a small angle would grow without limit.
 const FARTHEST: f64 = 8.0;
 
-/// `path` with fewer corners, longer by at most `budget`; certified. None if no corner can be spared.
+/// Returns `path` with fewer corners, longer by at most `budget`, and certified. `None` if no corner can be removed.
 ///
-/// The pieces that cost least go first: `O(n log n)` for `n` corners, and a certificate.
+/// The cheapest pieces go first. Costs `O(n log n)` for `n` corners, and one certificate per attempt.
 pub(super) fn fewer_corners(scene: &Scene, path: &Path, metric: Metric, budget: f64) -> Option<CertifiedPath> {
     let topology = scene.arm().topology();
     let mut too_near = Vec::new();
@@ -34,16 +37,16 @@ pub(super) fn fewer_corners(scene: &Scene, path: &Path, metric: Metric, budget: 
     None
 }
 
-/// A piece that may go, in the list of what is left.
+/// A piece that may be removed, as an entry of the linked list of remaining pieces.
 struct Piece {
     before: usize,
     after: usize,
-    /// Counts the changes of its surroundings.
+    /// Number of changes to the piece or its neighbours.
     version: u32,
     gone: bool,
 }
 
-/// The waypoints that are left, no piece drawn out over a configuration that came `too_near`.
+/// Returns the remaining waypoints. Keeps every piece whose extension would cover a configuration that came `too_near`.
 fn drawn_out(
     topology: &Topology,
     waypoints: &[Configuration],
@@ -55,7 +58,7 @@ fn drawn_out(
     let n = at.len();
     let mut left: Vec<Piece> =
         (0..n).map(|i| Piece { before: i.wrapping_sub(1), after: i + 1, version: 0, gone: false }).collect();
-    // A piece is known by its first corner.
+    // The index of a piece is that of its first corner.
     let offer = |at: &[Configuration], left: &[Piece], i: usize| {
         let (h, j) = (left[i].before, left[i].after);
         let k = left.get(j)?.after;
@@ -105,8 +108,8 @@ fn drawn_out(
     (0..n).filter(|&i| !left[i].gone).map(|i| at[i]).collect()
 }
 
-/// Where the lines through the first two and through the last two of four waypoints meet, beyond the second and the third; none
-/// if they do not, or far away.
+/// Returns the point where the lines through the first two and through the last two of four waypoints meet, beyond the
+/// second and the third. `None` if they do not meet, or only far away.
 fn meeting([a, b, c, d]: [Configuration; 4]) -> Option<Configuration> {
     let (first, second, base) = (b - a, c - d, c - b);
     let cross = |u: Configuration, v: Configuration| u[0] * v[1] - u[1] * v[0];
@@ -117,7 +120,7 @@ fn meeting([a, b, c, d]: [Configuration; 4]) -> Option<Configuration> {
     (along >= 0.0 && back >= 0.0 && along.is_finite() && back.is_finite() && near(b) && near(c)).then_some(corner)
 }
 
-/// Whether a configuration is within the bounds of some others.
+/// Returns true if a configuration is within the bounds of some others, widened by their extent.
 fn is_about(q: Configuration, others: &[Configuration; 3]) -> bool {
     (0..2).all(|k| {
         let (least, greatest) =
@@ -135,7 +138,7 @@ mod tests {
 
     const WIDE: Topology = Topology { ranges: [JointRange::Interval { lower: -2.0, upper: 2.0 }; 2] };
 
-    /// A quarter of a circle in so many chords, led up to and away from along its tangents.
+    /// Returns a quarter of a circle made of `chords` chords, with a tangent line at each end.
     fn quarter(chords: usize) -> Vec<Configuration> {
         let at = |k: usize| {
             let (sin, cos) = (FRAC_PI_2 * k as f64 / chords as f64).sin_cos();
@@ -158,12 +161,13 @@ mod tests {
         for budget in [1e-5, 1e-4, 1e-3, 1e-2] {
             let fewer = drawn_out(&WIDE, &arc, Metric::Euclidean, budget, &[]);
             assert!(length(&fewer) <= length(&arc) + budget + 1e-12, "{budget}: {}", length(&fewer));
-            // Tangents of `a` radians each are longer than the arc by about a^3 / 12: the least number within the budget is n with
-            // (pi / 2)^3 / (12 n^2) = budget. Merging the cheapest first does not find it, but less than twice as many.
+            // Tangents that span `a` radians each are longer than the arc by about a^3 / 12. So the least number n
+            // within the budget satisfies (pi / 2)^3 / (12 n^2) = budget. Merging the cheapest pieces first leaves less
+            // than twice that many.
             let least = (FRAC_PI_2.powi(3) / 12.0 / budget).sqrt();
             assert!((fewer.len() as f64) < 2.0 * least + 4.0 && fewer.len() < before, "{budget}: {}", fewer.len());
             before = fewer.len();
-            // What the arc was pulled around stays where it was.
+            // The path stays outside the circle that the arc follows.
             let inside = arc[1].norm() * (FRAC_PI_2 / 400.0).cos() - 1e-12;
             for ends in fewer.windows(2).filter(|ends| ends[0][0] >= 0.0 && ends[1][1] >= 0.0) {
                 let across = (ends[0][0] * ends[1][1] - ends[0][1] * ends[1][0]).abs() / (ends[1] - ends[0]).norm();
@@ -185,7 +189,7 @@ mod tests {
             ],
         };
         assert!(drawn_out(&narrow, &arc, Metric::Euclidean, 10.0, &[]).iter().all(|q| narrow.contains(*q)));
-        // The corner that all would go to is where an obstacle was met.
+        // An obstacle was met at the corner where all pieces would meet.
         let others = drawn_out(&WIDE, &arc, Metric::Euclidean, 10.0, &[Configuration::new(0.999, 0.999)]);
         assert!(others.len() > 3 && !others.contains(&all[1]), "{others:?}");
     }

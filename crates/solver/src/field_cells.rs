@@ -1,4 +1,4 @@
-//! The cells of a field, before anything solves it.
+//! The cells of a field, before its equation is solved.
 
 use super::admission::Ends;
 use super::rungs::zoned_cells;
@@ -8,11 +8,12 @@ use cplan_core::model::MotionProblem;
 use cplan_fields::field_domain;
 use cplan_fields::{Cell, Domain, Limits};
 
-/// The cells of a problem's first level, with the world's preferences, and which of them are free, obstacles and goals: what the harmonic
-/// planner relaxes an equation on. There are so many along each axis, as `--cells` of that planner has it.
+/// Returns the cells of a problem's first level with the world's preferences, and marks which of them are free,
+/// obstacles and goals. The harmonic planner relaxes an equation on them. The number of cells along each axis is that
+/// of the planner's `--cells`.
 ///
 /// # Errors
-/// Where start or goal has no free cell near it, or no free cell leads to the goal: why, in words.
+/// Returns the reason, in words, if start or goal has no free cell near it, or if no free cell leads to the goal.
 pub fn field_on_cells(problem: &MotionProblem, cells: usize, limits: Limits) -> Result<(ZonedGrid, Domain), String> {
     let space = zoned_cells(problem, GridSpace::Rows, Some(CellCounts::square(cells)), 0);
     let space = space.ok_or_else(|| format!("there is no grid of {cells} x {cells} cells"))?;

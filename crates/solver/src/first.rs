@@ -1,4 +1,4 @@
-//! The first answer: a certified path, or a proof, by slabs alone.
+//! The planner `first`: a certified path or a proof, by [`decide`] alone.
 
 use super::ladder::Request;
 use super::settle::decide;
@@ -16,7 +16,7 @@ pub(super) fn solve(Request { problem, options, .. }: Request) -> Answer {
     answer(Method::First, decided, stages)
 }
 
-/// An answer of a method that builds no space, from what it found alone.
+/// Builds the answer of a method that has no space, from its outcome alone.
 pub(super) fn answer(method: Method, decided: Outcome<CertifiedPath, CheckedProof>, stages: Stages) -> Answer {
     let (proposal, outcome) = match decided {
         Outcome::Found(path) => (Proposal::Found(path.path().clone()), Outcome::Found(path.into())),

@@ -1,26 +1,27 @@
-//! How grids come about.
+//! Methods that decide the cells of a grid.
 
 use serde::{Deserialize, Serialize};
 
-/// How the cells of a grid are decided.
+/// The method that decides the cells of a grid.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum GridSpace {
-    /// By exact slices: cells that are wholly free, then cells whose centres are ([`Proves`](cplan_core::cspace::Proves) says which).
+    /// Exact slices: first cells that are free throughout, then cells whose centres are free
+    /// ([`Proves`](cplan_core::cspace::Proves) says which).
     #[default]
     Rows,
-    /// By exact slices: cells whose centres are free, from the first attempt on, as the literature's grids have it.
+    /// Exact slices: cells whose centres are free, from the first attempt on, as grids in the literature do.
     Centers,
-    /// By parry2d's collision checks at the centres ([`Proves::Sampled`](cplan_core::cspace::Proves::Sampled)): what other libraries
-    /// do, to compare with. Slower by as much as there are more cells than slices.
+    /// Collision checks of parry2d at the centres ([`Proves::Sampled`](cplan_core::cspace::Proves::Sampled)), as other
+    /// libraries do, for comparison. Slower than slices by the number of cells per slice.
     Sampled,
 }
 
 impl GridSpace {
-    /// All, in the order of the command line's help.
+    /// All methods, in the order of the command line's help.
     pub const ALL: [Self; 3] = [Self::Rows, Self::Centers, Self::Sampled];
 
-    /// Name on the command line.
+    /// Returns the name on the command line.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -30,7 +31,7 @@ impl GridSpace {
         }
     }
 
-    /// Attempts until cells become smaller: by slices those of one size are decided in two ways.
+    /// Returns the number of attempts until cells become smaller. Slices decide cells of one size by two methods.
     #[must_use]
     pub fn levels_of_a_size(self) -> usize {
         match self {
@@ -39,7 +40,7 @@ impl GridSpace {
         }
     }
 
-    /// What results say of it: nothing of slices.
+    /// Returns the name for results. `None` for the default.
     #[must_use]
     pub fn told(self) -> Option<&'static str> {
         (self != Self::Rows).then(|| self.name())

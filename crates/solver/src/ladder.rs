@@ -14,23 +14,24 @@ use cplan_fields::FieldChoice;
 use cplan_interrupt::Instant;
 use cplan_text::percent;
 
-/// Boxes of the first look for a proof, after the first attempt has failed: enough where a proof is easy, and little
-/// beside a finer attempt where it is not.
+/// Number of boxes of the first search for a proof, after the first attempt has failed. It suffices if a proof is easy,
+/// and is cheap compared with a finer attempt if it is not.
 pub(super) const FIRST_BOXES: usize = 20_000;
 
-/// Lower bounds are made better until the path is known to be within this share of the optimum, or cannot be.
+/// Lower bounds are refined until the path is known to be within this share of the optimum, or cannot be.
 pub(super) const CLOSE: f64 = 1e-4;
 
-/// A path that may be longer than the optimum by more than this share of it is looked at again on finer levels, though no gap is
-/// asked for: a shorter way may lead through a passage that the first level closes. Such paths are rare, one in a hundred.
+/// Gap above which a path is planned again on finer levels, even if no gap was requested. A shorter path may lead
+/// through a passage that the first level closes. Such paths are rare: about one in a hundred.
 const WIDE: f64 = 0.05;
 
-/// The last level for that, four times finer each: it shows passages down to a five-thousandth of the arm's reach.
+/// The last level for that. Each level is four times finer, so it shows passages down to a five-thousandth of the arm's
+/// reach.
 const LAST_LOOK: usize = 2;
 
-/// Answers `problem` with the options' planner. `progress` hears about attempts that failed.
+/// Answers `problem` with the options' planner. Failed attempts are reported to `progress`.
 ///
-/// What is out of the arm's reach is left out of the search; paths are certified among all.
+/// The search omits obstacles out of the arm's reach. Paths are certified among all obstacles.
 #[must_use]
 pub fn solve(problem: &MotionProblem, options: &Options, progress: &mut dyn FnMut(&str)) -> Answer {
     let scene = problem.scene();
@@ -54,7 +55,7 @@ fn answered(problem: &MotionProblem, options: &Options, progress: &mut dyn FnMut
     solve(Request { problem, options, progress })
 }
 
-/// What a planner is asked, and who hears about attempts that failed.
+/// A planning request, with the receiver of messages about failed attempts.
 pub(super) struct Request<'a> {
     pub problem: &'a MotionProblem,
     pub options: &'a Options,
@@ -79,7 +80,7 @@ where
     climb(request, planner, |level| grid_cells(problem, space, cells, level))
 }
 
-/// Answers on the cells of a grid that know the world's preferences.
+/// Answers on the cells of a grid with the world's preferences.
 pub(super) fn on_zoned_cells<P>(request: Request, planner: impl Fn(&Settings, usize) -> P) -> Answer
 where
     P: Planner<Space = ZonedGrid>,
@@ -88,13 +89,14 @@ where
     climb(request, planner, |level| zoned_cells(problem, space, cells, level))
 }
 
-/// Answers by a visibility graph, which also has its turn for other planners that optimise.
+/// Answers by a visibility graph. Other planners that optimise also use this.
 pub(super) fn by_visibility(request: Request) -> Answer {
     let metric = request.options.planner.metric(request.problem.scene().arm());
     on_polygons(request, |s, _| Visibility { metric, search: s.search, graph: s.graph })
 }
 
-/// Level after level, until a path is good enough or a proof is found: of each the planner and the space.
+/// Plans level after level, until a path is good enough or a proof is found. The arguments make the planner and the
+/// space of each level.
 fn climb<P: Planner>(
     Request { problem, options, progress }: Request,
     planner: impl Fn(&Settings, usize) -> P,
@@ -126,10 +128,10 @@ where
         };
         climb.stages.query += clock.elapsed();
         climb.level = level;
-        // On a finer grid a field takes more sweeps yet.
+        // A field on a finer grid takes even more sweeps.
         let takes_more = matches!((&run.outcome, &run.note), (Proposal::GaveUp(_), Some(Note::Unconverged { .. })));
         let failure = climb.judge(&ends, &run.outcome).map(|failure| format!("{}: {failure}", space.describe()));
-        // Exact polygons are asked for to be seen, whatever the path needs.
+        // Exact polygons were requested for display, so they are kept whatever space the path needs.
         if level == 0 || !keeps_first {
             last = Some((run, space));
         }
@@ -154,7 +156,7 @@ where
     }
     let (run, space) = last.unwrap_or_else(|| unreachable!("the first level always has a space"));
     let why = || history.last().cloned().unwrap_or_default();
-    // Local minima of forces stay on finer grids.
+    // Local minima of force fields remain on finer grids.
     let has_minima = options.planner.field().is_some_and(|planner| matches!(planner.field, FieldChoice::Khatib(_)));
     let is_coarse = options.planner.cells().is_some() && history.len() == options.levels && !has_minima;
     let hint = if is_coarse && !sweeps_end { "; more --cells or --levels may show one" } else { "" };
@@ -173,19 +175,20 @@ where
     Answer { method, outcome, path_kind, history, run, space: space.into(), stages }
 }
 
-/// What is known on the way up the ladder.
+/// The state of the search on the way up the ladder.
 struct Climb<'a> {
     problem: &'a MotionProblem,
     options: &'a Options,
     metric: Metric,
     level: usize,
     stages: Stages,
-    /// The best certified path so far, with a bound by all levels together.
+    /// The best certified path so far, with the bound of all levels.
     path: Option<BoundedPath>,
 }
 
 impl Climb<'_> {
-    /// What a level's outcome is worth. Why to go on, in words; none if there is no reason to.
+    /// Judges a level's outcome. Returns the reason for trying a finer level, in words, or `None` if there is no
+    /// reason.
     fn judge(&mut self, ends: &Ends, outcome: &Proposal) -> Option<String> {
         let proposal = match outcome {
             Proposal::Found(path) => path,
@@ -205,16 +208,17 @@ impl Climb<'_> {
         }
     }
 
-    /// `failure`, unless there is a path and no gap that is still to be closed: the one asked for, or else a wide one.
+    /// Returns `failure`, unless there is a path and its gap is small enough: below the requested gap, or else not
+    /// wide.
     fn unless_content(&self, failure: String) -> Option<String> {
         let gap = self.options.planner.gap().or((self.level < LAST_LOOK).then_some(WIDE));
-        // A search that takes any path takes this one.
+        // A search that does not optimise accepts this path.
         let gap = gap.filter(|_| self.options.planner.optimises());
         let wants_more = self.bound().zip(gap).is_some_and(|(bound, gap)| bound.gap() > gap);
         (self.path.is_none() || wants_more).then_some(failure)
     }
 
-    /// The certified path from start to goal along a proposal between their stand-ins.
+    /// Returns the certified path from start to goal along a proposal between their stand-ins.
     fn certified(&mut self, ends: &Ends, proposal: &Path) -> Result<CertifiedPath, Rejection> {
         let clock = Instant::now();
         let judge = |path| certify(self.problem.scene(), path, self.problem.scene().workspace().clearance);
@@ -224,12 +228,12 @@ impl Climb<'_> {
         certified
     }
 
-    /// How far the best path is from the optimum at the most.
+    /// Returns the bounds of the best path.
     fn bound(&self) -> Option<Bound> {
         self.path.as_ref().and_then(|path| path.bound)
     }
 
-    /// Keeps a path if it is the best so far, and bounds it where the method is after the optimum.
+    /// Keeps a path if it is the best so far. Bounds it if the method looks for the optimum.
     fn keep(&mut self, certified: CertifiedPath) {
         if !self.options.bounded || !self.options.planner.method().optimises() {
             self.path = Some(certified.into());
@@ -238,7 +242,7 @@ impl Climb<'_> {
         let clock = Instant::now();
         let (metric, gap) = (self.metric, self.options.planner.gap());
         let upper = metric.length(certified.path());
-        // What no motion is below does not depend on the path: once is enough.
+        // The lower bound does not depend on the path, so it is computed once.
         let best = self.bound();
         let found = best.map_or_else(
             || bound(self.problem, certified.path(), metric, gap.map_or(CLOSE, |gap| CLOSE.min(gap / 2.0))),
@@ -251,8 +255,8 @@ impl Climb<'_> {
     }
 }
 
-/// The run whose path is the shortest when it is completed. A planner measures to the stand-in of a goal, not to the goal:
-/// where that makes a difference each goal is asked for by itself.
+/// Returns the run whose completed path is the shortest. A planner measures to the stand-in of a goal, not to the goal.
+/// If that makes a difference, each goal is planned for separately.
 fn shortest_of_all(ends: &Ends, metric: Metric, query: impl Fn(&Query) -> Run) -> Run {
     if ends.query.goals.pieces().len() < 2 || !ends.has_goal_stand_ins() {
         return query(&ends.query);
@@ -267,7 +271,7 @@ fn shortest_of_all(ends: &Ends, metric: Metric, query: impl Fn(&Query) -> Run) -
     shortest.unwrap_or_else(|| query(&ends.query))
 }
 
-/// Whether there is a path at all, whatever a planner's space shows; none if that is not known.
+/// Decides whether there is a path at all, independent of a planner's space. `None` if that is not known.
 fn settle(problem: &MotionProblem, boxes: usize, stages: &mut Stages) -> Option<Outcome<CertifiedPath, CheckedProof>> {
     let clock = Instant::now();
     let decided = decide(problem, boxes);

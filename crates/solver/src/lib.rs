@@ -1,40 +1,53 @@
-//! From a problem to a verdict: build a space, plan, certify; refine and replan where that fails; and where no path is
-//! found, look for a proof that there is none.
+//! The solver: it builds a space, plans a path and certifies it. If that fails, it refines the space and plans again.
+//! If no path is found, it looks for a proof that no path exists.
 //!
-//! Planners see approximations of the configuration space, so their paths are proposals. What leaves this module as
-//! found has passed [`cplan_motion::recorded`], what leaves it as infeasible is proven there.
+//! Planners see approximations of the configuration space, so their paths are only proposals. Every path that this
+//! crate reports as found has passed [`cplan_motion::recorded`]. Every answer reported as infeasible is proven.
 //!
 //! # The ladder
 //!
-//! A rung is a space: for roadmaps `cspace::regions` with a margin (a quarter of it on the next rung), for fields
-//! `cspace::outer_grid`, whose free cells are wholly free, then `cspace::grid_from_slices` with as many cells free at their
-//! centres (passages look some three cells wider, and the certificate judges the path), then twice the cells. The cells
-//! of fields are square in joint space unless their number is given, so that the equation is that of the configuration
-//! space (`rungs`). A start or goal nearer to an obstacle than the margin is free, but not in such a space: `admission`
-//! lets a certified straight step lead to where it is (or, where that is certified too, the path goes past it).
+//! A rung of the ladder is a space:
+//! - Roadmaps use `cspace::regions` with a margin, which shrinks to a quarter on each rung.
+//! - Fields first use `cspace::outer_grid`, whose free cells are free throughout. Then they use
+//!   `cspace::grid_from_slices` with the same number of cells, which are free at their centres: passages look some
+//!   three cells wider, and the certificate judges the path. Then the number of cells along each axis is doubled.
 //!
-//! The path that a planner proposes is certified. What fails is refined and planned again; after the first failure, and
-//! at the end, [`cplan_proofs`] looks for a proof that there is no path. Should it find a path instead, which the
-//! planner's space does not show, the answer stays unknown, and says so ([`Unknown::witness`]).
+//! The cells of fields are square in joint space unless their number is given, so that the equation is that of the
+//! configuration space (`rungs`).
+//!
+//! A start or goal nearer to an obstacle than the margin is free, but not in such a space. For these, `admission` finds
+//! a certified straight step to a configuration that is free in the space. If the path can also be certified without
+//! this detour, it skips the configuration.
+//!
+//! The path that a planner proposes is certified. If that fails, the space is refined and the path planned again. After
+//! the first failure, and at the end, [`cplan_proofs`] looks for a proof that there is no path. If that search finds a
+//! path instead, which the planner's space does not show, the answer remains unknown and includes that path
+//! ([`Unknown::witness`]).
 //!
 //! # Replays
 //!
-//! [`Replay`] tells a run again in phases, from its trace, and from what is found once more for it alone.
+//! [`Replay`] shows a run again in phases, from its trace and from data that is recomputed only for the replay.
 //!
 //! # Planners without a space
 //!
-//! [`decide`], and the planner `first`, is that question by itself, within one budget (among thousands of pieces it is
-//! put to some of them first: what these close is closed). The planner `subdivision` is the search of boxes itself: it
-//! judges the scene, so it has no representation to build or to refine, and `planner` lends it only the funnel path.
+//! [`decide`], and the planner `first`, run that search alone, within one budget. Among thousands of pieces, they first
+//! try some of the pieces: if these block all paths, so do all pieces together. The planner `subdivision` is the search
+//! of boxes itself. It judges the scene, so it has no representation to build or to refine, and uses only the funnel
+//! path of `planner`.
 //!
-//! The planner `shortest`, the default, is the search that bounds the optimum, twice. Slabs give a first path, which says
-//! how far to look; among obstacles that are grown by a hair the way keeps off the true ones and is certified; the same
-//! slices among the true ones give the bound. What is left of the gap is spent on fewer corners (`corners`), which makes
-//! motions faster. Of gantries, whose C-obstacles are polygons, a visibility graph past polygons grown by a little has the
-//! path, and one past polygons shrunk by a hair the bound: milliseconds where strips take seconds, as in a long spiral.
-//! Otherwise polygons and graphs are built where the search fails only: then the visibility graph has its turn on behalf of
-//! `shortest`. The planner `visibility` itself climbs to finer margins until both ends of the interval meet; without
-//! `--gap` two levels at the most, where the interval is wider than 5 %.
+//! The planner `shortest`, the default, runs the search that bounds the optimum twice:
+//! - Slabs give a first path, whose length limits the search.
+//! - Among slightly grown obstacles, the shortest path keeps off the true ones and can be certified.
+//! - The same slices among the true obstacles give the bound.
+//! - The remaining gap is spent on removing corners (`corners`), which makes motions faster.
+//!
+//! The C-obstacles of gantries are polygons. There, a visibility graph past slightly grown polygons gives the path, and
+//! one past slightly shrunk polygons the bound. That takes milliseconds where strips take seconds, as in a long spiral.
+//! For other arms, polygons and graphs are built only if the search fails: then the visibility graph answers for
+//! `shortest`.
+//!
+//! The planner `visibility` itself climbs to finer margins until both ends of the interval meet. Without `--gap` it
+//! climbs two levels at most, and only if the interval is wider than 5 %.
 
 mod admission;
 mod answer;

@@ -1,4 +1,4 @@
-//! What is asked for: a planner with options of its own, how to drive, and what files hold.
+//! Planning options: the planner with its settings, the drive, and the content of the output files.
 
 use super::{Method, Planner};
 use cplan_core::model::{Arm, Joint};
@@ -7,7 +7,7 @@ use cplan_motion::{Drive, SHORTEST_INTERVAL};
 use serde::{Deserialize, Serialize};
 use std::ops::RangeInclusive;
 
-/// Numbers of attempts.
+/// Allowed numbers of attempts.
 pub const LEVELS: RangeInclusive<usize> = 1..=12;
 
 /// Joints that ROS 2 messages name.
@@ -17,11 +17,11 @@ pub enum NamedJoints {
     /// Every movable joint of the robot.
     #[default]
     All,
-    /// The two that are planned for.
+    /// The two planned joints.
     Planned,
 }
 
-/// What is asked for beside the problem.
+/// Options in addition to the problem.
 ///
 /// ```
 /// use cplan_solver::{Method, Options, Planner};
@@ -32,29 +32,31 @@ pub enum NamedJoints {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Options {
-    /// Which planner, with options of its own.
+    /// The planner with its own settings.
     pub planner: Planner,
-    /// Attempts, from 1 to 12, each finer than the one before: a quarter of the margin; cells that are wholly free, then as
-    /// many that are free at their centres, then twice as many along each axis; sampled ones twice as many each time.
+    /// Number of attempts, from 1 to 12, each finer than the one before. With polygons, the margin shrinks to a
+    /// quarter. With cells, the first attempt uses cells that are free throughout, the next the same number of cells
+    /// with free centres, and then their number along each axis doubles. Sampled cells double each time.
     pub levels: usize,
-    /// Boxes for a proof that there is no path, and for planning by subdivision.
+    /// Number of boxes for a proof that there is no path, and for planning by subdivision.
     pub boxes: usize,
-    /// Whether planners that optimise bound the optimum from below; if not, the gap is aimed at without proof.
+    /// True if planners that optimise bound the optimum from below. If false, they aim at the gap without proof.
     pub bounded: bool,
-    /// How to drive along the path.
+    /// Settings for driving along the path.
     pub drive: Drive,
-    /// Greatest jerk of each joint in place of its own, rad/s3 or m/s3; none for a joint without a limit.
+    /// Greatest jerk of each joint, replacing the robot's own limit, rad/s3 or m/s3. `None` for a joint without a
+    /// limit.
     pub jerk: Option<[Option<f64>; 2]>,
     /// Joints that ROS 2 messages name.
     pub joints: NamedJoints,
-    /// Whether tables and messages have accelerations, so that controllers join points by quintics.
+    /// True if tables and messages include accelerations, so that controllers join points by quintics.
     pub accelerations: bool,
-    /// Whether the JSON has the time that each stage took; without it the same input gives the same bytes.
+    /// True if the JSON includes the time of each stage. If false, the same input gives the same bytes.
     pub timings: bool,
 }
 
 impl Default for Options {
-    /// The shortest path, six attempts, a sample every hundredth of a second.
+    /// Returns the defaults: the shortest path, six attempts, a sample every hundredth of a second.
     fn default() -> Self {
         Self {
             planner: Planner::named(Method::Shortest),
@@ -77,14 +79,14 @@ impl From<Planner> for Options {
 }
 
 impl From<Method> for Options {
-    /// The planner of that name, as it is if nothing else is said.
+    /// Returns the default options with this planner.
     fn from(method: Method) -> Self {
         Planner::named(method).into()
     }
 }
 
 impl Options {
-    /// Puts the limits that are given here in place of the joints' own.
+    /// Replaces the limits of the joints by those that are given here.
     pub fn override_limits(&self, arm: &mut Arm) {
         Joint::override_jerks(&mut arm.joints, self.jerk);
         if self.drive.torque || arm.dynamics.is_some_and(|dynamics| dynamics.limits) {

@@ -10,8 +10,8 @@ use serde::ser::SerializeMap;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use serde_json::Value;
 
-/// A planner with the settings that it reads. In JSON its name, with the settings as `{"trapezoid": {"path": "taut", ...}}`; a setting
-/// that is missing there has its default.
+/// A planner with the settings that it reads. In JSON, its name, or name and settings as in `{"trapezoid": {"path":
+/// "taut", ...}}`. Missing settings have their defaults.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Planner {
     method: Method,
@@ -19,25 +19,25 @@ pub struct Planner {
 }
 
 impl Planner {
-    /// The planner of that name with its defaults.
+    /// Returns the planner of that name with its defaults.
     #[must_use]
     pub fn named(method: Method) -> Self {
         Self { method, settings: (method.descriptor().defaults)() }
     }
 
-    /// Which planner it is.
+    /// Returns the planner's method.
     #[must_use]
     pub fn method(&self) -> Method {
         self.method
     }
 
-    /// Its settings.
+    /// Returns the planner's settings.
     #[must_use]
     pub fn settings(&self) -> &Settings {
         &self.settings
     }
 
-    /// The same planner after `change` has set the field of this setting, if the planner reads it.
+    /// Returns the same planner after `change` has modified this setting, if the planner reads it.
     #[must_use]
     pub fn with(mut self, setting: Setting, change: impl FnOnce(&mut Settings)) -> Self {
         if self.method.reads(setting) {
@@ -46,109 +46,109 @@ impl Planner {
         self
     }
 
-    /// The same planner, giving the other path, if it has two.
+    /// Returns the same planner with the other kind of path, if it has two.
     #[must_use]
     pub fn with_path(self, kind: PathKind) -> Self {
         self.with(Setting::Path, |settings| settings.path = kind)
     }
 
-    /// The same planner, for which this makes a path short, if it optimises.
+    /// Returns the same planner with this criterion for short paths, if it optimises.
     #[must_use]
     pub fn with_criterion(self, criterion: Criterion) -> Self {
         self.with(Setting::Criterion, |settings| settings.criterion = criterion)
     }
 
-    /// The same planner, asked for this gap, if it optimises.
+    /// Returns the same planner with this gap, if it optimises.
     #[must_use]
     pub fn with_gap(self, share: f64) -> Self {
         self.with(Setting::Gap, |settings| settings.gap = Some(share))
     }
 
-    /// The same planner with this first margin, if it has one.
+    /// Returns the same planner with this first margin, if it has one.
     #[must_use]
     pub fn with_margin(self, share: f64) -> Self {
         self.with(Setting::Margin, |settings| settings.margin = share)
     }
 
-    /// The same planner with this first number of cells along each axis, if it has cells.
+    /// Returns the same planner with this first number of cells along each axis, if it has cells.
     #[must_use]
     pub fn with_cells(self, n: usize) -> Self {
         self.with_cell_counts(CellCounts::square(n))
     }
 
-    /// The same planner with these first numbers of cells along the axes, if it has cells.
+    /// Returns the same planner with these first numbers of cells along the axes, if it has cells.
     #[must_use]
     pub fn with_cell_counts(self, counts: CellCounts) -> Self {
         self.with(Setting::Cells, |settings| settings.cells = Some(counts))
     }
 
-    /// The same planner that searches its roadmap like this, if it has one.
+    /// Returns the same planner with this search of its roadmap, if it has one.
     #[must_use]
     pub fn with_search(self, search: RoadmapSearch) -> Self {
         self.with(Setting::Search, |settings| settings.search = search)
     }
 
-    /// The same planner with cells decided like this, if it has cells.
+    /// Returns the same planner with this method of deciding cells, if it has cells.
     #[must_use]
     pub fn with_space(self, space: GridSpace) -> Self {
         self.with(Setting::Space, |settings| settings.space = space)
     }
 
-    /// Which of its paths it gives.
+    /// Returns the kind of path that it gives.
     #[must_use]
     pub fn path_kind(&self) -> PathKind {
         self.settings.path
     }
 
-    /// Whether the exact polygons of a gantry are asked for: in files and pictures, and for the first attempt.
+    /// Returns true if the exact polygons of a gantry are requested: in files and pictures, and for the first attempt.
     #[must_use]
     pub fn is_exact(&self) -> bool {
         self.settings.margin == 0.0
     }
 
-    /// The first numbers of cells along the axes, if they are given.
+    /// Returns the first numbers of cells along the axes, if they are given.
     #[must_use]
     pub fn cells(&self) -> Option<CellCounts> {
         self.settings.cells
     }
 
-    /// Which visibility graph it searches, if it does.
+    /// Returns the visibility graph that it searches, if it does.
     #[must_use]
     pub fn graph(&self) -> Option<VisibilityGraph> {
         self.if_read(Setting::Graph, self.settings.graph)
     }
 
-    /// How it measures paths of an arm.
+    /// Returns the metric in which it measures paths of an arm.
     #[must_use]
     pub fn metric(&self, arm: &Arm) -> Metric {
         self.settings.criterion.metric(arm)
     }
 
-    /// The gap asked for, of planners that optimise.
+    /// Returns the requested gap of a planner that optimises.
     #[must_use]
     pub fn gap(&self) -> Option<f64> {
         self.settings.gap
     }
 
-    /// How it searches its roadmap, if it has one.
+    /// Returns how it searches its roadmap, if it has one.
     #[must_use]
     pub fn search(&self) -> Option<RoadmapSearch> {
         self.if_read(Setting::Search, self.settings.search)
     }
 
-    /// Whether its search looks for the optimum.
+    /// Returns true if its search looks for the optimum.
     #[must_use]
     pub fn optimises(&self) -> bool {
         self.method.optimises() && self.settings.search.order.is_optimal()
     }
 
-    /// How the cells of its grid are decided, if it has one.
+    /// Returns how the cells of its grid are decided, if it has one.
     #[must_use]
     pub fn space(&self) -> Option<GridSpace> {
         self.if_read(Setting::Space, self.settings.space)
     }
 
-    /// The field that it follows, if it is not the plain harmonic one.
+    /// Returns the field that it follows, if it is not the plain harmonic one.
     #[must_use]
     pub fn field(&self) -> Option<&FieldPlanner> {
         self.settings.field.as_ref()

@@ -31,7 +31,7 @@ impl Planner {
         preferences.is_empty().then(needs)
     }
 
-    /// Reports the first setting without sense, by name.
+    /// Reports the first invalid setting, by name.
     pub(super) fn error(&self) -> Option<String> {
         if self.path_kind() == PathKind::Middles && !self.method().descriptor().paths.contains(&PathKind::Middles) {
             return Some(format!("path: middles is for trapezoid, not for {}", self.method()));

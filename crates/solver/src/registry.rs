@@ -1,4 +1,4 @@
-//! The planners. Adding one takes an entry in the table at the end of this file.
+//! The planners. To add one, add an entry to the table at the end of this file.
 
 use super::ladder::{Request, by_visibility, on_cells, on_polygons, on_zoned_cells};
 use super::setting::{FIRST_CELLS, Setting, Settings};
@@ -13,28 +13,28 @@ use cplan_roadmaps::{Prm, Triangles, Voronoi};
 use std::fmt;
 use std::str::FromStr;
 
-/// A planner's own description: all that the rest of the program knows about it.
+/// A planner's own description. The rest of the program knows nothing else about it.
 #[derive(Debug)]
 pub struct Descriptor {
     /// Name on the command line.
     pub name: &'static str,
-    /// What it does, in a line: for the help.
+    /// Description of the planner, as a line of the help.
     pub summary: &'static str,
-    /// Planners that work alike.
+    /// The family of planners that work alike.
     pub family: Family,
     /// Paths that it can give.
     pub paths: &'static [PathKind],
-    /// Settings that it reads, in the order in which JSON has them. A planner that reads [`Setting::Gap`] looks for the optimum,
-    /// and proves how near its path is. One that reads [`Setting::Margin`] plans among polygons, one that reads [`Setting::Search`]
-    /// on a roadmap, one that reads [`Setting::Space`] on a grid.
+    /// Settings that it reads, in their order in JSON. A planner that reads [`Setting::Gap`] looks for the optimum, and
+    /// bounds its path's distance from it. One that reads [`Setting::Margin`] plans among polygons, one that reads
+    /// [`Setting::Search`] on a roadmap, and one that reads [`Setting::Space`] on a grid.
     pub settings: &'static [Setting],
-    /// Its settings if none are given.
+    /// Default settings.
     pub(super) defaults: fn() -> Settings,
     /// Builds the space that it plans in, level after level, and answers.
     pub(super) solve: fn(Request) -> Answer,
 }
 
-/// Planners that work alike.
+/// A family of planners that work alike.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Family {
     /// A graph over the polygons of free space.
@@ -49,7 +49,7 @@ impl Family {
     /// All families, in the order of the tables.
     pub const ALL: [Family; 3] = [Family::Roadmap, Family::Field, Family::Exact];
 
-    /// Its planners, in the plural.
+    /// Returns the name of its planners, in the plural.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -67,25 +67,25 @@ impl Method {
         self.descriptor().name
     }
 
-    /// Returns whether it reads a setting.
+    /// Returns true if the planner reads a setting.
     #[must_use]
     pub fn reads(self, setting: Setting) -> bool {
         self.descriptor().settings.contains(&setting)
     }
 
-    /// Returns the path that it gives if no other is asked for.
+    /// Returns the kind of path that it gives by default.
     #[must_use]
     pub fn path_kind(self) -> PathKind {
         (self.descriptor().defaults)().path
     }
 
-    /// Returns whether it has a path of its own beside the taut one.
+    /// Returns true if the planner has a path of its own in addition to the taut one.
     #[must_use]
     pub fn has_own_path(self) -> bool {
         self.descriptor().paths.contains(&PathKind::Own)
     }
 
-    /// Returns whether it looks for the optimum of a metric, and proves how near its path is to it.
+    /// Returns true if the planner looks for the optimum of a metric, and bounds its path's distance from it.
     #[must_use]
     pub fn optimises(self) -> bool {
         self.reads(Gap)
@@ -109,7 +109,7 @@ impl FromStr for Method {
     }
 }
 
-/// Makes [`Method`] of the table: a variant, its line in the help, its descriptor.
+/// Defines [`Method`] from the table: for each planner a variant, its line in the help, and its descriptor.
 macro_rules! planners {
     ($($method:ident: $summary:literal { $($field:ident: $value:expr),+ $(,)? })+) => {
         /// A planner by name.
@@ -119,10 +119,10 @@ macro_rules! planners {
         }
 
         impl Method {
-            /// All, in the order of the help and of tables.
+            /// All planners, in the order of the help and of tables.
             pub const ALL: [Method; [$(Method::$method),+].len()] = [$(Method::$method),+];
 
-            /// Returns what it says of itself.
+            /// Returns the planner's description.
             #[must_use]
             pub fn descriptor(self) -> &'static Descriptor {
                 match self {
@@ -136,7 +136,7 @@ macro_rules! planners {
 const TAUT: &[PathKind] = &[PathKind::Taut];
 const OWN_AND_TAUT: &[PathKind] = &[PathKind::Own, PathKind::Taut];
 
-// The default, roadmap planners, field planners, those that judge the scene itself.
+// In this order: the default, roadmap planners, field planners, planners that judge the scene itself.
 planners! {
     Shortest: "The shortest path, from exact slices, with a proven bound on the optimum; or a proof that there is none" {
         name: "shortest",
@@ -175,7 +175,7 @@ planners! {
         family: Family::Roadmap,
         paths: OWN_AND_TAUT,
         settings: &[Path, Margin, Search],
-        // Far from obstacles, which a taut path is not.
+        // Its own path keeps far from obstacles; a taut path does not.
         defaults: || Settings { path: PathKind::Own, ..Settings::default() },
         solve: |request| on_polygons(request, |s, _| Voronoi { path: s.path, search: s.search }),
     }
@@ -194,7 +194,7 @@ planners! {
         family: Family::Field,
         paths: OWN_AND_TAUT,
         settings: &[GridSearch, Ties, Forward, Neighborhood, Space, Path, Cells],
-        // Given, so that cells are not made square in joint space.
+        // With a given number, cells are not made square in joint space.
         defaults: || Settings { cells: Some(CellCounts::square(FIRST_CELLS)), ..Settings::default() },
         solve: |request| on_cells(request, |s, _| Wavefront {
             search: s.grid_search,
@@ -209,7 +209,7 @@ planners! {
         family: Family::Field,
         paths: OWN_AND_TAUT,
         settings: &[Field, Space, Path, Cells],
-        // Fields are for being followed.
+        // The path of interest is the one that follows the field.
         defaults: || Settings { path: PathKind::Own, ..Settings::default() },
         solve: |request| match request.options.planner.field().copied() {
             None => on_cells(request, |s, _| Harmonic { path: s.path }),

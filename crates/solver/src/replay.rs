@@ -1,8 +1,8 @@
-//! How a planner came to its answer, told again in phases: for pages and pictures that move.
+//! Replays of a planner's run in phases, for animated pages and pictures.
 //!
-//! Most of it lies in the run's [`Trace`], in the order in which it came about; a phase says which part of it is shown. What no run
-//! keeps is found once more when somebody asks for the replay: the boxes that slabs end with, values of a field between its sweeps, the path
-//! before it was pulled taut. So plans that nobody watches cost what they did.
+//! Most of the data is in the run's [`Trace`], in chronological order. A phase states which part of it is shown. Data
+//! that runs do not keep is recomputed for the replay: the final boxes of slabs, values of a field between its sweeps,
+//! and the path before it was pulled taut. So plans without a replay cost nothing extra.
 
 use super::admission::Ends;
 use super::ladder::FIRST_BOXES;
@@ -16,41 +16,43 @@ use cplan_fields::{FieldChoice, field_domain};
 use cplan_proofs::{Occupancy, slab_boxes};
 use cplan_text::{counted, percent};
 
-/// How a planner came to its answer.
+/// The replay of a planner's run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Replay {
-    /// One after the other; what one has shown stays, but for boxes and values that are found again for the replay alone.
+    /// Phases in order. Each phase remains visible after it ends, except boxes and values that are recomputed only for
+    /// the replay.
     pub phases: Vec<Phase>,
 }
 
 /// A part of a run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Phase {
-    /// What happens, in a line.
+    /// Description of the phase, in one line.
     pub caption: String,
-    /// What is shown of it.
+    /// The content of the phase.
     pub shows: Shows,
-    /// How many things come one after the other; more than none.
+    /// Number of events, at least one.
     pub events: usize,
 }
 
-/// What a phase shows, bit by bit. Without data of its own it is a part of the drawn [`Trace`], in its order.
+/// The content of a phase, shown event by event. Without data of its own, it is a part of the drawn [`Trace`], in its
+/// order.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Shows {
-    /// Configurations, as the edges come to them.
+    /// Configurations, in the order in which edges reach them.
     Nodes,
     /// Edges of a graph.
     Edges,
     /// Cells of a decomposition.
     Cells {
-        /// Whether a line sweeps over them, from the left.
+        /// True if a line sweeps over the cells, from the left.
         swept: bool,
     },
     /// The cells of the channel.
     Channel,
-    /// Where a search of a graph came.
+    /// The nodes that a search of a graph expanded.
     Expanded,
-    /// Slices that the path passes.
+    /// Slices that the path crosses.
     Slices,
     /// Cells of a grid, by their labels or as they were expanded.
     Wave,
@@ -62,7 +64,7 @@ pub enum Shows {
     Slabs(SlabBoxes),
     /// Values of a field between its sweeps.
     Sweeps(Sweeps),
-    /// A path that is not the answer's: before it was pulled taut.
+    /// A path other than that of the answer: before it was pulled taut.
     Own(Path),
     /// The answer's path.
     Path,
@@ -73,36 +75,36 @@ pub enum Shows {
 /// Boxes that cover the configuration space: lower and upper corner of each, the largest first.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct SlabBoxes {
-    /// No collision anywhere in them.
+    /// Boxes that are free throughout.
     pub free: Vec<[Configuration; 2]>,
-    /// Collision everywhere in them.
+    /// Boxes that collide throughout.
     pub stuck: Vec<[Configuration; 2]>,
-    /// Neither is known.
+    /// Boxes that are undecided.
     pub mixed: Vec<[Configuration; 2]>,
 }
 
 /// A field between its sweeps, at some cells of the grid.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sweeps {
-    /// How many there are along each axis.
+    /// Number of cells along each axis.
     pub cells: [usize; 2],
-    /// After how many sweeps, and the values: natural logarithms, minus infinity where nothing has come yet.
+    /// Number of sweeps and the values after them: natural logarithms, or minus infinity where the field is still zero.
     pub frames: Vec<(usize, Vec<f64>)>,
 }
 
-/// Slabs that are looked at for a replay at most, and pairs of shapes: some tens of milliseconds' worth.
+/// Largest number of slabs, and of pairs of shapes, for a replay: some tens of milliseconds of work.
 const SLABS: usize = 2_000;
 const PAIRS: usize = 4096;
 
-/// Boxes narrower than this share of the joint's range are left out: less than a pixel.
+/// Smallest width of a box in a replay, as a share of the joint's range. Narrower boxes would be less than a pixel.
 const INVISIBLE: f64 = 1.0 / 1024.0;
 
-/// Frames of a field, and cells of each along an axis.
+/// Number of frames of a field, and of cells of each frame along an axis.
 const FRAMES: usize = 24;
 const CELLS: usize = 48;
 
 impl Replay {
-    /// The replay of an answer to a problem that was asked with these options.
+    /// Computes the replay of an answer to a problem with these options.
     #[must_use]
     pub fn new<F: AsRef<BoundedPath>>(problem: &MotionProblem, options: &Options, answer: &Answer<F>) -> Self {
         let mut phases = Phases(Vec::new());
@@ -130,14 +132,14 @@ fn boxes(count: usize) -> String {
 struct Phases(Vec<Phase>);
 
 impl Phases {
-    /// Another phase, unless nothing happens in it.
+    /// Adds a phase, unless it has no events.
     fn add(&mut self, events: usize, caption: impl Into<String>, shows: Shows) {
         if events > 0 {
             self.0.push(Phase { caption: caption.into(), shows, events });
         }
     }
 
-    /// What the planner saw.
+    /// Adds the phases of the trace.
     fn of_trace<F>(&mut self, problem: &MotionProblem, options: &Options, answer: &Answer<F>) {
         let graph = match answer.run.size {
             Size::Graph { nodes, .. } => nodes,
@@ -222,7 +224,7 @@ impl Phases {
         }
     }
 
-    /// The slabs that say whether there is a path.
+    /// Adds the slabs that decide whether there is a path.
     fn of_slabs(&mut self, problem: &MotionProblem) {
         let scene = problem.scene();
         if scene.pairs().len() > PAIRS {
@@ -235,7 +237,8 @@ impl Phases {
             [0, 1].map(|k| (cell.upper[k] - cell.lower[k]) / extents[k])
         };
         let mut seen: Vec<_> = all.into_iter().filter(|one| sides(one).iter().all(|&side| side >= INVISIBLE)).collect();
-        // Slabs of a level are equally wide; stable, so that those of one level go from left to right.
+        // Slabs of one level have equal widths. The sort is stable, so slabs of one level stay in order from left to
+        // right.
         seen.sort_by_key(|one| (1.0 / sides(one)[0]).log2().round() as i64);
         let mut found = SlabBoxes::default();
         for (cell, occupancy) in &seen {
@@ -250,14 +253,14 @@ impl Phases {
         self.add(seen.len(), caption, Shows::Slabs(found));
     }
 
-    /// The field after some of its sweeps, where it is relaxed on the CPU.
+    /// Adds the field after some of its sweeps, if it is relaxed on the CPU.
     fn of_sweeps<F>(&mut self, problem: &MotionProblem, options: &Options, answer: &Answer<F>) {
         let Some(found) = sweeps(problem, options, answer) else { return };
         let caption = format!("The field, sweep by sweep: {} in all", found.frames.last().map_or(0, |frame| frame.0));
         self.add(found.frames.len(), caption, Shows::Sweeps(found));
     }
 
-    /// The path as it was found, and as it is.
+    /// Adds the path as it was found, and the final path.
     fn of_path<F>(&mut self, problem: &MotionProblem, options: &Options, answer: &Answer<F>, found: &BoundedPath) {
         let path = found.path();
         let own = (answer.path_kind == PathKind::Taut && answer.method.has_own_path())
@@ -277,7 +280,7 @@ impl Phases {
     }
 }
 
-/// The path before it is pulled taut: the planner is asked for its own, in the space of the answer.
+/// Returns the path before it is pulled taut: plans with the planner's own kind of path, in the space of the answer.
 fn own_path<F>(problem: &MotionProblem, options: &Options, answer: &Answer<F>) -> Option<Path> {
     let levels = answer.history.len() + 1;
     let planner = options.planner.with_path(PathKind::Own);
@@ -288,7 +291,7 @@ fn own_path<F>(problem: &MotionProblem, options: &Options, answer: &Answer<F>) -
     }
 }
 
-/// Relaxes the field once more, watching it.
+/// Relaxes the field once more and samples it between sweeps.
 fn sweeps<F>(problem: &MotionProblem, options: &Options, answer: &Answer<F>) -> Option<Sweeps> {
     let planner = options.planner.field()?;
     let FieldChoice::Relaxed { equation, relaxation, measure, tolerance, max_sweeps, on: Device::Cpu, stencil } =
@@ -308,7 +311,7 @@ fn sweeps<F>(problem: &MotionProblem, options: &Options, answer: &Answer<F>) -> 
         let at = (0..cells[0]).flat_map(|i| (0..cells[1]).map(move |j| i * step[0] * shape[1] + j * step[1]));
         at.map(|cell| values[cell].max(0.0).ln()).collect::<Vec<f64>>()
     };
-    // The first sweeps change the most: frames lie ever farther apart.
+    // The first sweeps change the most, so the distance between frames grows.
     let wanted = |k: usize| (total as f64).powf(k as f64 / (FRAMES - 1) as f64).round() as usize;
     let (mut frames, mut earlier, mut seen) = (Vec::new(), 0, 0);
     let watch = &mut |watched: cplan_fields::Watched| {

@@ -1,4 +1,4 @@
-//! The representation of each level: finer and finer approximations of one configuration space.
+//! The representation of each level: successively finer approximations of one configuration space.
 
 use super::setting::FIRST_CELLS;
 use super::{CellCounts, GridSpace, Space};
@@ -8,34 +8,36 @@ use cplan_core::cspace::{
 };
 use cplan_core::model::{Arm, MotionProblem};
 
-/// Grids end here: 2048 x 2048 cells, beyond which fields take minutes.
+/// Largest number of cells along an axis: with more than 2048 x 2048 cells, fields take minutes.
 const MOST_CELLS: usize = 2048;
 
-/// Collision checks of a sampled grid: some ten seconds' worth. Where it takes more there is no finer one.
+/// Largest number of collision checks of a sampled grid, some ten seconds of work. Finer grids that need more do not
+/// exist.
 const MOST_CHECKS: usize = 1 << 30;
 
-/// Share of a slide's stroke that counts as reach where that is smaller, as for a gantry's slender tool.
+/// Share of a sliding joint's stroke that counts as reach if the arm's reach is smaller, as for a gantry's slender
+/// tool.
 const STROKE: f64 = 0.1;
 
-/// Turns of the universal cover to plan in, on either side of the start.
+/// Number of turns of the universal cover on either side of the start in which planning takes place.
 const PERIODS: usize = 1;
 
-/// Pairs of shapes that polygons are made of on the first level: a second's worth, or two. With more, the margin is greater,
-/// ...
+/// Largest number of pairs of shapes from which polygons are made on the first level: one or two seconds of work. With
+/// more, the margin is increased ...
 const FIRST_PAIRS: usize = 6144;
 
-/// ... by this factor as often as need be, up to so many times.
+/// ... by this factor, at most this number of times.
 const WIDER: (f64, usize) = (2.0, 6);
 
-/// Pairs of shapes on finer levels. With more there is no such level.
+/// Largest number of pairs of shapes on finer levels. With more, the level does not exist.
 const MOST_PAIRS: usize = 16_384;
 
-/// The first margin after exact polygons, as a share of the arm's reach: paths among the exact ones mostly touch, and these are to be as
-/// near as a path within the usual gap of the shortest.
+/// The first margin after exact polygons, as a share of the arm's reach. Paths among exact polygons usually touch them,
+/// and these paths must be within the usual gap of the shortest.
 const AFTER_EXACT: f64 = 4e-5;
 
-/// Polygons of the level: with a first margin of 0 exact ones first, if the arm has any, then grown ones; else all grown. None when
-/// there is no finer level.
+/// Returns the polygons of a level. With a first margin of 0, the first level has the exact polygons, if the arm has
+/// any; all others are grown. `None` if there is no finer level.
 pub(super) fn polygons(problem: &MotionProblem, first: f64, level: usize) -> Option<Regions> {
     if first > 0.0 {
         return grown_polygons(problem, first, level);
@@ -46,8 +48,8 @@ pub(super) fn polygons(problem: &MotionProblem, first: f64, level: usize) -> Opt
     }
 }
 
-/// Polygons grown by the level's margin, a quarter of that of the level before, of which the first is a share of the arm's
-/// reach; none when there is no finer level.
+/// Returns polygons grown by the level's margin. The first margin is a share of the arm's reach, and each level's
+/// margin is a quarter of that of the level before. `None` if there is no finer level.
 fn grown_polygons(problem: &MotionProblem, first: f64, level: usize) -> Option<Regions> {
     let scene = problem.scene();
     let few = |margin: f64, most: usize| scene.pairs().len() <= most || traced_pairs(scene, margin) <= most;
@@ -62,27 +64,28 @@ fn grown_polygons(problem: &MotionProblem, first: f64, level: usize) -> Option<R
     (level == 0 || few(margin, MOST_PAIRS)).then(|| regions(scene, margin, problem.start(), PERIODS))
 }
 
-/// The level's margin, metres.
+/// Returns the level's margin, metres.
 fn margin(problem: &MotionProblem, first: f64, level: usize) -> f64 {
     first * extent(problem.scene().arm()) * 0.25_f64.powi(level as i32)
 }
 
-/// What margins are shares of: the arm's reach, or so much of a slide's stroke.
+/// Returns the length to which margins are relative: the arm's reach, or a share of a sliding joint's stroke.
 pub(super) fn extent(arm: &Arm) -> f64 {
     let strokes = arm.joints.iter().filter(|joint| !joint.joint_type.is_revolute()).map(|joint| joint.range.extent());
     strokes.map(|stroke| STROKE * stroke).fold(arm.reach(), f64::max)
 }
 
-/// Ratio of the axes' ranges up to which a field's cells are square. Beyond, the finer axis would get too few.
+/// Ratio of the axes' ranges up to which a field's cells are square. Beyond it, the axis with the smaller range would
+/// get too few cells.
 const MOST_OBLONG: f64 = 16.0;
 
-/// Cells of the level's size: twice as many with every second level. On the first of two levels of
-/// one size free cells are wholly free; should these be too few, cells of free centres follow on the second, which show
-/// passages some three cells wider. What a path among those is worth is for the certificate to say; it takes a sixteenth of
-/// the time that wholly free cells of the same passage take.
+/// Returns the cells of a level. Their number along each axis doubles with every second level. On the first of two
+/// levels of one size, the free cells are free throughout. If these are too few, the second level uses cells with free
+/// centres, which show passages some three cells wider. The certificate judges the path among them. That takes a
+/// sixteenth of the time of cells that are free throughout the same passage.
 ///
-/// Where no number is given cells are square in joint space, where a radian is as long as a metre: then a field's equation is
-/// that of the configuration space, not of its picture on a grid.
+/// If no number is given, cells are square in joint space, where a radian is as long as a metre. Then a field's
+/// equation is that of the configuration space, and does not depend on the grid.
 pub(super) fn grid_cells(
     problem: &MotionProblem,
     space: GridSpace,
@@ -94,14 +97,14 @@ pub(super) fn grid_cells(
     Some(grid(problem, space, level, shape))
 }
 
-/// Numbers of cells along the axes, `n * n` in all, so that cells are as long along one as along the other.
+/// Returns the numbers of cells along the axes, `n * n` in total, that make cells square.
 fn square_in_joint_space(problem: &MotionProblem, n: f64) -> [usize; 2] {
     let [a, b] = problem.scene().arm().topology().ranges.map(|axis| axis.extent());
     let ratio = (a / b).clamp(1.0 / MOST_OBLONG, MOST_OBLONG).sqrt();
     [n * ratio, n / ratio].map(|cells| cells.round().max(1.0) as usize)
 }
 
-/// The same with the workspace's preferences.
+/// Returns the cells of a level with the workspace's preferences.
 pub(super) fn zoned_cells(
     problem: &MotionProblem,
     space: GridSpace,
@@ -111,7 +114,7 @@ pub(super) fn zoned_cells(
     grid_cells(problem, space, first, level).map(|grid| ZonedGrid::new(grid, problem.scene()))
 }
 
-/// Cells along the axes, if the level is not too fine.
+/// Returns the numbers of cells along the axes. `None` if the level is too fine.
 fn finer(problem: &MotionProblem, space: GridSpace, CellCounts(first): CellCounts, level: usize) -> Option<[usize; 2]> {
     let (finer, checks) = match space {
         GridSpace::Rows => (level / 2, 0),
@@ -132,7 +135,7 @@ fn grid(problem: &MotionProblem, space: GridSpace, level: usize, shape: [usize; 
     build(problem.scene(), shape, problem.scene().workspace().clearance)
 }
 
-/// A space in a few words.
+/// A space with a short description.
 pub(super) trait Described {
     fn describe(&self) -> String;
 }

@@ -12,36 +12,36 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::ops::RangeInclusive;
 
-/// Upper limit of margins, a share of the arm's reach; the lower one is 0.
+/// Upper limit of margins, as a share of the arm's reach. The lower limit is 0.
 pub const MOST_MARGIN: f64 = 0.1;
 
-/// The first number of cells along an axis, if none is given.
+/// Default of the first number of cells along an axis.
 pub const FIRST_CELLS: usize = 256;
 
-/// Numbers of cells along an axis to begin with.
+/// Allowed first numbers of cells along an axis.
 pub const CELLS: RangeInclusive<usize> = 8..=2048;
 
-/// Numbers of samples to begin with.
+/// Allowed first numbers of samples.
 pub const SAMPLES: RangeInclusive<usize> = 1..=100_000;
 
-/// Numbers of samples to which each is joined.
+/// Allowed numbers of neighbours to which each sample is connected.
 pub const NEAREST: RangeInclusive<usize> = 1..=1000;
 
-/// What makes a path short.
+/// Criterion for short paths.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Criterion {
-    /// Square root of the sum of squares, radians and metres as they come.
+    /// Square root of the sum of squares. Radians and metres are added as numbers.
     #[default]
     Euclidean,
-    /// The same with the joints' values multiplied by these weights, both positive.
+    /// The same, with the joints' values multiplied by these weights, both positive.
     Weighted([f64; 2]),
     /// Seconds at the joints' top speeds.
     Time,
 }
 
 impl Criterion {
-    /// The metric for an arm.
+    /// Returns the metric for an arm.
     #[must_use]
     pub fn metric(self, arm: &Arm) -> Metric {
         match self {
@@ -52,7 +52,8 @@ impl Criterion {
     }
 }
 
-/// Makes [`Setting`] and [`Settings`] of the table: the setting's name, its field, type and default, and its key in JSON.
+/// Defines [`Setting`] and [`Settings`] from the table: each setting's name, its field, type and default, and its key
+/// in JSON.
 macro_rules! settings {
     ($($(#[$doc:meta])+ $setting:ident, $field:ident: $kind:ty = $default:expr, $key:literal;)+) => {
         /// The name of a setting.
@@ -61,7 +62,7 @@ macro_rules! settings {
             $($(#[$doc])+ $setting),+
         }
 
-        /// Values of all settings. A planner has the defaults of those that it does not read.
+        /// Values of all settings. Settings that a planner does not read have their defaults.
         #[derive(Debug, Clone, Copy, PartialEq)]
         pub struct Settings {
             $($(#[$doc])+ pub $field: $kind),+
@@ -103,39 +104,41 @@ macro_rules! settings {
 }
 
 settings! {
-    /// What makes a path short.
+    /// Criterion for short paths.
     Criterion, criterion: Criterion = Criterion::Euclidean, "criterion";
-    /// Refine until the path is proven to be longer than the optimum by no more than this share of it. A larger one leaves room in
-    /// which motions are faster. None for 1e-4 of the planner `shortest`, and for what the first margin gives of `visibility`.
+    /// Refine until the path is proven to be longer than the optimum by at most this share of it. A larger gap permits
+    /// faster motions. `None` means 1e-4 for the planner `shortest`, and for `visibility` the gap that the first margin
+    /// gives.
     Gap, gap: Option<f64> = None, "gap";
-    /// First margin by which polygonal obstacles are grown, as a share of the arm's reach; quartered where needed. 0 for the exact
-    /// polygons of a gantry, which have the first attempt; paths that touch them are sought among grown ones.
+    /// First margin by which polygonal obstacles are grown, as a share of the arm's reach; quartered where needed. With
+    /// 0, the first attempt uses the exact polygons of a gantry. Paths that touch them are then planned again among
+    /// grown polygons.
     Margin, margin: f64 = 1e-3, "margin";
-    /// How a roadmap is searched.
+    /// Search of a roadmap.
     Search, search: RoadmapSearch = RoadmapSearch::default(), "search";
-    /// Which arcs the visibility graph has.
+    /// Set of arcs of the visibility graph.
     Graph, graph: VisibilityGraph = VisibilityGraph::default(), "graph";
-    /// Which path.
+    /// Kind of path.
     Path, path: PathKind = PathKind::Taut, "path";
-    /// Number of random configurations, twice as many with each level.
+    /// Number of random configurations. It doubles with each level.
     Samples, samples: usize = Prm::default().samples, "samples";
-    /// To how many of the nearest each sample is joined.
+    /// Number of nearest samples to which each sample is connected.
     Nearest, nearest: usize = Prm::default().nearest, "nearest";
     /// Seed of the samples.
     Seed, seed: u64 = Prm::default().seed, "seed";
-    /// How a grid is searched.
+    /// Search of a grid.
     GridSearch, grid_search: planner::GridSearch = planner::GridSearch::default(), "search";
-    /// Which of equally promising cells A\* expands.
+    /// Order in which A\* expands equally promising cells.
     Ties, ties: search::Ties = search::Ties::default(), "ties";
-    /// Whether the search of a grid begins at the start, not at the goals.
+    /// True if the search of a grid begins at the start instead of the goals.
     Forward, forward: bool = false, "forward";
-    /// Where a move on a grid can lead.
+    /// Neighbours that a move on a grid can lead to.
     Neighborhood, neighborhood: waves::Neighborhood = waves::Neighborhood::default(), "neighborhood";
-    /// How the cells of a grid are decided.
+    /// Method that decides the cells of a grid.
     Space, space: GridSpace = GridSpace::default(), "space";
-    /// First numbers of cells along the axes; doubled where needed. None for 256 x 256 cells' worth of cells that are square in
-    /// joint space.
+    /// First numbers of cells along the axes; doubled where needed. With `None`, cells are square in joint space, and
+    /// their total is 256 x 256.
     Cells, cells: Option<CellCounts> = None, "cells";
-    /// The field in place of the harmonic one; [`Settings::path`] stands for its path.
+    /// The field that replaces the harmonic one. [`Settings::path`] applies to its path.
     Field, field: Option<FieldPlanner> = None, "field";
 }

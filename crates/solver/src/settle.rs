@@ -1,4 +1,4 @@
-//! Whether there is a path at all: by slabs of joint 1, else by boxes.
+//! Decides whether there is a path at all: by slabs of joint 1, and otherwise by boxes.
 
 use super::ladder::explain;
 use super::subdivision::certified;
@@ -7,43 +7,48 @@ use cplan_core::check::{CertifiedPath, CheckedProof, Disconnection};
 use cplan_core::model::{MotionProblem, Outcome, Pair};
 use cplan_proofs::{Connectivity, connectivity, slab_connectivity, slimmed};
 
-/// Slabs that decide all but contrived questions; a few thousand take some milliseconds.
+/// Number of slabs that decide all but contrived questions. A few thousand take some milliseconds.
 const SLABS: usize = 10_000;
 
-/// What slabs and boxes may take before the other is asked. Either may need ten times as many where the other is done soon: slabs
-/// along a slanted way that is closed by little, boxes in a narrow passage.
+/// Initial budgets of slabs and boxes, before both get their full budgets. Either may need ten times as many where the
+/// other succeeds soon: slabs along a slanted passage that is narrowly closed, boxes in a narrow passage.
 const AT_FIRST: [usize; 2] = [1000, 4000];
 
 /// A proof of more boxes than this is large: where slabs have only such a one, boxes that are halved need fewer, as where obstacles overlap little all
 /// along a slanted line, which slabs tile with boxes as narrow as themselves.
 pub const LARGE_PROOF: usize = 10_000;
 
-/// Boxes of a proof at most, where no smaller one is found.
+/// Largest number of boxes of a proof, if no smaller proof is found.
 const LARGEST_PROOF: usize = 200_000;
 
-/// Boxes that are looked at for a smaller proof than slabs have, at least: the most that any of some thousand random proofs
-/// took, twice.
+/// Least number of boxes in the search for a smaller proof than that of slabs: twice the most that any of some thousand
+/// random proofs took.
 const BOXES_FOR_SMALLER: usize = 100_000;
 
-/// With more pairs of shapes what is known of fewer of them is asked for first, ...
+/// With more pairs of shapes than this, questions are first decided with fewer of them: ...
 const MANY_PAIRS: usize = 4096;
 
-/// ... of as few as a lattice of this share of the arm's reach leaves, one after the other.
+/// ... with those that a lattice leaves whose spacing is this share of the arm's reach, one lattice after the other.
 const LATTICES: [f64; 2] = [1.0 / 128.0, 1.0 / 1024.0];
 
-/// Pairs times slabs, and times boxes, that are looked at in such a scene: a second's worth each, or some.
+/// Largest product of pairs and slabs, and of pairs and boxes, in such a scene: about a second of work each.
 const LOOKS: [usize; 2] = [4_000_000, 40_000_000];
 
-/// Answers `problem` by [`slab_connectivity`], and where slabs do not tell by [`connectivity`], with at most so many `boxes`
-/// (and no more slabs): a path, pulled taut in the channel of free boxes, or a proof. Both have passed a check that shares no
-/// code with the search. Where slabs show that there is no path, but state it in no small number of boxes, up to 100 000 are
-/// looked at even if `boxes` is less, unless it is less than 4000.
+/// Decides `problem` by [`slab_connectivity`], and if slabs leave it undecided by [`connectivity`], with at most
+/// `boxes` boxes and no more slabs. The answer is a path, pulled taut in the channel of free boxes, or a proof. Both
+/// have passed a check that shares no code with the search.
 ///
-/// The path is some path, seldom the shortest: the first channel that is found is good enough. Slabs answer most questions in
-/// a small part of the time; boxes know about shapes without thickness, too, and need fewer for some proofs. Among thousands of
-/// pieces the questions are put to some of them first: what these close is closed, and a path among them is judged among all.
-/// Unknown is no last word: [`super::solve`] knows other ways, and more boxes may tell, but among thousands of pieces: there no more
-/// than a second's worth of each are looked at.
+/// Slabs may show that there is no path, but need too many boxes to state it. Then up to 100 000 boxes are tried, even
+/// if `boxes` is less, unless it is less than 4000.
+///
+/// The path is rarely the shortest: the first channel that is found suffices. Slabs answer most questions in a small
+/// part of the time. Boxes also handle shapes without thickness, and need fewer boxes for some proofs.
+///
+/// Among thousands of pieces, the question is first decided with some of them: if these block all paths, so do all
+/// pieces, and a path among them is judged among all.
+///
+/// An unknown answer is not final: [`super::solve`] has other methods, and more boxes may decide it. With thousands of
+/// pieces more boxes do not help, because no more than a second's work of each is done.
 #[must_use]
 pub fn decide(problem: &MotionProblem, boxes: usize) -> Outcome<CertifiedPath, CheckedProof> {
     let pairs = |problem: &MotionProblem| problem.scene().pairs().len();
@@ -66,16 +71,17 @@ pub fn decide(problem: &MotionProblem, boxes: usize) -> Outcome<CertifiedPath, C
     asked(problem, problem, &|pair| pair, limited(problem))
 }
 
-/// How much is looked at.
+/// Budgets of a decision.
 #[derive(Clone, Copy)]
 struct Limits {
     slabs: usize,
     boxes: usize,
-    /// Boxes, where slabs show that there is no path, but with a large proof; none if whoever asks cannot wait for that.
+    /// Number of boxes for a smaller proof, if slabs find a large one. `None` if the caller cannot wait for that.
     for_smaller: Option<usize>,
 }
 
-/// What slabs and boxes say of `some`, which is `problem` or some of it; `in_truth` names its pairs in `problem`.
+/// Decides `some`, which is `problem` or has some of its pieces, by slabs and boxes. `in_truth` maps its pairs to those
+/// of `problem`.
 fn asked(
     problem: &MotionProblem,
     some: &MotionProblem,
@@ -88,7 +94,7 @@ fn asked(
     let by_slabs = |slabs: usize, most: usize| slab_connectivity(scene, start, goals, clearance, slabs, most);
     let proof = if limits.for_smaller.is_some() { LARGE_PROOF } else { LARGE_PROOF.min(4 * limits.boxes) };
     let either = |slabs: usize, boxes: usize| match (by_slabs(slabs, proof), limits.for_smaller) {
-        // There is none, but slabs take no end of boxes to state it.
+        // There is no path, but slabs need too many boxes to state it.
         (Connectivity::Undecided { closed: true, .. }, Some(for_smaller)) => match by_boxes(for_smaller) {
             Outcome::Unknown(_) => judged(problem, in_truth, by_slabs(slabs, LARGEST_PROOF)),
             known => known,
@@ -105,7 +111,7 @@ fn asked(
     }
 }
 
-/// What a search's answer is worth.
+/// Checks a search's answer.
 fn judged(
     problem: &MotionProblem,
     in_truth: &dyn Fn(Pair) -> Pair,
@@ -124,12 +130,12 @@ fn judged(
     }
 }
 
-/// The proof with no more boxes than it takes, if it passes the independent check.
+/// Returns the proof without superfluous boxes, if it passes the independent check.
 pub(super) fn checked(problem: &MotionProblem, proof: Disconnection) -> Option<CheckedProof> {
     slimmed(&proof, |some| held(problem, some))
 }
 
-/// The proof, if it passes the independent check.
+/// Returns the proof, if it passes the independent check.
 fn held(problem: &MotionProblem, proof: Disconnection) -> Option<CheckedProof> {
     let clearance = problem.scene().workspace().clearance;
     proof.checked(problem.scene(), problem.start(), problem.goals(), clearance).ok()

@@ -1,10 +1,11 @@
-//! About the shortest path, and how near it is to the optimum.
+//! The planner `shortest`: an approximately shortest path, with a bound on its distance from the optimum.
 //!
-//! Slabs say whether there is a path; the first one bounds how far to look. The search that bounds the optimum from below is
-//! run among obstacles that are grown by a hair: its way keeps off the true ones. Then it is run among the true ones with the
-//! same slices, for the bound. What that leaves of the gap is spent on fewer corners, and the result is certified. No
-//! polygons, graphs or grids are built unless that fails, but for gantries, whose C-obstacles are polygons: there a visibility
-//! graph has the path, and another one the bound.
+//! Slabs decide whether there is a path. The first path limits the search. The search that bounds the optimum from
+//! below is run among slightly grown obstacles, so its path keeps off the true ones. Then it is run among the true ones
+//! with the same slices, for the bound. The remaining gap is spent on removing corners, and the result is certified.
+//!
+//! Polygons, graphs and grids are built only if that fails, or for gantries, whose C-obstacles are polygons. There, one
+//! visibility graph gives the path and another one the bound.
 
 use super::bound::{Bound, FEW_POLYGONS, lower_bound, motions};
 use super::corners::fewer_corners;
@@ -19,26 +20,27 @@ use cplan_interrupt::Instant;
 use cplan_proofs::{Motions, Proposed, Refused, short_motion};
 use std::time::Duration;
 
-/// What paths keep from obstacles beyond the clearance, as shares of the arm's reach and of the gap, one after the other.
+/// Extra clearance to try, as fractions of the arm's reach times the gap, one after the other.
 const KEPT: [f64; 4] = [0.25, 0.06, 0.015, 0.004];
 
-/// Share of the arm's reach that they keep at most, whatever gap is asked for.
+/// Largest extra clearance, as a fraction of the arm's reach, for any gap.
 const MOST_KEPT: f64 = 0.01;
 
-/// With more pairs of shapes than this there is a single attempt, ...
+/// With more pairs of shapes than this there is only one attempt, ...
 const FEW_PAIRS: usize = 1000;
 
-/// ... and with more than this none.
+/// ... and with more than this there is no attempt.
 const MOST_PAIRS: usize = 20_000;
 
-/// Part of the gap that the bound may leave open.
+/// Fraction of the gap that the bound may leave open.
 const PART: f64 = 0.5;
 
-/// Part of what is left of the gap that fewer corners may cost.
+/// Fraction of the remaining gap that removing corners may cost.
 const SPENT: f64 = 0.9;
 
-/// Answers a request with about the shortest path. Where slabs do not tell whether there is one, or it is not proven to be within
-/// the gap, a visibility graph has its turn, and the better of both paths is the answer.
+/// Answers a request with an approximately shortest path. A visibility graph plans as well if slabs leave it undecided
+/// whether there is a path, or if the path is not proven to be within the gap. Then the better of both paths is the
+/// answer.
 pub(super) fn solve(Request { problem, options, progress }: Request) -> Answer {
     let metric = options.planner.metric(problem.scene().arm());
     let clock = Instant::now();
@@ -54,7 +56,7 @@ pub(super) fn solve(Request { problem, options, progress }: Request) -> Answer {
     let mut by_graph = || by_visibility(Request { problem, options, progress });
     let (own, by_graph) = match first {
         Outcome::Infeasible(_) => return answer(Method::Shortest, first, stages),
-        // Among so many pieces polygons, which cover them by fewer, are the better way.
+        // With this many pieces polygons, which cover them by fewer, are the better method.
         Outcome::Found(_) if problem.scene().pairs().len() > MOST_PAIRS => {
             let by_graph = by_graph();
             let own = answer(Method::Shortest, first, stages);
@@ -86,12 +88,12 @@ pub(super) fn solve(Request { problem, options, progress }: Request) -> Answer {
     best
 }
 
-/// The first margin of gantries' polygons, as a share of the gap, unless the planner's is smaller. Motions are faster the farther
-/// paths keep from corners; where it is too great for the gap quarters of it follow.
+/// The first margin of gantries' polygons, as a share of the gap, unless the planner's is smaller. Paths farther from
+/// corners give faster motions. If the margin is too large for the gap, it is quartered.
 const MARGIN: f64 = 0.4;
 
-/// The answer of a gantry, whose C-obstacles are polygons: the shortest path among them, grown by so little that it is within the
-/// gap. None if it is not.
+/// Answers for a gantry, whose C-obstacles are polygons: with the shortest path among polygons grown so little that it
+/// is within the gap. `None` if it is not.
 fn among_polygons(problem: &MotionProblem, options: &Options, stages: Stages) -> Option<Answer> {
     let (scene, gap) = (problem.scene(), options.planner.gap().unwrap_or(CLOSE));
     let planner = options.planner.with_gap(gap).with_margin(options.planner.settings().margin.min(MARGIN * gap));
@@ -112,12 +114,12 @@ fn among_polygons(problem: &MotionProblem, options: &Options, stages: Stages) ->
     Some(answer)
 }
 
-/// Whether there is nothing to be made better.
+/// Returns true if the answer needs no improvement.
 fn is_content(answer: &Answer, options: &Options) -> bool {
     !options.bounded || answer.bound().is_some_and(|bound| bound.gap() <= options.planner.gap().unwrap_or(CLOSE))
 }
 
-/// The answer that begins with a first path: a shorter one in its place, if one is found and certified.
+/// Returns the answer that starts from a first path, and replaces it by a shorter one if one is found and certified.
 fn shorter(problem: &MotionProblem, options: &Options, first: CertifiedPath, mut stages: Stages) -> Answer {
     let (scene, planner) = (problem.scene(), options.planner);
     let (metric, gap) = (planner.metric(scene.arm()), planner.gap().unwrap_or(CLOSE));
@@ -127,7 +129,7 @@ fn shorter(problem: &MotionProblem, options: &Options, first: CertifiedPath, mut
     let clock = Instant::now();
     let (mut upper, mut path, mut free) = (metric.length(first.path()), first, Vec::new());
     if path.path().waypoints().len() == 2 {
-        // Straight: seldom to be made shorter.
+        // A straight path can seldom be made shorter.
         bounding.bound(upper, &[]);
     }
     // Among thousands of pieces an attempt may take a second.
@@ -141,7 +143,7 @@ fn shorter(problem: &MotionProblem, options: &Options, first: CertifiedPath, mut
         let judge = |Proposed { path: way, slices, is_shortest }: Proposed| {
             let length = metric.length(&way);
             let certificate = || certify(scene, way.clone(), motions.clearance).map_err(Refused::By);
-            // As a rule the first way is good, and then only the one with fewer corners needs a certificate.
+            // The first proposed path is usually good, and then only the one with fewer corners needs a certificate.
             tries += 1;
             let certified = if tries > 1 { Some(certificate()?) } else { None };
             bounding.bound(length, &slices);
@@ -181,23 +183,24 @@ fn shorter(problem: &MotionProblem, options: &Options, first: CertifiedPath, mut
     answer
 }
 
-/// What is known of the shortest from below.
+/// The lower bound on the shortest path known so far.
 struct Bounding<'a> {
     motions: Motions<'a>,
-    /// The gap to come to.
+    /// The gap to reach.
     gap: f64,
-    /// Whether a bound is asked for; if not, nothing is ever known.
+    /// True if a bound is requested. If false, the lower bound stays 0.
     is_asked: bool,
-    /// No motion is shorter.
+    /// Lower bound on the lengths of all motions.
     lower: f64,
-    /// The length of the way that it was last looked for beside.
+    /// Length of the path for which the bound was last computed.
     beside: f64,
-    /// Time that it took.
+    /// Time spent on bounds.
     took: Duration,
 }
 
 impl Bounding<'_> {
-    /// Looks for a bound beside a way of length `upper`, unless it is known to be close, or was looked for.
+    /// Computes a bound for a path of length `upper`, unless that path is known to be close, or its bound was computed
+    /// before.
     fn bound(&mut self, upper: f64, slices: &[f64]) {
         if self.is_asked && upper != self.beside && !self.is_close(upper) {
             let clock = Instant::now();
@@ -207,19 +210,19 @@ impl Bounding<'_> {
         }
     }
 
-    /// Whether a way of length `upper` is known to be within the gap.
+    /// Returns true if a path of length `upper` is known to be within the gap.
     fn is_close(&self, upper: f64) -> bool {
         Bound { metric: self.motions.metric, lower: self.lower, upper }.gap() <= self.gap
     }
 
-    /// How much longer a way of length `upper` may become.
+    /// Returns by how much a path of length `upper` may become longer.
     fn room(&self, upper: f64) -> f64 {
         room(upper, self.is_asked.then_some(self.lower), self.gap)
     }
 }
 
-/// How much longer a way of length `upper` may become for the sake of fewer corners; without a lower bound what the gap that is
-/// aimed at leaves.
+/// Returns by how much a path of length `upper` may become longer to remove corners. Without a lower bound, a share of
+/// the requested gap.
 fn room(upper: f64, lower: Option<f64>, gap: f64) -> f64 {
     SPENT * lower.map_or(gap / 2.0 * upper, |lower| lower * (1.0 + gap) - upper)
 }

@@ -12,8 +12,9 @@ use cplan_geometry::Point;
 use cplan_interrupt::Instant;
 use cplan_proofs::{Channel, Connectivity, Exploration, Occupancy, explore};
 
-/// Answers a request by [`explore`]: a path through free boxes, pulled taut unless their own is asked for; a proof; or neither within
-/// [`Options::boxes`](super::Options::boxes). There is nothing to refine and try again: the boxes are refined where it matters as it goes.
+/// Answers a request by [`explore`]: with a path through free boxes, pulled taut unless their own path is requested,
+/// with a proof, or with neither within [`Options::boxes`](super::Options::boxes). There are no further attempts, since
+/// the search itself refines the boxes where needed.
 pub(super) fn solve(Request { problem, options, progress }: Request) -> Answer {
     let scene = problem.scene();
     let clearance = scene.workspace().clearance;
@@ -65,14 +66,14 @@ pub(super) fn solve(Request { problem, options, progress }: Request) -> Answer {
     }
 }
 
-/// The shortest path through the channel, or, should rounding spoil it where it touches the sides, the one through the
-/// middles.
+/// Returns the shortest path through the channel. If rounding spoils that path where it touches the sides, returns the
+/// one through the middles.
 pub(super) fn certified(problem: &MotionProblem, channel: &Channel) -> Result<CertifiedPath, Rejection> {
     let clearance = problem.scene().workspace().clearance;
     certify(problem.scene(), taut(channel), clearance).or_else(|_| certify(problem.scene(), channel.path(), clearance))
 }
 
-/// The channel's shortest path.
+/// Returns the channel's shortest path.
 pub(super) fn taut(channel: &Channel) -> Path {
     let portal = |[left, right]: &[Configuration; 2]| Portal { left: Point::from(*left), right: Point::from(*right) };
     let portals: Vec<Portal> = channel.portals().iter().map(portal).collect();

@@ -1,4 +1,4 @@
-//! Problems with fewer pieces of obstacles: what is closed there is closed in truth.
+//! Problems with fewer pieces of obstacles. A problem that has no path then has none with all pieces either.
 
 use cplan_core::model::{MotionProblem, Obstacle, Pair};
 use cplan_geometry::{Convex, Point};
@@ -8,14 +8,15 @@ use std::collections::HashMap;
 pub(super) struct Thinned {
     /// The problem.
     pub problem: MotionProblem,
-    /// For each obstacle the numbers that its pieces have in truth, and how many these are in all.
+    /// For each obstacle, the original indices of its remaining pieces, and the original number of pieces.
     kept: Vec<(Vec<usize>, usize)>,
 }
 
 impl Thinned {
-    /// Of pieces whose bounds are the same on a lattice of so many metres, and that lean the same way, only the largest.
+    /// Keeps only the largest of the pieces whose bounds are equal on a lattice with this spacing, metres, and that
+    /// lean the same way.
     ///
-    /// What is left out lies about where something else lies, which is not needed: fewer obstacles close less. `O(n)`.
+    /// The omitted pieces lie near remaining ones. Omitting them is safe, because fewer obstacles block less. `O(n)`.
     pub fn new(problem: &MotionProblem, lattice: f64) -> Self {
         let kept: Vec<(Vec<usize>, usize)> = problem
             .scene()
@@ -33,16 +34,17 @@ impl Thinned {
         Self { problem: MotionProblem::trusted(scene, problem.start(), problem.goals().clone()), kept }
     }
 
-    /// The pair that a pair of the thinned scene is in truth.
+    /// Returns the original pair for a pair of the thinned scene.
     pub fn in_truth(&self, pair: Pair) -> Pair {
         // Links of the robot keep all their pieces.
         let Some((kept, all)) = self.kept.get(pair.obstacle) else { return pair };
-        // What a level payload makes of the pieces is numbered after them, once or several times over.
+        // Shapes derived from the pieces for a level payload are numbered after them, once or several times for each
+        // piece.
         Pair { piece: pair.piece / kept.len() * all + kept[pair.piece % kept.len()], ..pair }
     }
 }
 
-/// Numbers of the pieces that are kept, ascending.
+/// Returns the indices of the pieces that are kept, ascending.
 fn largest_alike(obstacle: &Obstacle, lattice: f64) -> Vec<usize> {
     let mut largest: HashMap<[i64; 5], (f64, usize)> = HashMap::new();
     for (number, piece) in obstacle.pieces.iter().enumerate() {
@@ -57,7 +59,7 @@ fn largest_alike(obstacle: &Obstacle, lattice: f64) -> Vec<usize> {
     kept
 }
 
-/// The bounds on a lattice, and on which diagonal of them the piece mostly lies.
+/// Returns the bounds on a lattice, and the diagonal along which the piece mostly lies.
 fn place(piece: &Convex, lattice: f64) -> [i64; 5] {
     let [lower, upper] = piece.bounds();
     let on = |v: f64| (v / lattice).floor() as i64;

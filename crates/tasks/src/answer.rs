@@ -1,4 +1,4 @@
-//! What becomes of a task.
+//! The outcome of a task.
 
 use super::failed_step::FailedStep;
 use super::sequence::Sequence;
@@ -12,25 +12,25 @@ use cplan_motion::recorded::WristTurn;
 use cplan_movers::Timing;
 use std::sync::Arc;
 
-/// What happens at the end of a step's motion.
+/// An event at the end of a step's motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Event {
-    /// The gripper takes an object.
+    /// The gripper grasps an object.
     Grasp {
         /// The number of the object in the task.
         object: usize,
     },
-    /// The gripper lets go of an object.
+    /// The gripper releases an object.
     Release {
         /// The number of the object in the task.
         object: usize,
-        /// Where it lies from then on.
+        /// Pose of the object from then on.
         pose: Pose,
     },
 }
 
 impl Event {
-    /// The object that is taken or let go of.
+    /// Returns the object that is grasped or released.
     #[must_use]
     pub fn object(&self) -> usize {
         match *self {
@@ -39,15 +39,17 @@ impl Event {
     }
 }
 
-/// What the arm does for one step: a motion from rest to rest, perhaps a turn of the wrist, perhaps an event, and a rest.
+/// The arm's actions for one step: a motion from rest to rest, possibly a turn of the wrist, possibly an event, and a
+/// rest.
 ///
-/// A pick: motion, stroke down, grasp, dwell, stroke up, turn. A place: motion, turn, stroke down, release, dwell, stroke up. A
-/// move: motion, dwell.
+/// - Pick: motion, stroke down, grasp, dwell, stroke up, turn.
+/// - Place: motion, turn, stroke down, release, dwell, stroke up.
+/// - Move: motion, dwell.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Leg {
-    /// The step that it carries out.
+    /// The step.
     pub step: Step,
-    /// The world during the motion, and what is carried.
+    /// The world during the motion, with the payload.
     pub scene: Arc<Scene>,
     /// The object that is carried during the motion.
     pub carried: Option<usize>,
@@ -55,9 +57,9 @@ pub struct Leg {
     pub timed: Arc<Timed>,
     /// Turn of the wrist, and the seconds that it takes.
     pub turn: Option<(WristTurn, f64)>,
-    /// How the tool is lowered and raised, if it is.
+    /// Lowering and raising of the tool, if the world has a stroke.
     pub stroke: Option<ToolStroke>,
-    /// What happens while it is lowered.
+    /// The event while the tool is lowered.
     pub event: Option<Event>,
     /// Seconds from the beginning of the task to that of the motion.
     pub begin: f64,
@@ -70,31 +72,31 @@ impl Leg {
         self.timed.curve.curve().path()
     }
 
-    /// Seconds from the beginning of the task to the end of the motion.
+    /// Returns the seconds from the beginning of the task to the end of the motion.
     #[must_use]
     pub fn arrival(&self) -> f64 {
         self.begin + self.timed.trajectory.duration()
     }
 
-    /// Seconds that the arm stands still after the motion.
+    /// Returns the seconds that the arm stands still after the motion.
     #[must_use]
     pub fn rest(&self) -> f64 {
         self.step.dwell + self.turning() + 2.0 * self.lowering()
     }
 
-    /// Seconds that the wrist turns.
+    /// Returns the seconds that the wrist turns.
     #[must_use]
     pub fn turning(&self) -> f64 {
         self.turn.map_or(0.0, |(_, seconds)| seconds)
     }
 
-    /// Seconds that the tool takes down, and up again.
+    /// Returns the seconds that the tool takes to go down, which equal those to go up.
     #[must_use]
     pub fn lowering(&self) -> f64 {
         self.stroke.map_or(0.0, |stroke| stroke.seconds)
     }
 
-    /// Seconds from the end of the motion to the grasp or release, if there is one.
+    /// Returns the seconds from the end of the motion to the grasp or release, if there is one.
     #[must_use]
     pub fn event_after(&self) -> Option<f64> {
         match self.event? {
@@ -103,20 +105,20 @@ impl Leg {
         }
     }
 
-    /// Seconds from the beginning of the task to the grasp or release, if there is one.
+    /// Returns the seconds from the beginning of the task to the grasp or release, if there is one.
     #[must_use]
     pub fn event_time(&self) -> Option<f64> {
         self.event_after().map(|after| self.arrival() + after)
     }
 
-    /// Seconds from the beginning of the task to the end of the step.
+    /// Returns the seconds from the beginning of the task to the end of the step.
     #[must_use]
     pub fn end(&self) -> f64 {
         self.arrival() + self.rest()
     }
 
-    /// Proven lower bound on the distance to obstacles during the motion, the turn and the stroke, metres; infinite if nothing
-    /// can be hit.
+    /// Returns a proven lower bound on the distance to obstacles during the motion, the turn and the stroke, metres.
+    /// Infinite if no obstacle is within reach.
     #[must_use]
     pub fn clearance(&self) -> f64 {
         let turn = self.turn.map_or(f64::INFINITY, |(turn, _)| turn.clearance);
@@ -128,16 +130,16 @@ impl Leg {
 /// All steps of a task, done one after the other.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TaskMotion {
-    /// Their motions as one.
+    /// The motions of all steps, joined into one.
     pub sequence: Sequence,
-    /// Whether no other choice of IK solutions, turns and order is faster with the motions that this planner finds.
+    /// True if no other choice of IK solutions, turns and order is faster with the motions that this planner finds.
     pub exact: bool,
-    /// How the arm gets by what moves, if anything does; on the clock of the task.
+    /// How the arm passes moving obstacles, if there are any, on the clock of the task.
     pub timing: Option<Timing>,
 }
 
 impl TaskMotion {
-    /// Returns how long it takes.
+    /// Returns the duration.
     #[must_use]
     pub fn seconds(&self) -> f64 {
         self.sequence.trajectory.duration()
@@ -147,14 +149,15 @@ impl TaskMotion {
 /// The outcome of a task, and how the search came to it.
 #[derive(Debug, Clone)]
 pub struct TaskAnswer {
-    /// The motion that does all steps; or the step that fails, whatever the IK solutions and the order: proven, or not known to be possible
-    /// within the effort.
+    /// The motion that does all steps, or the step that fails for all IK solutions and orders. Failure is either
+    /// proven, or means that no solution was found within the effort.
     pub outcome: Outcome<TaskMotion, FailedStep, FailedStep>,
     /// The steps in the order in which they are done: all, or those before the one that fails.
     pub legs: Vec<Leg>,
-    /// No sequence of motions that does the whole task, from rest to rest at each step, takes less: proven, seconds.
+    /// Proven lower bound on the duration of any sequence of motions that does the whole task, from rest to rest at
+    /// each step, seconds.
     pub lower_bound: f64,
-    /// Motions that were planned, those that were not needed in the end included.
+    /// Number of motions that were planned, including those that the answer does not use.
     pub motions: usize,
     /// Nodes of the search that were expanded.
     pub expanded: usize,
@@ -170,15 +173,15 @@ impl TaskAnswer {
         }
     }
 
-    /// Returns the lower bound on the seconds of the task, at most what it takes.
+    /// Returns the lower bound on the duration of the task, limited to its actual duration.
     #[must_use]
     pub fn least_seconds(&self) -> f64 {
-        // Both are sums of the same times where nothing is in the way, in different order.
+        // Without blocking obstacles, both are sums of the same times in different order.
         self.outcome.found().map_or(self.lower_bound, |motion| motion.seconds().min(self.lower_bound))
     }
 
-    /// Returns by which share the task may take longer than the fastest, at most: `duration / lower_bound - 1`. None if not all steps are
-    /// done, and where the bound is 0 and the duration is not.
+    /// Returns the largest share by which the task may take longer than the fastest: `duration / lower_bound - 1`.
+    /// `None` if not all steps are done, or if the bound is 0 and the duration is not.
     #[must_use]
     pub fn gap(&self) -> Option<f64> {
         let (seconds, least) = (self.outcome.found()?.seconds(), self.least_seconds());
@@ -186,13 +189,14 @@ impl TaskAnswer {
         gap.is_finite().then_some(gap)
     }
 
-    /// Seconds from the beginning to the end of the last step.
+    /// Returns the seconds from the beginning to the end of the last step.
     #[must_use]
     pub fn duration(&self) -> f64 {
         self.legs.last().map_or(0.0, Leg::end)
     }
 
-    /// Proven lower bound on the distance to obstacles all the time, metres; infinite if nothing can be hit.
+    /// Returns a proven lower bound on the distance to obstacles at all times, metres. Infinite if no obstacle is
+    /// within reach.
     #[must_use]
     pub fn clearance(&self) -> f64 {
         self.legs.iter().map(Leg::clearance).fold(f64::INFINITY, f64::min)

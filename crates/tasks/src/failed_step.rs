@@ -8,53 +8,53 @@ use cplan_core::space::Configuration;
 use cplan_handling::Step;
 use std::sync::Arc;
 
-/// Beginnings of motions beyond these are not named for one reason.
+/// Largest number of start configurations that are named for one reason.
 const NAMED: usize = 4;
 
-/// Digits behind the point of joint values in words.
+/// Number of decimals of joint values in words.
 const DIGITS: i32 = 4;
 
-/// An IK solution at the target of a step that the arm cannot take, or is not known to.
+/// An IK solution at the target of a step that the arm cannot reach, or is not known to reach.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RefusedIkSolution {
     /// The values of both joints.
     pub ik_solution: Configuration,
-    /// Why, in words.
+    /// The reason, in words.
     pub reason: String,
-    /// That boxes of colliding configurations separate it from where the arm stands, where that is the reason.
+    /// Proof that boxes of colliding configurations separate it from the arm's configuration, if that is the reason.
     pub proof: Option<CheckedProof>,
 }
 
-/// A step that cannot be done, or is not known to be possible; nor can the task in any other order.
+/// A step that cannot be done, or is not known to be possible. The same holds for the task in any other order.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FailedStep {
-    /// The first step that cannot be done after as many as possible before it.
+    /// The first step that cannot be done, after as many earlier steps as possible.
     pub step: Step,
-    /// Why, in words, with the motions that were tried: also those from other IK solutions, or with other grips, than the
-    /// steps before end with in the answer.
+    /// Reasons in words, with the motions that were tried. They include motions from other IK solutions, or with other
+    /// grips, than those at the end of the earlier steps in the answer.
     pub reasons: Vec<String>,
-    /// The world after the steps before, as it is for the motion that fails, and what is carried.
+    /// The world after the earlier steps, as for the motion that fails, with the payload.
     pub scene: Arc<Scene>,
-    /// Where the arm stands then.
+    /// Configuration of the arm after the earlier steps.
     pub from: Configuration,
-    /// The IK solutions that were tried from there; none if no IK solution within the joint limits reaches the target.
+    /// The IK solutions that were tried from there. Empty if no IK solution within the joint limits reaches the target.
     pub ik_solutions: Vec<RefusedIkSolution>,
 }
 
 /// A step that could not be done.
 pub(super) struct Refused<'a> {
-    /// After how many steps.
+    /// Number of steps done before it.
     pub depth: usize,
     /// The node of the search from which it was tried.
     pub node: usize,
     pub step: &'a Step,
-    /// With which IK solution; none if there is none.
+    /// The IK solution that was tried. `None` if the target has none.
     pub ik_solution: Option<Configuration>,
     pub refusal: Refusal,
 }
 
 impl Refused<'_> {
-    /// The IK solution that is out of reach, if there is one.
+    /// Returns the IK solution that cannot be reached, if there is one.
     pub fn unreached(&self) -> Option<RefusedIkSolution> {
         let Refusal { reason, proof, .. } = &self.refusal;
         self.ik_solution.map(|ik_solution| RefusedIkSolution {
@@ -65,8 +65,8 @@ impl Refused<'_> {
     }
 }
 
-/// Why no more can be done where steps are refused: of the places where that is so, the farthest; of these the one reached first. With the node
-/// from which it was tried.
+/// Explains why the search got no farther. Among the refused steps, those after the most steps count, and among these
+/// the one that was reached first. Also returns the node from which it was tried.
 pub(super) fn farthest<'s>(
     arm: &Arm,
     refused: &[Refused],
@@ -98,13 +98,13 @@ pub(super) fn farthest<'s>(
 /// A motion that was tried, and why it is refused.
 struct Tried<'a> {
     from: Configuration,
-    /// None where there is no IK solution at the target.
+    /// The IK solution. `None` if the target has none.
     to: Option<Configuration>,
     reason: &'a str,
 }
 
-/// Each reason once, with the motions that it holds for: `to joints (0.3, 1.2) rad and (1.5, -1.2) rad: ...`. Where they
-/// begin is said if not all of them begin at one place.
+/// Returns each reason once, with the motions that it holds for: `to joints (0.3, 1.2) rad and (1.5, -1.2) rad: ...`.
+/// Names the start configurations if the motions have several.
 fn reasons(arm: &Arm, tried: &[Tried]) -> Vec<String> {
     let several = tried.iter().any(|motion| motion.from != tried[0].from);
     let mut reasons: Vec<&str> = Vec::new();
@@ -139,10 +139,10 @@ fn reasons(arm: &Arm, tried: &[Tried]) -> Vec<String> {
     reasons.into_iter().map(explained).collect()
 }
 
-/// Joint values in words: `(0.3, 1.2) rad`, `(0.3 m, 1.2 rad)`.
+/// Formats joint values: `(0.3, 1.2) rad`, `(0.3 m, 1.2 rad)`.
 fn joints(arm: &Arm, q: Configuration) -> String {
     let grains = 10_f64.powi(DIGITS);
-    // Zero has no sign in words.
+    // In words, zero has no sign.
     let [a, b] = [0, 1].map(|k| (q[k] * grains).round() / grains + 0.0);
     match arm.joints.each_ref().map(Joint::unit) {
         [first, second] if first == second => format!("({a}, {b}) {first}"),

@@ -1,4 +1,4 @@
-//! What remains of a task, if nothing were in the way.
+//! Lower bounds on the remaining time of a task, ignoring obstacles.
 
 use super::ik_solutions::{goal_ik_solutions, ik_solutions};
 use super::least_time::least_time;
@@ -10,38 +10,38 @@ use cplan_geometry::{Point, Pose};
 use cplan_handling::{Action, Holding, Item, Object, Step, Task};
 use nalgebra::{Isometry2, Rotation2};
 
-/// Where a step can end.
+/// A target of a step, where the arm stops.
 #[derive(Debug, Clone)]
 pub(super) struct Stop {
-    /// All IK solutions at the target; none if they are not known before the steps before are, or are infinitely many.
+    /// All IK solutions at the target. `None` if there are infinitely many, or if they depend on earlier steps.
     ik_solutions: Option<Vec<Configuration>>,
     speed: f64,
-    /// Seconds that the arm stands still there, at the least.
+    /// Least time that the arm stands still there, seconds.
     dwell: f64,
 }
 
 impl Stop {
-    /// How many places there are to stand at: one if they are not known.
+    /// Returns the number of configurations at the stop: one if they are unknown.
     fn count(&self) -> usize {
         self.ik_solutions.as_ref().map_or(1, Vec::len)
     }
 
-    /// The configuration of a place to stand at, where it is known.
+    /// Returns a configuration of the stop by index, if it is known.
     fn at(&self, place: usize) -> Option<Configuration> {
         self.ik_solutions.as_ref().map(|ik_solutions| ik_solutions[place])
     }
 
-    /// All IK solutions, if they are known.
+    /// Returns all IK solutions, if they are known.
     pub fn ik_solutions(&self) -> Option<&[Configuration]> {
         self.ik_solutions.as_deref()
     }
 
-    /// The share of top speeds on the way to it.
+    /// Returns the share of top speeds of the motion to the stop.
     pub fn speed(&self) -> f64 {
         self.speed
     }
 
-    /// Least seconds to a place to stand at and through its dwell.
+    /// Returns the least seconds of the motion to a configuration of the stop and of its dwell.
     fn seconds(&self, arm: &Arm, from: Option<Configuration>, place: usize) -> f64 {
         let way = from.zip(self.at(place)).map_or(0.0, |(from, to)| least_time(arm, from, to, self.speed));
         way + self.dwell
@@ -51,40 +51,40 @@ impl Stop {
 /// The stops of an item.
 #[derive(Debug, Clone)]
 pub(super) enum Stops {
-    /// Of a step.
+    /// The stop of a step.
     One(Stop),
-    /// Of each pair: pick and place.
+    /// The stops of each pair: pick and place.
     Pairs(Vec<[Stop; 2]>),
-    /// The item moves nothing.
+    /// The item involves no motion.
     Nothing,
 }
 
 /// Least seconds to the end of a task after each item.
 #[derive(Debug, Clone)]
 enum After {
-    /// By the place to stand at.
+    /// For a step: by the configuration at its stop.
     One(Vec<f64>),
-    /// Of a group in any order.
+    /// For a group in any order.
     Pairs(Table),
-    /// Of a group that is too large for that: from its beginning, wherever the arm is.
+    /// For a group that is too large for a table: from its beginning, wherever the arm is.
     Many(f64),
     Nothing,
 }
 
-/// Pairs of a group up to which all subsets are looked at: some hundred thousand numbers.
+/// Largest number of pairs of a group for which all subsets are tabulated: some hundred thousand numbers.
 const MOST_PAIRS: usize = 12;
 
-/// Least seconds from within a group to the end of the task, by the pairs done (a bit each), one of these, and the place
-/// to stand at.
+/// Least seconds from within a group to the end of the task. Indexed by the set of pairs done (a bit each), the last of
+/// them, and the configuration at its stop.
 #[derive(Debug, Clone)]
 struct Table {
-    /// From the pick of a pair, which counts as done here.
+    /// From the pick of a pair, which counts as done.
     picked: Vec<Vec<Vec<f64>>>,
     /// From the place of the last pair done.
     placed: Vec<Vec<Vec<f64>>>,
 }
 
-/// Least times to the end of a task from everywhere in it, over all IK solutions and orders.
+/// Least times from any state to the end of a task, over all IK solutions and orders.
 pub(super) struct Heuristic<'a> {
     arm: &'a Arm,
     stops: Vec<Stops>,
@@ -92,9 +92,9 @@ pub(super) struct Heuristic<'a> {
 }
 
 impl<'a> Heuristic<'a> {
-    /// `O(n b^2)` for `n` steps with `b` IK solutions each, and `O(2^k k^2 b^2)` for a group of up to [`MOST_PAIRS`] pairs, whose
-    /// best order is found. Of larger ones each pick is reached from the nearest place, and the farthest of these ways left out
-    /// for the first.
+    /// Computes the heuristic in `O(n b^2)` for `n` steps with `b` IK solutions each, and `O(2^k k^2 b^2)` for a group
+    /// of `k` pairs up to [`MOST_PAIRS`], whose best order is found. For larger groups it is a weaker bound: each pick
+    /// is reached from the nearest place, and the longest of these motions is omitted, as the first pick needs none.
     pub fn new(task: &'a Task) -> Self {
         let stops = stops(task);
         let mut heuristic = Self { arm: &task.arm, after: vec![After::Nothing; stops.len()], stops };
@@ -111,7 +111,7 @@ impl<'a> Heuristic<'a> {
         heuristic
     }
 
-    /// Least seconds from a configuration to the end of the task; infinite where a target is out of reach.
+    /// Returns the least seconds from a configuration to the end of the task. Infinite if a target is out of reach.
     pub fn remaining(&self, q: Configuration, progress: Progress) -> f64 {
         let Progress { item, done, half } = progress;
         match (self.stops.get(item), self.after.get(item), half) {
@@ -126,7 +126,7 @@ impl<'a> Heuristic<'a> {
         }
     }
 
-    /// Least seconds from the beginning of an item to the end of the task.
+    /// Returns the least seconds from the beginning of an item to the end of the task.
     fn from(&self, q: Option<Configuration>, item: usize) -> f64 {
         match (self.stops.get(item), self.after.get(item)) {
             (Some(Stops::One(stop)), Some(After::One(after))) => self.over(stop, q, after),
@@ -137,20 +137,20 @@ impl<'a> Heuristic<'a> {
         }
     }
 
-    /// The least over all places to stand at of a stop.
+    /// Returns the least time over all configurations of a stop.
     fn over(&self, stop: &Stop, q: Option<Configuration>, after: &[f64]) -> f64 {
         let by = |(place, after): (usize, &f64)| stop.seconds(self.arm, q, place) + after;
         after.iter().enumerate().map(by).fold(f64::INFINITY, f64::min)
     }
 
-    /// The least over all pairs that are not done.
+    /// Returns the least time over all pairs that are not done.
     fn next_pair(&self, pairs: &[[Stop; 2]], table: &Table, q: Option<Configuration>, done: usize) -> f64 {
         let open = (0..pairs.len()).filter(|pair| done & (1 << pair) == 0);
         let by = |pair: usize| self.over(&pairs[pair][0], q, &table.picked[done | 1 << pair][pair]);
         open.map(by).fold(f64::INFINITY, f64::min)
     }
 
-    /// A bound for a group in any order and what follows it.
+    /// Returns a lower bound for a group in any order and the items after it.
     fn at_least(&self, pairs: &[[Stop; 2]], item: usize) -> f64 {
         let least = |values: &mut dyn Iterator<Item = f64>| values.fold(f64::INFINITY, f64::min);
         let way = |from: &Stop, to: &Stop| {
@@ -168,7 +168,7 @@ impl<'a> Heuristic<'a> {
         let carried: f64 = pairs.iter().map(|[pick, place]| way(pick, place)).sum();
         let ends = pairs.iter().flat_map(|[_, place]| (0..place.count()).map(|at| place.at(at)));
         let onward = least(&mut ends.map(|end| self.from(end, item + 1)));
-        // The dwell at the first pick is in the way that is left out.
+        // The omitted motion includes the dwell at the first pick, so the least dwell is added.
         let dwell = pairs.iter().map(|[pick, _]| pick.dwell).fold(f64::INFINITY, f64::min);
         ways.iter().sum::<f64>() + dwell + carried + onward
     }
@@ -193,7 +193,7 @@ impl<'a> Heuristic<'a> {
     }
 }
 
-/// Where an object lies, as far as that does not depend on IK solutions: its origin, and its orientation if known.
+/// Pose of an object as far as it does not depend on IK solutions: its origin, and its orientation if known.
 #[derive(Clone, Copy)]
 struct Lies {
     at: Point,
@@ -201,7 +201,7 @@ struct Lies {
 }
 
 impl Lies {
-    /// Where a point of the object is.
+    /// Returns the position of a point of the object, if it is known.
     fn place_of(&self, point: Point) -> Option<Point> {
         if point == Point::origin() {
             return Some(self.at);
@@ -217,9 +217,9 @@ impl From<&Object> for Lies {
     }
 }
 
-/// The stops of all items.
+/// Returns the stops of all items.
 pub(super) fn stops(task: &Task) -> Vec<Stops> {
-    // Nobody knows beforehand where what moves is picked.
+    // The place where a moving object will be picked is unknown.
     let lies = |object: &Object| object.course.is_none().then(|| Lies::from(object));
     let mut lies: Vec<Option<Lies>> = task.objects.iter().map(lies).collect();
     let mut held = None;
@@ -245,7 +245,7 @@ pub(super) fn stops(task: &Task) -> Vec<Stops> {
     task.items.iter().map(of).collect()
 }
 
-/// All IK solutions of a step, and what becomes of its object.
+/// Returns all IK solutions of a step, if they are known, and updates the pose of its object.
 fn targets(
     task: &Task,
     step: &Step,
@@ -272,7 +272,7 @@ fn targets(
                 Holding::Level => angle.or(lies[object]?.angle),
                 Holding::Rigid => None,
             };
-            // The same expression as that of the state, so that values are the same.
+            // This must be the same expression as in the state, so that the values are equal.
             let exact = turned.map(|angle| Isometry2::new(at.coords, angle) * grasp);
             let placed = Lies { at: *at, angle: turned };
             lies[object] = Some(placed);
@@ -317,7 +317,7 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(64))]
 
-        /// What is said of large groups is less than the best of all orders.
+        /// The bound for large groups is at most the best time over all orders.
         #[test]
         fn the_bound_of_a_large_group_is_a_bound(
             spots in prop::collection::vec(((0.4..1.6f64, -3.0..3.0f64), (0.4..1.6f64, -3.0..3.0f64)), 2..7),

@@ -1,4 +1,4 @@
-//! The configurations that put a point of the arm somewhere.
+//! The configurations that put a point of the arm at a target.
 
 use cplan_core::model::{Arm, Goal, inverse, within};
 use cplan_core::space::Configuration;
@@ -7,14 +7,14 @@ use cplan_geometry::Point;
 /// Configurations for a target.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct IkSolutions {
-    /// Within the joint limits; none where the target is out of reach.
+    /// Configurations within the joint limits. Empty if the target is out of reach.
     pub configurations: Vec<Configuration>,
-    /// Whether there are no others, up to whole turns of a joint without limits.
+    /// True if there are no others, up to whole turns of a joint without limits.
     pub all: bool,
 }
 
-/// All configurations within the limits that put the tip (or another point of link 2 in its place) at `target`; where
-/// infinitely many do, those with the `preferred` value of the joint that is free.
+/// Returns all configurations within the limits that put the tip, or another point of link 2, at `target`. If there are
+/// infinitely many, returns those with the `preferred` value of the free joint.
 pub(super) fn ik_solutions(arm: &Arm, point: Point, target: Point, preferred: Configuration) -> IkSolutions {
     let solved = if point == arm.tip {
         inverse(arm, target, preferred)
@@ -31,13 +31,13 @@ pub(super) fn ik_solutions(arm: &Arm, point: Point, target: Point, preferred: Co
     IkSolutions { configurations, all: solved.free.is_none() }
 }
 
-/// The same for where a step is to move.
+/// Returns the same for the goal of a move.
 pub(super) fn goal_ik_solutions(arm: &Arm, goal: &Goal, preferred: Configuration) -> IkSolutions {
     match goal {
         Goal::Joints(q) => IkSolutions { configurations: vec![*q], all: true },
         Goal::Tip(tip) => ik_solutions(arm, arm.tip, *tip, preferred),
         Goal::Area([low, high]) => {
-            // A task that is checked has none.
+            // A task that has been checked contains no areas.
             let middle = ik_solutions(arm, arm.tip, nalgebra::center(low, high), preferred);
             IkSolutions { all: false, ..middle }
         }

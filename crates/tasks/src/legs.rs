@@ -16,37 +16,37 @@ use cplan_text::{counted, listed};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-/// Why a motion is not possible.
+/// The reason why a motion is not possible.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Refusal {
-    /// Why, in words for the summary.
+    /// The reason, in words for the summary.
     pub reason: String,
-    /// Whether that is proven, or just what came of trying.
+    /// True if proven; false if the search merely found nothing.
     pub proven: bool,
-    /// The proof that there is no way, where that is the reason.
+    /// The proof that there is no path, if that is the reason.
     pub proof: Option<CheckedProof>,
-    /// What would have to be elsewhere.
+    /// The objects that block the motion.
     pub blockers: Blockers,
 }
 
-/// What a motion fails for: obstacles by their number in [`Task::obstacles`], ascending.
+/// Obstacles that make a motion fail, by their number in [`Task::obstacles`], ascending.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Blockers {
-    /// The arm or what it carries hits all of these at the end of the motion.
+    /// The arm or its payload hits all of these at the end of the motion.
     AtEnd(Vec<usize>),
-    /// These together bar the way.
+    /// These obstacles together block the path.
     OnTheWay(Vec<usize>),
-    /// It is not known.
+    /// They are not known.
     Unknown,
 }
 
 impl Refusal {
-    /// A reason without a proof by boxes, from which nothing is learned.
+    /// Creates a refusal without a proof by boxes and without known blockers.
     pub fn new(reason: impl Into<String>, proven: bool) -> Self {
         Self { reason: reason.into(), proven, proof: None, blockers: Blockers::Unknown }
     }
 
-    /// There is no way, as this proves.
+    /// Creates a refusal by a proof that there is no path.
     fn barred(proof: CheckedProof) -> Self {
         let stuck = proof.stuck();
         let reason =
@@ -69,53 +69,53 @@ pub(super) struct Motion {
 }
 
 impl Motion {
-    /// Seconds that the arm moves, and stands still after it for more than the step's dwell.
+    /// Returns the seconds that the arm moves, and stands still after it in addition to the step's dwell.
     pub fn seconds(&self) -> f64 {
         let turn = self.turn.map_or(0.0, |(_, seconds)| seconds);
         self.timed.trajectory.duration() + turn + self.stroke.map_or(0.0, |stroke| 2.0 * stroke.seconds)
     }
 }
 
-/// What is known of a way before its motion is planned.
+/// Knowledge about a motion's path before it is planned.
 enum Way {
-    /// Straight there: certified. Nothing is shorter, whatever the metric.
+    /// The certified straight path. No path is shorter in any metric.
     Straight(CertifiedPath),
-    /// Not straight; none of the rest is ruled out.
+    /// Not straight; other paths are not ruled out.
     Open,
-    /// There is none.
+    /// There is no path.
     Barred(Refusal),
 }
 
-/// Slabs after which it is left to the planner whether there is a way: some milliseconds.
+/// Number of slabs after which the planner has to decide whether there is a path: some milliseconds.
 const SLABS: usize = 2_000;
 
-/// How often a path is planned among some of the objects before it is planned among all.
+/// Number of attempts with a subset of the objects before all of them are included.
 const TRIES: usize = 3;
 
-/// Configurations between two waypoints at which it is looked what a path hits.
+/// Samples per segment when collecting the objects that a path hits.
 const LOOKS: u32 = 16;
 
-/// What a scene depends on, bit by bit.
+/// The data that determines a scene, as bits.
 type SceneKey = Vec<u64>;
 
-/// By which share paths may be longer than the shortest.
+/// Share by which paths may be longer than the shortest.
 const GAP: f64 = 0.01;
 
-/// A scene, and from where to where.
+/// A scene by number, with start and end of the path.
 type WayKey = (usize, [u64; 4]);
 
-/// Plans motions, and remembers them: the same motion among the same things that can be hit is planned once. Tasks that differ
-/// in their items alone share them.
+/// Plans motions and caches them: a motion is planned once among the same relevant obstacles. Tasks that differ only in
+/// their items can share a cache.
 pub(super) struct Legs {
     options: Options,
-    /// Scenes as far as they matter, by number.
+    /// Numbers of scenes, as far as they matter for the motion.
     numbers: BTreeMap<SceneKey, usize>,
     ways: BTreeMap<WayKey, Way>,
     /// Paths among the workspace's own obstacles and some of the objects.
     fewer: BTreeMap<(SceneKey, [u64; 4]), Result<CertifiedPath, Refusal>>,
-    /// By way and speed.
+    /// Motions by path and speed.
     motions: BTreeMap<(WayKey, u64), Result<Arc<Timed>, Refusal>>,
-    /// Whole scenes, for answers.
+    /// Complete scenes, for answers.
     scenes: BTreeMap<SceneKey, Arc<Scene>>,
 }
 
@@ -131,23 +131,23 @@ impl Legs {
         }
     }
 
-    /// Motions planned so far.
+    /// Returns the number of motions planned so far.
     pub fn planned(&self) -> usize {
         self.motions.len()
     }
 
-    /// Ways looked at so far, those of motions included.
+    /// Returns the number of paths examined so far, including those of motions.
     pub fn looked_at(&self) -> usize {
         self.ways.len()
     }
 
-    /// The scene of a motion; the same one for the same state of the world.
+    /// Returns the scene of a motion. The same state of the world gives the same scene.
     pub fn scene(&mut self, task: &Task, from: &State, step: &Step) -> Arc<Scene> {
         let key = scene_key(from, step, |_| true);
         self.scenes.entry(key).or_insert_with(|| Arc::new(from.scene(task, step.action.picked()))).clone()
     }
 
-    /// The motion to a candidate's target and the turn there.
+    /// Returns the motion to a candidate's target with the turn and the stroke there.
     pub fn motion(&mut self, task: &Task, from: &State, candidate: &Candidate) -> Result<Motion, Refusal> {
         let key = self.way(task, from, candidate)?;
         let speed = candidate.step.speed;
@@ -179,8 +179,9 @@ impl Legs {
         timed.map(Arc::new).map_err(|error| Refusal::new(error.to_string(), false))
     }
 
-    /// The planner's path among all objects: the one among fewer, if it is free among all, as none is shorter then. Objects that
-    /// it hits are added, and it is planned again; and what is planned among few is the same for many motions.
+    /// Returns the planner's path among all objects. If a path among fewer objects is free among all, it is the answer,
+    /// as no path is shorter. Otherwise the objects that it hits are added, and the path is planned again. Paths among
+    /// few objects serve many motions.
     fn shortest(
         &mut self,
         task: &Task,
@@ -203,8 +204,8 @@ impl Legs {
         found.unwrap_or_else(|| path(scene, q, to, &self.options))
     }
 
-    /// Whether nothing is known that rules the motion to a candidate's target out, and the turn there: most of what can, and
-    /// in a small part of the time that the motion takes to plan.
+    /// Checks that nothing known rules out the motion to a candidate's target, or the turn there. This finds most
+    /// reasons, in a small part of the time that planning the motion takes.
     pub fn promising(&mut self, task: &Task, from: &State, candidate: &Candidate) -> Result<(), Refusal> {
         let key = self.way(task, from, candidate)?;
         if let Some(Err(refusal)) = self.motions.get(&(key, candidate.step.speed.to_bits())) {
@@ -214,17 +215,17 @@ impl Legs {
         candidate.turn.map_or(Ok(()), |turn| self.turn(task, from, candidate, turn).map(|_| ()))
     }
 
-    /// What is known of the way to a candidate's target, if it is not ruled out.
+    /// Examines the path to a candidate's target, and refuses it if it is ruled out.
     fn way(&mut self, task: &Task, from: &State, candidate: &Candidate) -> Result<WayKey, Refusal> {
         let left = from.left(task, candidate, candidate.to);
         if left.is_done(task) {
-            // No motion follows that would begin there.
+            // No later motion will begin there.
             let left = left.scene(task, from.released);
             unobstructed(&left, candidate.to, "after it")?;
             let held = TorqueLimit::held_at(&left, candidate.to);
             held.map_err(|error| Refusal::new(format!("after it {error}"), false))?;
         } else if left.is_unsettled(task) {
-            // The motion that follows begins among other objects.
+            // The next motion begins among other objects.
             unobstructed(&left.scene(task, None), candidate.to, "after it")?;
         }
         let carried = from.held.as_ref().map(|held| task.objects[held.object].carried_heights());
@@ -242,7 +243,7 @@ impl Legs {
         }
     }
 
-    /// The turn of the wrist at a candidate's target, and the seconds that it takes.
+    /// Returns the turn of the wrist at a candidate's target, and its duration in seconds.
     fn turn(
         &self,
         task: &Task,
@@ -251,7 +252,7 @@ impl Legs {
         turn: [f64; 2],
     ) -> Result<(WristTurn, f64), Refusal> {
         let unproven = |reason: &str| Refusal::new(reason, false);
-        // The object is no obstacle to itself: it lies nowhere before it is let go of, or from when it is taken.
+        // The object is no obstacle to itself: it has no pose before its release, or after its grasp.
         let left = from.left(task, candidate, candidate.to);
         let with = if left.held.is_some() { &left } else { from };
         let Some(held @ Held { grip: Grip::Level { point, .. }, .. }) = &with.held else {
@@ -267,7 +268,7 @@ impl Legs {
         Ok((way, turning.last().map_or(0.0, |[seconds, ..]| *seconds)))
     }
 
-    /// A lower bound on the seconds that a turn takes.
+    /// Returns a lower bound on the seconds that a turn takes.
     pub fn least_turn(task: &Task, [from, to]: [f64; 2]) -> f64 {
         let ahead = (to - from).rem_euclid(std::f64::consts::TAU);
         let least = ahead.min(std::f64::consts::TAU - ahead);
@@ -275,17 +276,18 @@ impl Legs {
     }
 }
 
-/// How motions of a task are planned. Tasks bound times, not the lengths of paths: what is somewhat longer leaves room for faster
-/// motions.
+/// Returns the options for planning the motions of a task. Tasks bound durations instead of path lengths, and a
+/// somewhat longer path permits faster motions.
 pub(super) fn of_legs(options: &Options) -> Options {
     let planner = options.planner.with_gap(options.planner.gap().unwrap_or(GAP));
     Options { planner, bounded: false, ..*options }
 }
 
-/// IK solutions are rounded: what is in the way at one is so for certain if it is at all that are this far beside it, radians and metres.
+/// Distance, radians and metres, at which neighbours of an IK solution are checked as well. IK solutions are rounded,
+/// so a collision is certain only if the neighbours collide, too.
 const BESIDE: f64 = 1e-9;
 
-/// Refuses a configuration in which something is hit; `when` is when the arm is there, in words.
+/// Refuses a configuration with collisions. `when` states in words when the arm is there.
 pub(super) fn unobstructed(scene: &Scene, q: Configuration, when: &str) -> Result<(), Refusal> {
     let hits = scene.obstructions(q);
     if hits.is_empty() {
@@ -299,8 +301,9 @@ pub(super) fn unobstructed(scene: &Scene, q: Configuration, when: &str) -> Resul
     Err(Refusal { blockers, ..Refusal::new(format!("{when} {}", listed(&words)), is_proven) })
 }
 
-/// A path that is free among all objects, found among few of them, which are those that a path among fewer hits; a proof that there is
-/// none even so; or nothing, where it is to be planned among all. `own` obstacles are no objects; `plan` plans among some.
+/// Plans among few objects, and adds those that the path hits. Returns a path that is free among all objects, or a
+/// proof that there is no path even among few. `None` if the path must be planned among all objects. The first `own`
+/// obstacles are not objects; `plan` plans among a subset.
 fn among_few(
     scene: &Scene,
     own: usize,
@@ -333,7 +336,8 @@ fn among_few(
     None
 }
 
-/// What a motion was planned in, and the planner's answer, planned again as [`Legs`] does; none of one that is straight.
+/// Returns the problem of a motion and the planner's answer, planned again as [`Legs`] does. `None` if the path is
+/// straight.
 pub(super) fn planned_again(
     scene: &Scene,
     own: usize,
@@ -362,7 +366,7 @@ pub(super) fn planned_again(
     }
 }
 
-/// The scene with some of its objects alone; the others keep their numbers.
+/// Returns the scene with a subset of its objects. The others keep their numbers, but have no shape.
 fn only(scene: &Scene, own: usize, among: &BTreeSet<usize>) -> Scene {
     let mut number = 0;
     scene.reshaped(
@@ -375,13 +379,13 @@ fn only(scene: &Scene, own: usize, among: &BTreeSet<usize>) -> Scene {
     )
 }
 
-/// The straight way from one configuration to another, if it is free.
+/// Returns the straight path from one configuration to another, if it is free.
 fn straight(scene: &Scene, from: Configuration, to: Configuration) -> Option<CertifiedPath> {
     let straight = Path::new(vec![from, scene.arm().topology().lift(to, from)]);
     certify(scene, straight, scene.workspace().clearance).ok()
 }
 
-/// What cheap questions tell of the way from one configuration to another.
+/// Examines the path from one configuration to another by inexpensive checks.
 fn way(scene: &Scene, from: Configuration, to: Configuration) -> Way {
     let ends = unobstructed(scene, from, "at its beginning")
         .map_err(|refusal| Refusal { blockers: Blockers::Unknown, ..refusal })
@@ -402,13 +406,13 @@ fn way(scene: &Scene, from: Configuration, to: Configuration) -> Way {
     }
 }
 
-/// The planner's path from one configuration to another.
+/// Returns the planner's path from one configuration to another.
 fn path(scene: &Scene, from: Configuration, to: Configuration, options: &Options) -> Result<CertifiedPath, Refusal> {
     let problem = MotionProblem::trusted(scene.clone(), from, to);
     found(solve(&problem, options, &mut |_| {}).outcome)
 }
 
-/// The path that was found, or why there is none.
+/// Returns the path that was found, or the reason why there is no path.
 fn found(outcome: Outcome<BoundedPath, CheckedProof, Unknown>) -> Result<CertifiedPath, Refusal> {
     match outcome {
         Outcome::Found(path) => Ok(path.certified),
@@ -417,7 +421,7 @@ fn found(outcome: Outcome<BoundedPath, CheckedProof, Unknown>) -> Result<Certifi
     }
 }
 
-/// What the scene of a motion depends on, of the objects that matter.
+/// Returns the data that determines the scene of a motion, for the objects that matter.
 fn scene_key(from: &State, step: &Step, matters: impl Fn(usize) -> bool) -> SceneKey {
     let mut key = Vec::new();
     let picked = step.action.picked();

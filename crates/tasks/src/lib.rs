@@ -1,44 +1,49 @@
-//! From a task to a sequence of certified motions: which IK solution to take at each target, how to grip, and in which
-//! order, are chosen together, for the least total time.
+//! Plans tasks as sequences of certified motions. The IK solution at each target, the grip and the order are chosen
+//! together, for the least total time.
 //!
-//! Each motion has a scene of its own: objects lie where the steps before have left them, and what is carried is part of
-//! the arm. The object that a motion goes to, and the one just let go of, are no obstacles to link 2, which has to reach
-//! into them; they are to link 1 and to payloads.
+//! Each motion has its own scene: objects lie where earlier steps have left them, and the payload is part of the arm.
+//! Link 2 may touch the object that a motion leads to, and the one just released, because the gripper must reach into
+//! them. For link 1 and for payloads, both are obstacles.
 //!
-//! [`plan`] searches a layered graph, whose nodes say what is done, where the arm and the objects are, and what is
-//! carried, by A* over times. Motions are planned only when they matter: until then an edge counts as the time that the
-//! joints would take if nothing were in the way, which no motion undercuts. Such times to the end, over all IK solutions (and
-//! orders, by a table of subsets), are the heuristic; at the start they bound the whole task from below.
+//! [`plan`] searches a layered graph by A* over times. A node states the steps done, the poses of arm and
+//! objects, and the payload. Motions are planned only when they matter. Until then, an edge counts as the
+//! time that the joints would take without obstacles, which is a lower bound for every motion. The sum of these times
+//! to the end, over all IK solutions and orders (by a table of subsets), is the heuristic. At the start it is a lower
+//! bound for the whole task.
 //!
 //! # Scenes
 //!
 //! - A rigid payload is a union of parts of link 2.
-//! - A level one only translates with the tip, so the part is the tip, a point, and what it can meet are the Minkowski
-//!   differences of the obstacles' pieces and the payload's. So planners, C-obstacles, certificates and proofs need no
-//!   third link.
-//! - What a payload rests on it meets with each corner of its outline moved inwards by what it may press in
-//!   (`drawn_in`); to keep no clearance there, supports are farther away by it in
-//!   every distance (`Convex::receding`).
-//! - Motions are shared (`legs`) among worlds that differ only in objects which the heights keep from being hit.
+//! - A level payload only translates with the tip. So its part is the tip, a point, and its obstacles are the Minkowski
+//!   differences of the obstacles' pieces and the payload's pieces. Planners, C-obstacles, certificates and proofs
+//!   therefore need no third link.
+//! - Against its supports, each corner of a payload's outline is moved inwards by the allowed penetration (`drawn_in`).
+//!   No clearance is required there, so supports count as farther away by it in every distance (`Convex::receding`).
+//! - Motions are shared (`legs`) among worlds that differ only in objects which cannot be hit because of their heights.
 //!
 //! # Orders
 //!
-//! Where a group has more than ten pairs, or the search takes too long, an order is settled on (`order`); the bound stays
-//! one over all orders. A local search (`tour`) proposes one by times with nothing in the way; `walk` goes through it
-//! with questions that cost a tenth of a motion (straight? barred, by slabs?). The first pair that cannot be done makes a
-//! `condition`: what was hit, or barred the way, has to be moved before, or after. The ends of all motions make such
-//! conditions beforehand (`ends`). If no order meets all, one is built up pair by pair. The file's own order is tried,
-//! too; then motions teach the tour how long they really take, and it proposes again.
+//! If a group has more than ten pairs, or the search takes too long, one order is chosen (`order`). The bound still
+//! covers all orders.
 //!
-//! # What moves
+//! - A local search (`tour`) proposes an order by times without obstacles.
+//! - `walk` goes through it with checks that cost a tenth of a motion: is the path straight, do slabs rule it out?
+//! - The first pair that cannot be done gives a `condition`: the object that was hit, or blocked the path, must be
+//!   moved earlier or later. The ends of all motions give such conditions in advance (`ends`).
+//! - If no order satisfies all conditions, one is built pair by pair.
+//! - The search also tries the file's own order. Then the tour learns the real durations of motions, and proposes
+//!   again.
 //!
-//! Where something moves, or an object that is picked on its way, the search is another one (`among_movers`), over what is done next and when.
+//! # Moving obstacles
+//!
+//! If there are moving obstacles, or objects that are picked while they move, another search is used (`among_movers`),
+//! over the next steps and their times.
 //!
 //! # Verdicts
 //!
-//! If the search runs dry and every motion was refused with a proof, the task is infeasible; where a choice was left out
-//! (a turn of the wrist on the way, orders not tried), it is unknown. That no order can be done is proven by a `part` of
-//! the group: one pair or two that cannot be done though all other objects are out of the way.
+//! If the search has tried everything and every motion was refused with a proof, the task is infeasible. If a choice
+//! was left out (a turn of the wrist during a motion, orders not tried), the answer is unknown. That no order can be
+//! done is proven by a `part` of the group: one or two pairs that cannot be done even without all other objects.
 
 mod among_movers;
 mod answer;

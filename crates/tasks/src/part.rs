@@ -1,8 +1,9 @@
-//! Proof that a group cannot be done in any order, by a part of it: if some of its pairs cannot be done even where all other
-//! objects are out of the way, then the whole cannot.
+//! Proofs by a part of a group that the group cannot be done in any order. If some of its pairs cannot be done even
+//! without all other objects, the whole group cannot be done.
 //!
-//! What the whole does for these pairs is a way for the part, too: the arm passes the same configurations among fewer obstacles,
-//! carries nothing where it carried something else, and link 2 is free to meet what it went to, or let go of, for longer.
+//! Any solution for the whole group would also solve the part. The arm passes the same configurations among fewer
+//! obstacles. It carries nothing where it carried another object. Link 2 may touch the objects of its picks and places
+//! for longer.
 
 use super::heuristic::Heuristic;
 use super::legs::Legs;
@@ -13,14 +14,14 @@ use cplan_handling::{Action, Item, Task};
 use cplan_solver::Options;
 use std::collections::BTreeSet;
 
-/// Motions that are planned for one part.
+/// Largest number of motions planned for one part.
 const MOTIONS: usize = 200;
 
-/// Pairs of a part: so few that all their orders are soon looked at.
+/// Largest number of pairs of a part, so small that all their orders can be searched quickly.
 const MOST_PAIRS: usize = 4;
 
-/// The answer that group `item` cannot be done, if that is proven by the first of `pairs` alone, by it and one other, or by all if
-/// they are few.
+/// Returns the answer that group `item` cannot be done, if that is proven. Tries the first of `pairs` alone, then with
+/// one other pair, and then all pairs if they are few.
 pub(super) fn impossible(
     task: &Task,
     item: usize,
@@ -29,7 +30,7 @@ pub(super) fn impossible(
     progress: &mut dyn FnMut(&str),
 ) -> Option<Found> {
     let (&first, others) = pairs.split_first()?;
-    // Groups before it would have to be looked at in all orders.
+    // Earlier groups would have to be searched in all orders.
     if task.items[..item].iter().any(|before| matches!(before, Item::AnyOrder(_))) {
         return None;
     }
@@ -38,7 +39,7 @@ pub(super) fn impossible(
     parts.into_iter().find_map(|part| {
         let alone = part_of(task, item, &part)?;
         let heuristic = Heuristic::new(&alone);
-        // With legs of its own: its objects are not the same.
+        // It needs its own legs, because its objects are different.
         let mut legs = Legs::new(options);
         let mut search = Search::new(&alone, &heuristic, &mut legs);
         let ending = search.run(limits(&alone, MOTIONS), progress);
@@ -51,7 +52,7 @@ pub(super) fn impossible(
         failed
             .reasons
             .push(format!("this holds in any order, even with no other objects than {}", names.join(" and ")));
-        // They were done in a world with less in it.
+        // These steps were done in a world with fewer objects.
         found.legs.clear();
         Some(found)
     })
@@ -65,8 +66,8 @@ fn name(task: &Task, item: usize, pair: usize) -> String {
     picked.map_or_else(String::new, |object| format!("\"{}\"", task.objects[object].name))
 }
 
-/// The task up to a group of which only some pairs are left, without the objects that other pairs, or later steps, move. None if
-/// one of those that are left is moved later: then the end of the part is not like that of the group.
+/// Returns the task up to a group with only some of its pairs, without the objects that other pairs, or later steps,
+/// move. `None` if one of the remaining objects is moved later, because then the part ends differently from the group.
 fn part_of(task: &Task, item: usize, part: &[usize]) -> Option<Task> {
     let Item::AnyOrder(pairs) = &task.items[item] else { return None };
     let left: Vec<_> = part.iter().map(|&pair| pairs[pair].clone()).collect();

@@ -1,4 +1,4 @@
-//! From a task to its answer: which search is made, and how long.
+//! Planning of tasks: chooses the search and its limits.
 
 use super::among_movers;
 use super::answer::{Leg, TaskAnswer, TaskMotion};
@@ -15,35 +15,36 @@ use cplan_handling::{Item, Task};
 use cplan_solver::Options;
 use std::collections::BTreeSet;
 
-/// Motions that are planned, and nodes that are expanded, while a search insists on the fastest choice where the order is
-/// fixed: some seconds' worth. Beyond, what is left counts more than what is done, so that it goes straight for the end.
+/// Largest numbers of planned motions and expanded nodes while a search with a fixed order insists on the fastest
+/// choice: some seconds of work. Beyond them, weighted A* heads for the end.
 const MOST_MOTIONS: usize = 2_000;
 const MOST_EXPANDED: usize = 100_000;
 
-/// The same where orders are free: about a second's worth. Beyond, an order is settled on.
+/// The same for free orders: about a second of work. Beyond it, one order is chosen.
 const FREE_MOTIONS: usize = 500;
 
-/// An order that is settled on is compared with the file's, and made better with so many motions and orders more, unless it is
-/// within this factor of the bound.
+/// A chosen order is compared with the file's order, and improved with this many more motions and orders, unless it is
+/// within the factor `CLOSE` of the bound.
 const IMPROVING_MOTIONS: usize = 100;
 const IMPROVING_ORDERS: usize = 6;
 const CLOSE: f64 = 1.15;
 
-/// States for each step of a task, beside these: long tasks have more of them.
+/// Additional nodes for each step of a task, since long tasks have more states.
 const EXPANDED_PER_STEP: usize = 16;
 
-/// A weighted search ends without an answer after so many times the first two numbers.
+/// A weighted search ends without an answer after this multiple of the first two numbers.
 const WEIGHTED_BUDGET: usize = 10;
 
-/// Pairs in a group up to which all orders are searched: the table of all subsets has some thousand entries then, and doubles
-/// with each pair more.
+/// Largest number of pairs in a group for which all orders are searched. The table of all subsets then has some
+/// thousand entries, and doubles with each further pair.
 const MOST_PAIRS: usize = 10;
 
-/// Plans a task: the fastest sequence of motions over all IK solutions at the targets, turns of the wrist and orders that
-/// are free, up to what [`TaskAnswer`] says of it. `progress` hears of long work.
+/// Plans a task: finds the fastest sequence of motions over all IK solutions at the targets, turns of the wrist, and
+/// orders that are free. [`TaskAnswer`] states the guarantees. Long computations are reported to `progress`.
 ///
-/// Where there are too many orders, it is one that is good with nothing in the way and meets what proofs and collisions tell of
-/// the orders that fail; the file's own, if that is faster; or a better one still, by the times of the motions planned.
+/// With too many orders, one is chosen that is good without obstacles, and satisfies the conditions learned from the
+/// proofs and collisions of orders that fail. The file's own order is used if it is faster. With the real durations of
+/// the planned motions, a still better order may be found.
 #[must_use]
 pub fn plan(task: &Task, options: &Options, progress: &mut dyn FnMut(&str)) -> TaskAnswer {
     if task.has_movers() {
@@ -66,13 +67,13 @@ struct Planning<'a, 'p> {
     options: &'a Options,
     legs: Legs,
     lower_bound: f64,
-    /// Nodes that all searches have expanded.
+    /// Number of nodes that all searches have expanded.
     expanded: usize,
     progress: &'p mut dyn FnMut(&str),
 }
 
 impl Planning<'_, '_> {
-    /// Where no order is free.
+    /// Answers a task without free orders.
     fn in_order(mut self, heuristic: &Heuristic) -> TaskAnswer {
         let mut search = Search::new(self.task, heuristic, &mut self.legs);
         let mut ending = search.run(limits(self.task, MOST_MOTIONS), self.progress);
@@ -85,7 +86,7 @@ impl Planning<'_, '_> {
         self.answer(found)
     }
 
-    /// Where all orders can be looked at, unless that takes too long.
+    /// Answers a task whose orders can all be searched, unless that takes too long.
     fn in_any_order(mut self, heuristic: &Heuristic) -> TaskAnswer {
         let mut search = Search::new(self.task, heuristic, &mut self.legs);
         let mut ending = search.run(limits(self.task, FREE_MOTIONS), self.progress);
@@ -107,13 +108,13 @@ impl Planning<'_, '_> {
         self.answer(if ending == Ending::Spent { found } else { Found { exact: false, ..last } })
     }
 
-    /// Where there are more orders than can be looked at.
+    /// Answers a task with more orders than can be searched.
     fn in_settled_order(mut self) -> TaskAnswer {
         let found = self.settled();
         self.answer(found)
     }
 
-    /// In an order that is settled on.
+    /// Plans the task in an order that is chosen.
     fn settled(&mut self) -> Found {
         let mut orders = Orders::of_file(self.task);
         let search = orders.search(&mut self.legs, self.progress);
@@ -121,7 +122,7 @@ impl Planning<'_, '_> {
             OrderSearch::Promising => Some(self.in_orders(&orders, f64::INFINITY)).filter(Found::is_done),
             OrderSearch::Stuck { .. } | OrderSearch::Elsewhere => None,
         };
-        // The file's own order, unless it takes longer, or little less, or is known not to work.
+        // The file's own order, unless it takes longer, hardly less, or is known not to work.
         let file = Orders::of_file(self.task);
         let below = best.as_ref().map_or(f64::INFINITY, |best| best.seconds);
         if below > CLOSE * self.lower_bound
@@ -147,7 +148,7 @@ impl Planning<'_, '_> {
         proof.unwrap_or_else(|| self.in_orders(&orders, f64::INFINITY))
     }
 
-    /// The same, or a better order: proposed by the times that motions have turned out to take.
+    /// Returns the best result, or that of a better order, proposed by the real durations of motions.
     fn improved(&mut self, mut orders: Orders, mut best: Found) -> Found {
         let most = self.legs.planned() + IMPROVING_MOTIONS;
         let mut tried = BTreeSet::from([orders.order()]);
@@ -169,7 +170,7 @@ impl Planning<'_, '_> {
         best
     }
 
-    /// The fastest choice in these orders, if it takes less than `below` seconds.
+    /// Returns the fastest choice in these orders, if it takes less than `below` seconds.
     fn in_orders(&mut self, orders: &Orders, below: f64) -> Found {
         let settled = orders.settled();
         let heuristic = Heuristic::new(&settled);
@@ -191,18 +192,18 @@ impl Planning<'_, '_> {
     }
 }
 
-/// What a search has found.
+/// The result of a search.
 pub(super) struct Found {
     pub outcome: Outcome<(), FailedStep, FailedStep>,
     pub legs: Vec<Leg>,
-    /// Whether no other choice is faster, or may be possible.
+    /// True if no other choice is faster, or could be possible.
     pub exact: bool,
-    /// Seconds that it takes; infinite if not all can be done.
+    /// Seconds that it takes; infinite if not all steps can be done.
     pub seconds: f64,
 }
 
 impl Found {
-    /// `exact` says whether the search has looked at all there is.
+    /// Returns the result of a search. `exact` is true if the search was exhaustive.
     pub fn of(search: &mut Search, ending: Ending, exact: bool) -> Self {
         if let Ending::Done(node) = ending {
             let (legs, seconds) = (search.legs(node), search.seconds(node));
@@ -224,13 +225,13 @@ impl Found {
     }
 }
 
-/// Limits of a search that insists on the fastest choice.
+/// Returns the limits of a search that insists on the fastest choice.
 pub(super) fn limits(task: &Task, motions: usize) -> Limits {
     let expanded = MOST_EXPANDED + EXPANDED_PER_STEP * task.steps().count();
     Limits { motions, expanded, below: f64::INFINITY }
 }
 
-/// Goes straight for the end.
+/// Runs the search as weighted A*, which heads for the end.
 fn hurried(search: &mut Search, task: &Task, motions: usize, progress: &mut dyn FnMut(&str)) -> Ending {
     search.hurry();
     let once = limits(task, motions);

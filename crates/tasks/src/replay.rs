@@ -1,4 +1,4 @@
-//! How the planner came to each motion of a task, told again.
+//! Replays of how the planner came to each motion of a task.
 
 use super::answer::{Leg, TaskAnswer};
 use super::legs::{of_legs, planned_again};
@@ -7,26 +7,26 @@ use cplan_handling::Task;
 use cplan_solver::{Options, Phase, Replay, Shows};
 use std::sync::Arc;
 
-/// How the planner came to the motions of a task. Those that are repeated are told once.
+/// The replay of a task. Repeated motions are included once.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TaskReplay {
-    /// Each motion that is told.
+    /// The distinct motions.
     pub motions: Vec<MotionReplay>,
-    /// Which of them each leg is, in order.
+    /// For each leg, in order, the index of its motion.
     pub legs: Vec<usize>,
 }
 
-/// How the planner came to a motion, and what it saw.
+/// The replay of one motion, with the planner's trace.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MotionReplay {
-    /// What happened.
+    /// The replay.
     pub replay: Replay,
-    /// What the replay shows parts of; none of a motion that nobody had to search.
+    /// The trace that the replay shows in parts. `None` for a straight motion, which needs no search.
     pub trace: Option<Trace>,
 }
 
 impl TaskReplay {
-    /// The replay of an answer to a task that was asked with these options. Its motions are planned again, as they were.
+    /// Computes the replay of an answer to a task with these options. Its motions are planned again in the same way.
     #[must_use]
     pub fn new(task: &Task, options: &Options, answer: &TaskAnswer) -> Self {
         let options = of_legs(options);
@@ -84,7 +84,7 @@ mod tests {
         (task, answer)
     }
 
-    /// Each motion is planned again as it was: the path is the same one, to the last digits of where it ends.
+    /// Each motion is planned again in the same way: the path is the same one, except for the last digits of its end.
     #[test]
     fn the_run_that_is_told_is_the_run() {
         let (mut among_few, mut straight) = (0, 0);

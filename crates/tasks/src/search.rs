@@ -1,7 +1,7 @@
 //! The search for the fastest sequence of motions.
 //!
-//! No search for petgraph, which asks what an arc costs before it is put on the open list: here that is to plan a motion, and
-//! most need none.
+//! The A* of petgraph does not fit: it needs the cost of an arc before it puts the arc on the open list. Here that cost
+//! is known only after planning a motion, and most motions need not be planned.
 
 use super::answer::Leg;
 use super::failed_step::{FailedStep, Refused, farthest};
@@ -16,49 +16,49 @@ use cplan_interrupt::checkpoint;
 use std::cmp::Reverse;
 use std::collections::BTreeSet;
 
-/// Weight of the heuristic in the weighted A* that goes straight for the end.
+/// Weight of the heuristic in the weighted A* that heads for the end.
 const WEIGHT: f64 = 4.0;
 
-/// Motions between two words on progress.
+/// Number of motions between two progress messages.
 const NEWS: usize = 50;
 
-/// When a search leaves off.
+/// Limits at which a search stops.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Limits {
-    /// Motions that it may plan.
+    /// Largest number of planned motions.
     pub motions: usize,
-    /// Nodes that it may expand.
+    /// Largest number of expanded nodes.
     pub expanded: usize,
-    /// It looks for what takes less than this, seconds.
+    /// The search looks for solutions that take less than this, seconds.
     pub below: f64,
 }
 
-/// How a search ended.
+/// The end of a search.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Ending {
-    /// At a node in which all is done.
+    /// A node in which all steps are done.
     Done(usize),
-    /// There is nothing left to look at.
+    /// The search is exhausted.
     Dry,
-    /// At a limit.
+    /// A limit was reached.
     Spent,
 }
 
-/// A way to a state.
+/// A node of the search: a sequence of steps that leads to a state.
 struct Node<'a> {
     parent: Option<usize>,
-    /// How many steps are done.
+    /// Number of steps done.
     depth: usize,
-    /// Seconds to here; a lower bound while the motion is not planned.
+    /// Seconds to this node; a lower bound while the motion is not planned.
     seconds: f64,
     stage: Stage<'a>,
 }
 
-/// How far a node is looked into.
+/// State of the evaluation of a node.
 enum Stage<'a> {
     /// The motion is not planned yet.
     Pending(Candidate<'a>),
-    /// The motion is planned; none to the start.
+    /// The motion is planned. The start has no motion.
     Reached(Box<State>, Option<(Candidate<'a>, Motion)>),
 }
 
@@ -67,17 +67,17 @@ pub(super) struct Search<'a, 'l> {
     task: &'a Task,
     heuristic: &'a Heuristic<'a>,
     legs: &'l mut Legs,
-    /// Motions planned when it began.
+    /// Number of motions planned before this search.
     planned: usize,
     nodes: Vec<Node<'a>>,
-    /// By least total time; of equals the one that is farther, then the earlier found.
+    /// Ordered by least total time. Among equals, the deeper node comes first, then the one found earlier.
     open: OpenList<(Reverse<usize>, usize)>,
     closed: BTreeSet<Vec<i64>>,
     /// Weight of the heuristic: above 1 it is weighted A*.
     weight: f64,
     /// Steps that could not be done.
     refused: Vec<Refused<'a>>,
-    /// Whether all there is is looked at.
+    /// True if no choice has been left out.
     complete: bool,
     expanded: usize,
 }
@@ -102,7 +102,7 @@ impl<'a, 'l> Search<'a, 'l> {
         search
     }
 
-    /// Goes on up to the limits; what is found is the fastest, if it did not [`Search::hurry`].
+    /// Continues the search up to the limits. The result is the fastest unless [`Search::hurry`] was called.
     pub fn run(&mut self, limits: Limits, progress: &mut dyn FnMut(&str)) -> Ending {
         let mut told = 0;
         while let Some((least, (_, index))) = self.open.pop() {
@@ -116,7 +116,7 @@ impl<'a, 'l> Search<'a, 'l> {
                 || self.expanded > limits.expanded
                 || (least >= limits.below && limits.below.is_finite())
             {
-                // It may be run again, with other limits.
+                // The search may be continued with other limits.
                 self.open(index);
                 return Ending::Spent;
             }
@@ -136,12 +136,12 @@ impl<'a, 'l> Search<'a, 'l> {
         Ending::Dry
     }
 
-    /// Nodes expanded so far.
+    /// Returns the number of nodes expanded so far.
     pub fn expanded(&self) -> usize {
         self.expanded
     }
 
-    /// Seconds to a node.
+    /// Returns the seconds to a node.
     pub fn seconds(&self, index: usize) -> f64 {
         self.nodes[index].seconds
     }
@@ -162,13 +162,13 @@ impl<'a, 'l> Search<'a, 'l> {
         self.open.push(node.seconds + self.weight * left, (Reverse(node.depth), index));
     }
 
-    /// Gives up on the fastest choice: from now on what is left counts more than what is done.
+    /// Gives up on the fastest choice: from now on the remaining time has a larger weight than the elapsed time.
     pub fn hurry(&mut self) {
         self.weight = WEIGHT;
         self.open.drain().into_iter().for_each(|(_, index)| self.open(index));
     }
 
-    /// Leaves off: what comes after the farthest state reached could not be done in time.
+    /// Records that the search stopped: the steps after the farthest state reached could not be done within the limits.
     pub fn give_up(&mut self) {
         let open = |&node: &usize| self.state(node).is_some_and(|state| !state.is_done(self.task));
         let farthest = (0..self.nodes.len()).filter(open).max_by_key(|&node| (self.nodes[node].depth, Reverse(node)));
@@ -227,7 +227,7 @@ impl<'a, 'l> Search<'a, 'l> {
         }
     }
 
-    /// The steps up to a node.
+    /// Returns the legs up to a node.
     pub fn legs(&mut self, index: usize) -> Vec<Leg> {
         let mut legs = Vec::new();
         let mut at = Some(index);
@@ -255,7 +255,8 @@ impl<'a, 'l> Search<'a, 'l> {
         legs
     }
 
-    /// Why no more can be done than the steps to a node, and whether that is proven of all there is, if the search ran dry.
+    /// Returns why the search got no farther than the steps to a node. The last value is true if that is proven for all
+    /// choices, provided that the search is exhausted.
     pub fn failure(&mut self) -> (FailedStep, usize, bool) {
         let state = |node: usize| match &self.nodes[node].stage {
             Stage::Reached(state, _) => Some(&**state),
@@ -267,7 +268,7 @@ impl<'a, 'l> Search<'a, 'l> {
         (failed, node, proven)
     }
 
-    /// The state that a node has reached.
+    /// Returns the state that a node has reached.
     fn state(&self, node: usize) -> Option<&State> {
         match &self.nodes[node].stage {
             Stage::Reached(state, _) => Some(state),

@@ -4,18 +4,18 @@ use super::answer::Leg;
 use cplan_motion::Trajectory;
 use std::ops::RangeInclusive;
 
-/// The whole motion of a task, standing still where steps end.
+/// The whole motion of a task, including the rests at the ends of steps.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Sequence {
     /// All motions, one after the other.
     pub trajectory: Trajectory,
-    /// Of each step, its samples in the trajectory, from where its motion begins to where that ends. A step begins with the
-    /// sample with which the one before ends if the arm does not stand still between them, else with the next one.
+    /// For each step, its samples in the trajectory, from the beginning to the end of its motion. A step begins with
+    /// the last sample of the step before if the arm does not stand still between them, otherwise with the next sample.
     pub samples: Vec<RangeInclusive<usize>>,
 }
 
 impl Sequence {
-    /// The motions of these steps.
+    /// Joins the motions of these steps.
     #[must_use]
     pub fn of(legs: &[Leg]) -> Self {
         let mut sequence = Self::default();
@@ -31,7 +31,8 @@ impl Sequence {
         sequence
     }
 
-    /// Seconds from the beginning to that of a step's motion, to the end of that, and to the end of the step.
+    /// Returns the times, in seconds from the beginning, at which a step's motion begins, its motion ends, and the step
+    /// ends.
     #[must_use]
     pub fn times(&self, step: usize) -> [f64; 3] {
         let time = |sample: usize| self.trajectory.time[sample];
@@ -39,8 +40,8 @@ impl Sequence {
         [time(*self.samples[step].start()), time(*self.samples[step].end()), end]
     }
 
-    /// Of each sample, the step (from 0) that the interval which begins there belongs to. While the arm stands still it is
-    /// the step that has just been done.
+    /// Returns, for each sample, the step (from 0) to which the interval that begins there belongs. While the arm
+    /// stands still, this is the step just done.
     #[must_use]
     pub fn steps(&self) -> Vec<usize> {
         let mut steps = Vec::with_capacity(self.trajectory.time.len());

@@ -1,4 +1,4 @@
-//! How far a task is, and what can be done next.
+//! States of a task, and the candidates for the next step.
 
 use super::answer::Event;
 use super::ik_solutions::{goal_ik_solutions, ik_solutions};
@@ -10,10 +10,10 @@ use nalgebra::Isometry2;
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
-/// How much of the items is done.
+/// The items that are done.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Progress {
-    /// The item that is next, or under way.
+    /// The item that is next, or in progress.
     pub item: usize,
     /// In a group in any order: the pairs that are done, one bit each.
     pub done: u64,
@@ -21,60 +21,60 @@ pub(super) struct Progress {
     pub half: Option<usize>,
 }
 
-/// What is carried, and how.
+/// The payload, and how it is held.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Held {
     pub object: usize,
     pub grip: Grip,
-    /// What it rested on, and what it will rest on: obstacles by number, ascending.
+    /// The obstacles on which it rested and will rest, by number, ascending.
     pub supports: Vec<usize>,
 }
 
-/// Where everything is.
+/// The state of arm and objects.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct State {
     pub progress: Progress,
     pub q: Configuration,
-    /// Of each object, where it lies; none while it is carried, or moves as yet.
+    /// Pose of each object. `None` while it is carried, or still moves.
     pub poses: Arc<[Option<Pose>]>,
-    /// The objects that move as yet, in order.
+    /// The objects that still move, in order.
     pub moving: Arc<[usize]>,
     pub held: Option<Held>,
-    /// The object just let go of.
+    /// The object just released.
     pub released: Option<usize>,
 }
 
-/// One way to do the next step.
+/// One candidate for the next step.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Candidate<'a> {
     pub step: &'a Step,
-    /// Where the motion is to end.
+    /// Configuration in which the motion ends.
     pub to: Configuration,
-    /// Orientations between which the wrist has to turn the object then.
+    /// Orientations between which the wrist must turn the object after the motion.
     pub turn: Option<[f64; 2]>,
     pub event: Option<Event>,
-    /// How an object is held that is taken.
+    /// Grip of an object after its pick.
     grip: Option<Grip>,
-    /// What is done then.
+    /// The progress after the step.
     pub progress: Progress,
 }
 
-/// The ways to do a step.
+/// The candidates for a step.
 pub(super) struct Candidates<'a> {
     pub step: &'a Step,
     pub ways: Vec<Candidate<'a>>,
-    /// Whether there are no other ways.
+    /// True if there are no other candidates.
     pub all: bool,
 }
 
-/// Orientations that differ by less, radians, are the same: rounding.
+/// Orientations that differ by less than this, radians, count as equal.
 const SAME_ANGLE: f64 = 1e-9;
 
-/// Poses and configurations are told apart to this, metres and radians: rounding of those that are the same.
+/// Tolerance of poses and configurations, metres and radians, below which differences are rounding.
 const GRAIN: f64 = 1e-9;
 
-/// Orientations in which rigid payloads are let go of are rounded to this, radians: far below all tolerances, and far above the
-/// rounding of doubles, so that repeated cycles come back to the same world, bit by bit, and are planned once.
+/// Rounding of the orientations in which rigid payloads are released, radians. It is far below all tolerances, and far
+/// above the rounding of doubles. So repeated cycles return to the same world, bit for bit, and are planned once.
 const FINEST_TURN: f64 = 1e-12;
 
 impl State {
@@ -94,7 +94,7 @@ impl State {
         self.progress.item == task.items.len()
     }
 
-    /// What tells states apart, as far as what follows depends on it.
+    /// Returns a key that distinguishes states, as far as later steps depend on the difference.
     pub fn key(&self, task: &Task) -> Vec<i64> {
         let grains = |value: f64| (value / GRAIN).round() as i64;
         let Progress { item, done, half } = self.progress;
@@ -115,7 +115,7 @@ impl State {
         key
     }
 
-    /// The same at a moment at which an object that moves is there where it is then, and picked.
+    /// Returns the state at a moment at which a moving object is picked, with the object at its place at that time.
     pub fn stopped(&self, task: &Task, object: usize, time: f64) -> Self {
         let mut state = self.clone();
         Arc::make_mut(&mut state.poses)[object] = task.objects[object].course.as_ref().map(|course| course.pose(time));
@@ -123,8 +123,8 @@ impl State {
         state
     }
 
-    /// The scene as it is, what moves on the clock of the task. Link 2 is free to meet the object just let go of, and another one: that which it goes
-    /// to, or which it let go of before.
+    /// Returns the scene of this state, with moving obstacles on the clock of the task. Link 2 may touch the object
+    /// just released, and one other: the object that it moves to, or the one that it released before.
     pub fn scene(&self, task: &Task, allowed_contacts: Option<usize>) -> Scene {
         let allowed_contacts: Vec<usize> =
             self.released.into_iter().chain(allowed_contacts).map(|o| task.number_among(&self.moving, o)).collect();
@@ -133,7 +133,7 @@ impl State {
         Scene::handling_trusted(task.arm.clone(), workspace, payload, &allowed_contacts)
     }
 
-    /// The ways to do each of the steps that can be next.
+    /// Returns the candidates for each of the steps that can be next.
     pub fn candidates<'a>(&self, task: &'a Task) -> Vec<Candidates<'a>> {
         let Some(item) = task.items.get(self.progress.item) else { return Vec::new() };
         match (item, self.progress.half) {
@@ -146,12 +146,12 @@ impl State {
                 let open = (0..pairs.len()).filter(|pair| self.progress.done & (1 << pair) == 0);
                 open.map(|pair| self.ways(task, &pairs[pair][0], Some(&pairs[pair][1]), Some(pair))).collect()
             }
-            // States are settled.
+            // States contain no pending renewals.
             (Item::Renew(_), _) => Vec::new(),
         }
     }
 
-    /// The ways to do a step; `place` is the one that follows a pick.
+    /// Returns the candidates for a step. `place` is the one that follows a pick.
     fn ways<'a>(&self, task: &'a Task, step: &'a Step, place: Option<&Step>, pair: Option<usize>) -> Candidates<'a> {
         let progress = self.progress.after(&step.action, pair, task);
         let mut ways = Vec::new();
@@ -213,22 +213,23 @@ impl State {
                     }
                 }
             }
-            // The loader lets picks and places alternate.
+            // The loader guarantees that picks and places alternate.
             (Action::Pick { .. }, Some(_)) | (Action::Place { .. }, None) => {
                 return Candidates { step, ways, all: false };
             }
         };
-        // A turn could also be made on the way.
+        // The turn could also be made during the motion.
         let turns = ways.iter().any(|way| way.turn.is_some());
         Candidates { step, ways, all: reach.all && !turns }
     }
 
-    /// The state after a candidate's step, with the arm at `q`, and what is to be renewed before the next step renewed.
+    /// Returns the state after a candidate's step, with the arm at `q`, and with all renewals that come before the next
+    /// step.
     pub fn after(&self, task: &Task, candidate: &Candidate, q: Configuration) -> Self {
         self.left(task, candidate, q).settled(task)
     }
 
-    /// The state in which a candidate's step leaves everything until the next one begins, with the arm at `q`.
+    /// Returns the state directly after a candidate's step, with the arm at `q`, before any renewals.
     pub fn left(&self, task: &Task, candidate: &Candidate, q: Configuration) -> Self {
         let mut poses = self.poses.clone();
         let mut after = Self { progress: candidate.progress, q, released: None, ..self.clone() };
@@ -248,17 +249,18 @@ impl State {
         Self { poses, ..after }
     }
 
-    /// Whether something is to be renewed before the next step: then no motion begins where the last one ended, with all where it left it.
+    /// Returns true if objects will be renewed before the next step. Then the next motion does not begin in the world
+    /// in which the last one ended.
     pub fn is_unsettled(&self, task: &Task) -> bool {
         matches!(task.items.get(self.progress.item), Some(Item::Renew(_)))
     }
 
-    /// Supplies what is to be renewed before the next step.
+    /// Renews objects, if the task says so before the next step.
     pub fn settled(mut self, task: &Task) -> Self {
         while let Some(Item::Renew(objects)) = task.items.get(self.progress.item) {
             let poses = Arc::make_mut(&mut self.poses);
             objects.iter().for_each(|&object| poses[object] = Some(task.objects[object].at));
-            // A new one is not the one that may be touched.
+            // A renewed object is not the one that may be touched.
             self.released = self.released.filter(|released| !objects.contains(released));
             self.progress.item += 1;
         }
@@ -267,7 +269,7 @@ impl State {
 }
 
 impl Progress {
-    /// The place that ends the carrying that a candidate begins.
+    /// Returns the place step that ends the carrying which a candidate begins.
     fn place<'a>(self, task: &'a Task, candidate: &Candidate) -> Option<&'a Step> {
         match (&task.items[self.item], candidate.progress.half) {
             (Item::AnyOrder(pairs), Some(pair)) => Some(&pairs[pair][1]),
@@ -288,13 +290,13 @@ impl Progress {
 }
 
 impl Held {
-    /// What the arm carries.
+    /// Returns the payload of the arm.
     pub fn payload(&self, task: &Task) -> Payload {
         task.objects[self.object].carried(self.grip, self.supports.clone())
     }
 }
 
-/// What an object may touch from the pick to the place: obstacles by number, ascending.
+/// Returns the obstacles that an object may touch from the pick to the place, by number, ascending.
 fn supports(pick: &Step, place: Option<&Step>) -> Vec<usize> {
     let of = |step: &Step| match &step.action {
         Action::Pick { supports, .. } | Action::Place { supports, .. } => supports.clone(),
@@ -307,7 +309,7 @@ fn supports(pick: &Step, place: Option<&Step>) -> Vec<usize> {
     both
 }
 
-/// The place that ends the carrying that begins with an item.
+/// Returns the place step that ends the carrying which begins with an item.
 fn following_place(task: &Task, item: usize) -> Option<&Step> {
     task.items[item..].iter().find_map(|item| match item {
         Item::Step(step) if matches!(step.action, Action::Place { .. }) => Some(step),
@@ -315,12 +317,12 @@ fn following_place(task: &Task, item: usize) -> Option<&Step> {
     })
 }
 
-/// Whether two orientations are the same up to whole turns.
+/// Returns true if two orientations are equal up to whole turns.
 pub(super) fn same_angle(a: f64, b: f64) -> bool {
     normalized(a - b).abs() < SAME_ANGLE
 }
 
-/// The same orientation in `[-pi, pi)`, and those within rounding of `pi` as `-pi`.
+/// Returns the orientation in `[-pi, pi)`. Values within rounding of `pi` become `-pi`.
 fn normalized(angle: f64) -> f64 {
     let turn = (angle + PI).rem_euclid(TAU) - PI;
     if turn > PI - SAME_ANGLE { -PI } else { turn }

@@ -10,21 +10,22 @@ use cplan_core::space::Path;
 use cplan_handling::{Step, Stroke, Task};
 use cplan_motion::single;
 
-/// The tool goes down, and up again after the gripper's work.
+/// The stroke of the tool: it is lowered, and raised again after the gripper's action.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ToolStroke {
     /// The joint's value while the tool is raised, ...
     pub raised: f64,
     /// ... and while it is lowered.
     pub lowered: f64,
-    /// Seconds that either way takes, whole nanoseconds.
+    /// Seconds for lowering, and for raising, in whole nanoseconds.
     pub seconds: f64,
-    /// Proven lower bound on the distance to obstacles in it, metres; infinite if nothing can be hit.
+    /// Proven lower bound on the distance to obstacles during the stroke, metres; infinite if no obstacle is within
+    /// reach.
     pub clearance: f64,
 }
 
-/// A lower bound on the seconds that the arm stands still for a step with an object, but for turns of the wrist: the dwell, and
-/// down and up.
+/// Returns a lower bound on the seconds that the arm stands still for a step with an object, without turns of the
+/// wrist: the dwell, and the stroke down and up.
 pub(super) fn least_rest(task: &Task, step: &Step, object: Option<usize>) -> f64 {
     let down = |(stroke, object): (&Stroke, usize)| {
         rest_to_rest(stroke.depth(&task.objects[object]).abs(), stroke.velocity, stroke.acceleration)
@@ -32,7 +33,8 @@ pub(super) fn least_rest(task: &Task, step: &Step, object: Option<usize>) -> f64
     step.dwell + 2.0 * task.stroke.as_ref().zip(object).map_or(0.0, down)
 }
 
-/// The stroke at a candidate's target; none where the tool is not lowered. What is placed is free where it lies, also without one.
+/// Returns the stroke at a candidate's target. `None` if the tool is not lowered. A placed object must be free where it
+/// lies, even without a stroke.
 pub(super) fn stroke(task: &Task, from: &State, candidate: &Candidate) -> Result<Option<ToolStroke>, Refusal> {
     let Some(event) = candidate.event else { return Ok(None) };
     let is_placed = matches!(event, Event::Release { .. });
@@ -51,11 +53,11 @@ pub(super) fn stroke(task: &Task, from: &State, candidate: &Candidate) -> Result
     Ok(Some(ToolStroke { raised, lowered, seconds, clearance: certified.clearance() }))
 }
 
-/// The scene with the arm, and what it holds, while the tool is lowered. A pick rises with its object, a place goes down
-/// with it: the other way the hand is empty, and meets no more.
+/// Returns the scene with the arm, and its payload, while the tool is lowered. A pick rises with its object, and a
+/// place is lowered with it. In the other direction the hand is empty, and meets no more obstacles.
 fn lowered(task: &Task, from: &State, candidate: &Candidate, arm: Arm, heights: Heights) -> Scene {
     let left = from.left(task, candidate, candidate.to);
-    // A wrist turns after a pick, and before a place.
+    // The wrist turns after a pick, and before a place.
     let (with, turn) = if left.held.is_some() { (&left, 0) } else { (from, 1) };
     let payload = with.held.as_ref().map(|held| {
         let mut payload = held.payload(task);

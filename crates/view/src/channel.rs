@@ -88,7 +88,7 @@ fn within(place: &Rect, page: &Rect) -> bool {
     place.x >= page.x && place.right() <= page.right() && place.y >= page.y && place.bottom() <= page.bottom()
 }
 
-/// Where a point of the legend is drawn.
+/// Returns the legend's sign for a point.
 pub fn sign(at: [f64; 2], is_middle: bool) -> Item {
     if is_middle { ring(at) } else { disc(at) }
 }

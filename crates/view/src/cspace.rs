@@ -49,7 +49,7 @@ pub fn items(view: &View, panel: &PanelView, chart: &Chart) -> Vec<Item> {
     let mut items = vec![Item::Clip(frame.rect, inside)];
     items.extend(frame.sides(chart.seams()));
     items.extend(world.scale.iter().flat_map(|scale| trace::color_bar(scale, &frame.rect)));
-    // Goals that none of the paths reached are hollow, if there are paths.
+    // If there are paths, goals that no path reached are hollow.
     let mut numbers = Vec::new();
     for (q, number, reached) in view.ends(panel) {
         items.extend(goal_marker(chart.place(q), reached));

@@ -34,11 +34,11 @@ impl Rect {
 pub enum Step {
     /// Begins a new piece.
     Move([f64; 2]),
-    /// Straight on to a place.
+    /// A straight line to a place.
     Line([f64; 2]),
-    /// On a circle of this radius, by half a turn at most, counter-clockwise as seen on the page.
+    /// An arc to a place on a circle of this radius, by half a turn at most, counter-clockwise as seen on the page.
     Arc(f64, [f64; 2]),
-    /// Back to the beginning of the piece.
+    /// A line back to the beginning of the piece.
     Close,
 }
 
@@ -119,7 +119,7 @@ pub enum Anchor {
 pub struct Label {
     /// The place at which the text is anchored.
     pub at: [f64; 2],
-    /// What, any characters.
+    /// The text; any characters are allowed.
     pub text: String,
     /// Height of the font, in pixels.
     pub size: f64,
@@ -199,8 +199,8 @@ pub fn chain(spots: impl IntoIterator<Item = [f64; 2]>, closed: bool) -> Vec<Ste
     steps
 }
 
-/// Lines, visible on any ground by the broad pale one under each. Those come first, so that no line hides in the gaps of
-/// another's dashes.
+/// Draws lines that are visible on any ground, because each lies on a broad pale one. The pale lines come first, so
+/// that no line disappears in the gaps of another's dashes.
 #[must_use]
 pub fn lines(outlines: impl IntoIterator<Item = (Vec<Step>, Pen)>) -> Vec<Item> {
     let (mut halos, mut lines) = (Vec::new(), Vec::new());
@@ -212,7 +212,7 @@ pub fn lines(outlines: impl IntoIterator<Item = (Vec<Step>, Pen)>) -> Vec<Item> 
     halos
 }
 
-/// A text that reads to the right.
+/// Returns a text that reads to the right.
 #[must_use]
 pub fn label(at: [f64; 2], text: impl Into<String>, size: f64, anchor: Anchor, color: Rgb) -> Item {
     Item::Text(Label { at, text: text.into(), size, anchor, upwards: false, color })

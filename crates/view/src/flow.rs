@@ -14,7 +14,7 @@ pub enum FieldLines {
     Equipotentials,
     /// Lines of steepest ascent, each with an arrow.
     Flow,
-    /// Both kinds of lines.
+    /// Both kinds.
     Both,
 }
 

@@ -44,7 +44,7 @@ fn one(panel: &Frame, frame: &FrameView) -> Vec<Item> {
     items
 }
 
-/// An arrow seen from its point (a dot) or from its feathers (a cross), in a circle.
+/// Returns an arrow seen from its point (a dot) or from its feathers (a cross), in a circle.
 fn standing(at: [f64; 2], towards: bool, pen: Style) -> Vec<Item> {
     const RADIUS: f64 = 7.0;
     let ring = Item::Disc(at, RADIUS, pen.filled(WHITE));

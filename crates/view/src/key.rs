@@ -1,23 +1,23 @@
-//! Signs and what they mean.
+//! Signs and their meaning.
 
 use super::color::{self, Rgb};
 use super::figure::Pen;
 use serde::Serialize;
 
-/// What stands before a name.
+/// The sign before a name.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Sign {
-    /// Where the motion begins.
+    /// Start of the motion.
     Start,
-    /// Where it ends.
+    /// End of the motion.
     Goal,
-    /// Where it would end.
+    /// Intended end of a motion that was not found.
     Unreached,
     /// A piece of line, drawn with this pen.
     Line(Pen),
     /// A small square of this colour.
     Swatch(Rgb),
-    /// The same in a colour of the scale, from 0 to 1.
+    /// A small square in a colour of the scale, from 0 to 1.
     Shade(f64),
     /// A dashed outline.
     Dashed(Rgb),
@@ -25,42 +25,42 @@ pub enum Sign {
     Hatched,
     /// A point of a channel: the middle of a door, or the centre of a cell.
     Point {
-        /// Whether it is the middle of a door.
+        /// True for the middle of a door.
         middle: bool,
     },
 }
 
-/// A sign and what it means.
+/// A sign and its meaning.
 pub type Key = (Sign, String);
 
-/// A key as pages read it.
+/// A key in the document for pages.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct KeyView {
     sign: &'static str,
-    /// That of a line or a square: its name, if it means something, or `#rrggbb`.
+    /// Colour of a line or a square: its name, if it has a meaning, or `#rrggbb`.
     #[serde(skip_serializing_if = "Option::is_none")]
     color: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
     width: Option<f64>,
     #[serde(skip_serializing_if = "<[f64]>::is_empty")]
     dash: &'static [f64],
-    /// Of a colour of the scale.
+    /// Place on the colour scale.
     #[serde(skip_serializing_if = "Option::is_none")]
     part: Option<f64>,
     text: String,
-    /// Of which layers it is: those of a page can be hidden. None of what is always there.
+    /// The layers that it belongs to, which a page can hide. Empty if it is always shown.
     #[serde(skip_serializing_if = "<[&str]>::is_empty")]
     layers: &'static [&'static str],
-    /// Whether it is there only while it is told how the planner came to it.
+    /// True if it is shown only with the planner's search.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     think: bool,
 }
 
-/// A key, and the layers that it is of.
+/// A key, and the layers that it belongs to.
 pub type Layered = (Key, &'static [&'static str]);
 
 impl KeyView {
-    /// A key as pages read it.
+    /// Returns a key as pages read it.
     #[must_use]
     pub fn new(((sign, text), layers): Layered, think: bool) -> Self {
         let name = match sign {

@@ -19,7 +19,7 @@ const WALL: f64 = 10.0;
 /// Largest fraction of a named area that its name may cover.
 const COVERED: f64 = 0.5;
 
-/// Where a name may stand: on what it belongs to, then above, below, beside and at the corners of it.
+/// Places for a name: on its object, then above, below, beside and at the corners of it.
 const SIDES: [[f64; 2]; 9] =
     [[0.0, 0.0], [0.0, -1.0], [0.0, 1.0], [1.0, 0.0], [-1.0, 0.0], [1.0, -1.0], [-1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
 
@@ -86,12 +86,12 @@ pub fn place<'a>(frame: &Frame, shape: &Shape, pieces: impl IntoIterator<Item = 
     Rect { x: left, y: top, width: right - left, height: bottom - top }
 }
 
-/// A rectangle of this size about a spot.
+/// Returns a rectangle of this size about a spot.
 pub fn about([x, y]: [f64; 2], [width, height]: [f64; 2]) -> Rect {
     Rect { x: x - width / 2.0, y: y - height / 2.0, width, height }
 }
 
-/// Room for the name of what ends at a spot and comes from another: beyond it.
+/// Returns room for the name of a line that ends at a spot and comes from another: beyond the end.
 pub fn beyond(name: &str, tip: [f64; 2], from: [f64; 2]) -> Rect {
     let away = [tip[0] - from[0], tip[1] - from[1]];
     let length = away[0].hypot(away[1]).max(f64::MIN_POSITIVE);

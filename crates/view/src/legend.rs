@@ -13,7 +13,7 @@ const SIZE: f64 = 13.0;
 const SIGN: f64 = 26.0;
 const GAP: f64 = 26.0;
 
-/// Everything that a picture needs explained.
+/// Returns all signs of a picture with their meaning.
 #[must_use]
 pub fn keys(view: &View) -> Vec<Key> {
     all(view, true).into_iter().map(|(key, _)| key).collect()

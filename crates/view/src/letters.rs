@@ -1,21 +1,21 @@
-//! Texts as outlines, in Ubuntu Light. The font is part of the program: no font of the machine is asked for, so that pictures
-//! look alike everywhere.
+//! Texts as outlines, in Ubuntu Light. The font is part of the program, so that pictures look alike on all machines.
 
 use super::figure::Anchor;
 use tiny_skia::{Path, PathBuilder};
 use ttf_parser::gpos::{PairAdjustment, PositioningSubtable};
 use ttf_parser::{Face, GlyphId, OutlineBuilder};
 
-/// The font, ready to set texts.
+/// The font, ready for use.
 pub struct Font(Face<'static>);
 
 impl Font {
-    /// The font that is part of the program.
+    /// Returns the font that is part of the program.
     pub fn built_in() -> Self {
         Self(Face::parse(epaint_default_fonts::UBUNTU_LIGHT, 0).expect("the built-in font can be read"))
     }
 
-    /// The outline of a line of text of this size, which is anchored at this place of the page; nothing if no letter shows.
+    /// Returns the outline of a line of text of this size, which is anchored at this place of the page; `None` if no
+    /// letter has an outline.
     pub fn outline(&self, text: &str, size: f32, anchor: Anchor, [left, bottom]: [f32; 2]) -> Option<Path> {
         let scale = size / f32::from(self.0.units_per_em());
         let glyphs = self.glyphs(text);
@@ -35,12 +35,12 @@ impl Font {
         pen.path.finish()
     }
 
-    /// The glyphs of a text; those of letters that the font lacks are boxes.
+    /// Returns the glyphs of a text; those of letters that the font lacks are boxes.
     fn glyphs(&self, text: &str) -> Vec<GlyphId> {
         text.chars().map(|letter| self.0.glyph_index(letter).unwrap_or_default()).collect()
     }
 
-    /// Where each glyph begins, and where the last one ends, in units of the font.
+    /// Returns the position of each glyph, and the end of the last one, in units of the font.
     fn places(&self, glyphs: &[GlyphId]) -> Vec<f32> {
         let mut places = vec![0.0];
         let mut end = 0.0;
@@ -52,7 +52,8 @@ impl Font {
         places
     }
 
-    /// How much further than usual the second glyph is from the first. Of each lookup the first table that knows the pair counts.
+    /// Returns the additional distance of the second glyph from the first. In each lookup, the first table that knows
+    /// the pair counts.
     fn kern(&self, first: GlyphId, second: GlyphId) -> i16 {
         let lookups = self.0.tables().gpos.into_iter().flat_map(|table| table.lookups);
         let known = lookups.filter_map(|lookup| {
@@ -62,7 +63,7 @@ impl Font {
     }
 }
 
-/// What a table says of a pair; nothing if it does not know the pair.
+/// Returns a table's value for a pair; `None` if it does not know the pair.
 fn advance(table: &PositioningSubtable, first: GlyphId, second: GlyphId) -> Option<i16> {
     let PositioningSubtable::Pair(pairs) = table else { return None };
     let index = pairs.coverage().get(first)?;
@@ -73,12 +74,12 @@ fn advance(table: &PositioningSubtable, first: GlyphId, second: GlyphId) -> Opti
     Some(of_first.x_advance)
 }
 
-/// Puts outlines of glyphs on the page: fonts count upwards, pages downwards.
+/// Converts outlines of glyphs to the page: y points up in fonts, and down on pages.
 struct Pen {
     path: PathBuilder,
     /// Pixels per unit of the font.
     scale: f32,
-    /// Where the glyph's own origin is.
+    /// The glyph's origin.
     origin: [f32; 2],
 }
 
@@ -130,7 +131,7 @@ mod tests {
         assert!((middle[0] + middle[1] - 1000.0).abs() < 2.0, "{middle:?}");
     }
 
-    /// As HarfBuzz does with this font: of the letters "AV" the second one overlaps the first.
+    /// Compares with HarfBuzz for this font: the second of the letters "AV" overlaps the first.
     #[test]
     fn pairs_of_letters_are_kerned() {
         let font = Font::built_in();

@@ -66,13 +66,13 @@ pub enum DrawError {
     /// The size is not usable.
     #[error("a picture at {0} pixels a unit would be empty, or more than 16384 pixels wide")]
     Scale(f64),
-    /// The SVG document cannot be read, or has elements that no picture of ours has.
+    /// The SVG document cannot be read, or has elements that this crate does not write.
     #[error("cannot rasterise the picture: {0}")]
     Svg(String),
     /// The pixels could not be compressed.
     #[error("cannot write the picture as PNG: {0}")]
     Png(String),
-    /// The pictures could not be put together.
+    /// The pictures could not be combined.
     #[error("cannot write the picture as GIF: {0}")]
     Gif(String),
 }
@@ -91,7 +91,8 @@ pub fn moving(view: &View) -> impl Iterator<Item = (String, u16)> {
     moments.map(|moment| (svg_writer::write(&animation::figure(view, moment)), moment.delay))
 }
 
-/// An SVG document that this crate wrote, or one with the same elements, as a PNG file of its size times `scale`.
+/// Returns an SVG document as a PNG file of its size times `scale`. The document must be from this crate, or have only
+/// the same elements.
 ///
 /// # Errors
 /// [`DrawError::Scale`] if the scale is not a positive number of a sensible size, [`DrawError::Svg`] if the document has other elements.
@@ -116,7 +117,7 @@ pub fn gif(view: &View, width: f64, progress: &mut dyn FnMut(usize, usize)) -> R
     })
 }
 
-/// An SVG document that this crate wrote as a GIF of a single picture of this width.
+/// Returns an SVG document from this crate as a GIF with a single picture of this width.
 ///
 /// # Errors
 /// As [`png()`].

@@ -112,8 +112,8 @@ struct Layout {
     height: f64,
 }
 
-/// Places the list of steps below the workspace or below the configuration spaces (`grid` pixels high), whichever makes
-/// the page lower.
+/// Places the list of steps below the workspace or below the configuration spaces (`grid` pixels high), depending on
+/// which makes the page lower.
 fn layout(top: f64, grid: f64, list: f64, legend: f64) -> Layout {
     let list = AXES + list;
     let [below_workspace, below_grid] = [grid.max(WORKSPACE[0] + list), WORKSPACE[0].max(grid + list)];

@@ -27,7 +27,7 @@ impl Rasteriser {
         self.drawn(svg, |units| width / units)
     }
 
-    /// The pixels of a document at a scale that depends on the document's width.
+    /// Returns the pixels of a document at a scale that depends on the document's width.
     fn drawn(&self, svg: &str, scale: impl FnOnce(f64) -> f64) -> Result<Pixmap, DrawError> {
         let document = roxmltree::Document::parse(svg).map_err(|e| DrawError::Svg(e.to_string()))?;
         let root = document.root_element();
@@ -39,7 +39,7 @@ impl Rasteriser {
     }
 }
 
-/// Pixels of which none is set, for so many units.
+/// Creates empty pixels for a size in units.
 pub fn blank(units: [f64; 2], scale: f64) -> Result<Pixmap, DrawError> {
     let [width, height] = units.map(|side| side * scale);
     let fits = |side: f64| side.is_finite() && (1.0..=LARGEST).contains(&side);

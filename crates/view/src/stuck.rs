@@ -67,7 +67,7 @@ fn pen() -> Style {
     Style::line(BARRED, WIDTH).dashed(DASH)
 }
 
-/// A cross on white.
+/// Draws a cross on white.
 fn cross([x, y]: [f64; 2]) -> Vec<Item> {
     let strokes = |r: f64| {
         vec![

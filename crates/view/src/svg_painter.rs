@@ -1,5 +1,5 @@
-//! Paints SVG documents as this program writes them: groups with clips and transforms, paths, circles, rectangles and lines of
-//! text. What else SVG has is refused, so that no picture lacks a part unnoticed.
+//! Paints SVG documents with the elements that this program writes: groups with clips and transforms, paths, circles,
+//! rectangles and lines of text. It refuses all other elements, so that no part of a picture is lost unnoticed.
 
 use super::DrawError;
 use super::figure::Anchor;
@@ -49,7 +49,7 @@ fn group(font: &Font, element: Node, transform: Transform, pixels: &mut Pixmap) 
     painted
 }
 
-/// The rectangle that a group is cut to, if it is cut.
+/// Returns the rectangle that a group is cut to, if it is cut.
 fn clip(group: Node) -> Result<Option<Rect>, DrawError> {
     let Some(value) = group.attribute("clip-path") else { return Ok(None) };
     let id = value.strip_prefix("url(#").and_then(|rest| rest.strip_suffix(')'));
@@ -60,7 +60,7 @@ fn clip(group: Node) -> Result<Option<Rect>, DrawError> {
     path.and_then(|path| path.first_element_child()).ok_or_else(|| unreadable(group, "clip-path")).and_then(rectangle)
 }
 
-/// Draws on pixels of its own, which are then laid over the others. Only what is within the bounds counts.
+/// Draws on a separate layer, which is then composed with the page. Only the area within the bounds counts.
 fn on_layer(
     bounds: Rect,
     transform: Transform,
@@ -78,12 +78,12 @@ fn on_layer(
     pixels.draw_pixmap(place.x(), place.y(), layer.as_ref(), &paint, Transform::identity(), None);
 }
 
-/// A path and how it is drawn.
+/// A path with its style.
 struct Shape {
     path: Path,
     fill: Option<Color>,
     stroke: Option<(Color, Stroke)>,
-    /// Whether the inside covers the line.
+    /// True if the fill covers the line.
     is_stroked_first: bool,
     opacity: f32,
     is_smooth: bool,
@@ -189,7 +189,7 @@ fn text(font: &Font, element: Node) -> Result<Option<Path>, DrawError> {
     Ok(font.outline(&words.join(" "), size, anchor, [number(element, "x")?, number(element, "y")?]))
 }
 
-/// A property of an element or of the nearest group around it that has it.
+/// Returns a property of an element or of the nearest group around it that has it.
 fn inherited<'a>(element: Node<'a, '_>, name: &str) -> Option<&'a str> {
     element.ancestors().find_map(|node| node.attribute(name))
 }
@@ -204,7 +204,7 @@ fn color(element: Node, name: &str) -> Result<Option<Color>, DrawError> {
     }
 }
 
-/// A number that an element must have.
+/// Returns a number that an element must have.
 pub fn number(element: Node, name: &str) -> Result<f32, DrawError> {
     optional(element, name)?.ok_or_else(|| unreadable(element, name))
 }
@@ -222,7 +222,7 @@ fn unreadable(element: Node, name: &str) -> DrawError {
 mod tests {
     use super::*;
 
-    /// A page of 20 x 20 units, of one pixel each.
+    /// Paints a page of 20 x 20 units, of one pixel each.
     fn painted(content: &str) -> Result<Pixmap, DrawError> {
         let svg =
             format!("<svg xmlns=\"http://www.w3.org/2000/svg\" fill=\"#ff0000\" font-size=\"10\">{content}</svg>");
@@ -231,7 +231,7 @@ mod tests {
         paint(&Font::built_in(), document.root_element(), Transform::identity(), &mut pixels).map(|()| pixels)
     }
 
-    /// Red, green, blue and alpha of a pixel.
+    /// Returns red, green, blue and alpha of a pixel.
     fn at(pixels: &Pixmap, x: u32, y: u32) -> [u8; 4] {
         let color = pixels.pixel(x, y).unwrap();
         [color.red(), color.green(), color.blue(), color.alpha()]
@@ -253,14 +253,14 @@ mod tests {
         assert!(painted("<g clip-path=\"url(#clip1)\"/>").is_err());
     }
 
-    /// Where line and inside overlap only the upper one shows, however transparent the whole is.
+    /// Checks that where line and fill overlap only the upper one is visible, at any opacity of the whole.
     #[test]
     fn opacity_is_that_of_the_whole() {
         let disc = |order| {
             let style = format!("stroke=\"#0000ff\" stroke-width=\"8\" opacity=\"0.5\" {order}");
             painted(&format!("<circle cx=\"10\" cy=\"10\" r=\"6\" {style}/>")).unwrap()
         };
-        // The middle of the inside, the inner half of the line, its outer half.
+        // The middle of the fill, the inner half of the line, its outer half.
         let [above, below] =
             [disc(""), disc("paint-order=\"stroke\"")].map(|pixels| [10, 5, 2].map(|x| at(&pixels, x, 10)));
         assert_eq!(above, [[128, 0, 0, 128], [0, 0, 128, 128], [0, 0, 128, 128]]);

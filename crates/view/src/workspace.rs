@@ -86,7 +86,7 @@ fn names(view: &View, frame: &Frame) -> Vec<Named> {
     arms.chain(obstacles).chain(movers).collect()
 }
 
-/// A dot where each step ends, or was to end, with its number.
+/// Draws a dot at the actual or intended end of each step, with its number.
 fn numbers(view: &View, frame: &Frame, boxes: &[Rect], spots: &[[f64; 2]]) -> Vec<Item> {
     let (mut items, mut tags) = (Vec::new(), Vec::new());
     for (q, number, reached) in view.still.panels.iter().flat_map(|panel| view.ends(panel)) {
@@ -100,7 +100,7 @@ fn numbers(view: &View, frame: &Frame, boxes: &[Rect], spots: &[[f64; 2]]) -> Ve
     items
 }
 
-/// Where a step of an outline leads.
+/// Returns the end of an outline's step.
 fn end(step: &Step) -> Option<[f64; 2]> {
     match *step {
         Step::Move(spot) | Step::Line(spot) | Step::Arc(_, spot) => Some(spot),
@@ -138,7 +138,7 @@ fn ground(frame: &Frame, arm: &Arm) -> Vec<Item> {
     items
 }
 
-/// Where the tip goes: straight joint motions are curves here, so they are followed in small steps.
+/// Returns the path of the tip. Straight joint motions are curves here, so they are followed in small steps.
 fn tip_trace(frame: &Frame, arm: &Arm, path: &PathView) -> Vec<Step> {
     /// Step in radians. A chord of such an arc is off by at most 2e-5 of the reach, a hundredth of a pixel.
     const STEP: f64 = 0.0125;

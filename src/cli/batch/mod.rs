@@ -1,4 +1,4 @@
-//! `cplan batch`: problems as JSON lines, a result a line, one process for thousands.
+//! `cplan batch`: problems as JSON lines, one result per line, one process for thousands.
 
 mod reader;
 mod turns;
@@ -57,7 +57,7 @@ pub struct BatchArgs {
     pub time: Option<f64>,
 }
 
-/// What answers a line.
+/// The answer to a line.
 #[derive(Serialize)]
 struct Row<T> {
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -66,7 +66,7 @@ struct Row<T> {
     answer: T,
 }
 
-/// The answer to a problem that took too long.
+/// The answer to a problem whose time was up.
 #[derive(Serialize)]
 struct Stopped {
     status: Status,
@@ -76,7 +76,7 @@ struct Stopped {
 /// Answers all lines.
 ///
 /// # Errors
-/// Input that cannot be read or holds no objects, output that cannot be written.
+/// Input that cannot be read or contains no objects, and output that cannot be written.
 pub fn run(args: &BatchArgs) -> Result<u8, Failure> {
     let input = args.problems.as_ref().map_or_else(|| "stdin".into(), |path| path.display().to_string());
     let turns = Turns::new(BufReader::new(opened(args)?), &input, io::stdout(), args.jobs.into());
@@ -96,7 +96,7 @@ pub fn run(args: &BatchArgs) -> Result<u8, Failure> {
         (1..args.jobs).for_each(|_| drop(scope.spawn(work)));
         work();
     });
-    // Each once, in an order that does not depend on the jobs.
+    // Prints each warning once, in an order that does not depend on the jobs.
     let warnings = warnings.into_inner().unwrap_or_else(PoisonError::into_inner);
     warnings.iter().for_each(|warning| sinks::say(&format!("warning: {warning}")));
     let count = turns.end()?;
@@ -120,7 +120,7 @@ fn opened(args: &BatchArgs) -> Result<Box<dyn Read + Send>, Failure> {
     Ok(Box::new(File::open(path).map_err(refused)?))
 }
 
-/// The answer as a line; and whether the one that it answers is an object.
+/// Returns the answer as a line, and true if the answered line is an object.
 fn row(answer: Answer, fields: &[String]) -> (String, bool) {
     let Answer { id, is_object, plan } = answer;
     let text = match plan {

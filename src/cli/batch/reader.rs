@@ -1,4 +1,4 @@
-//! Lines as problems. What comes again is read once: robots, worlds, words.
+//! Converts lines to problems. Repeated robots, worlds and option lists are read once.
 
 use super::turns::Line;
 use crate::cli::failure::Failure;
@@ -16,14 +16,14 @@ use std::collections::{BTreeMap, HashMap};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-/// Robots, and lists of words, that are remembered at the most.
+/// Greatest number of robots, and of option lists, that are remembered.
 const REMEMBERED: usize = 256;
 
-/// What a line can say.
+/// The keys of a line.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Given {
-    /// Kept as it is written.
+    /// Kept in its original form.
     #[serde(rename = "id")]
     _id: Option<IgnoredAny>,
     urdf: Option<PathBuf>,
@@ -56,7 +56,7 @@ impl Default for Options {
     }
 }
 
-/// A file, or a text in its place.
+/// A file, or a text instead of it.
 #[derive(Clone, PartialEq, Eq, Hash)]
 enum Named {
     File(PathBuf),
@@ -64,32 +64,32 @@ enum Named {
     Text(String),
 }
 
-/// What a line comes to.
+/// The answer to a line.
 pub struct Answer {
-    /// As the line has it, to the letter: no number is too large.
+    /// The line's `id`, character by character, so that no number is too large.
     pub id: Option<Box<RawValue>>,
-    /// Whether the line is a JSON object at all.
+    /// True if the line is a JSON object.
     pub is_object: bool,
-    /// What is answered.
+    /// The answer itself.
     pub plan: Result<Planned, Failure>,
 }
 
-/// What became of a problem.
+/// The outcome of a problem.
 pub enum Planned {
-    /// It is planned.
+    /// The finished plan.
     Done(Box<Plan>),
-    /// The time was up before: in words.
+    /// The time was up before the end; the reason, in words.
     Stopped(String),
 }
 
-/// Reads lines and remembers what they name.
+/// A reader of lines, which remembers their robots and options.
 #[derive(Default)]
 pub struct Reader {
     robots: HashMap<Named, Known>,
     words: HashMap<Vec<String>, Asked>,
 }
 
-/// A robot, and the world in which it was seen last.
+/// A robot, and the last world in which it was loaded.
 struct Known {
     source: Source,
     world: Named,
@@ -97,10 +97,10 @@ struct Known {
 }
 
 impl Reader {
-    /// Answers a line, in no more than a time. `input` is what messages call its file.
+    /// Answers a line within a time limit. `input` is the name of its file in messages.
     pub fn answer(&mut self, line: &Line, input: &str, limit: Option<Duration>) -> Answer {
         let refused = |message: String, help: &str| refused(input, line.number, message, help);
-        // The parser names a line of this line.
+        // The parser reports a position within this line.
         let said = |error: serde_json::Error| error.to_string().replace(" at line 1 column", " at column");
         let mut keys = match serde_json::from_slice::<HashMap<String, Box<RawValue>>>(&line.text) {
             Ok(keys) => keys,
@@ -114,7 +114,7 @@ impl Reader {
         };
         let given = serde_json::from_slice(&line.text)
             .map_err(|error| refused(said(error), "`cplan batch --help` tells what a line can say"));
-        // What goes wrong with one problem is its own affair: the others are answered, too.
+        // A failure of one problem does not affect the others, which are answered, too.
         let planned = given.and_then(|given| {
             let help = "report it with this line; the others are answered";
             caught(|| self.in_time(given, &refused, limit)).unwrap_or_else(|why| Err(refused(why, help)))
@@ -122,7 +122,7 @@ impl Reader {
         Answer { id: keys.remove("id"), is_object: true, plan: planned }
     }
 
-    /// Plans, unless the time is up before that is done.
+    /// Plans within the time limit.
     fn in_time(
         &mut self,
         given: Given,
@@ -194,7 +194,7 @@ impl Reader {
 }
 
 impl Named {
-    /// The text. `name` is for messages where there is no file.
+    /// Returns the text. `name` is for messages about texts without a file.
     fn source(&self, name: &str) -> Result<Source, InputError> {
         match self {
             Self::File(path) => Source::read(path),
@@ -204,8 +204,8 @@ impl Named {
     }
 }
 
-/// An option by name, as a word of the command line; none of what is false or null. Pairs are parted by commas, numbers of cells
-/// by an x.
+/// Returns an option by name, as a word of the command line; `None` for values that are false or null. Pairs are
+/// separated by commas, numbers of cells by an x.
 fn word(name: &str, value: &Value) -> Result<Option<String>, String> {
     let option = format!("--{}", name.replace('_', "-"));
     let one = |value: &Value| match value {
@@ -226,7 +226,7 @@ fn word(name: &str, value: &Value) -> Result<Option<String>, String> {
     })
 }
 
-/// Forgets all when there is no more room: what comes again is soon known again.
+/// Forgets all entries when there is no more room. Repeated ones are soon known again.
 fn make_room<K, V>(known: &mut HashMap<K, V>) {
     if known.len() >= REMEMBERED {
         known.clear();

@@ -1,17 +1,17 @@
-//! Lines in and out: whoever is done with a line takes the next, and answers leave in the order of the lines.
+//! Lines in and out. A job that is done with a line takes the next one, and answers leave in the order of the lines.
 
 use crate::cli::failure::Failure;
 use std::collections::BTreeMap;
 use std::io::{self, BufRead, ErrorKind, Read, Write};
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 
-/// Bytes of the longest line that is read; what never ends is not.
+/// Greatest length of a line, bytes, so that endless input ends with an error.
 const LONGEST: u64 = 64 << 20;
 
-/// What some programs begin a text in UTF-8 with.
+/// Bytes with which some programs begin a text in UTF-8.
 const BYTE_ORDER_MARK: &[u8] = "\u{feff}".as_bytes();
 
-/// Answers that wait for one before them, a job: enough to keep all jobs busy beside a hard problem.
+/// Number of answers per job that may wait for an earlier one: enough to keep all jobs busy during a hard problem.
 const WAITING: usize = 64;
 
 /// A line that is not blank, and its number among all, from 1.
@@ -20,7 +20,7 @@ pub struct Line {
     pub text: Vec<u8>,
 }
 
-/// What there was.
+/// Counts of the input.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Count {
     /// Lines that are not blank.
@@ -39,7 +39,7 @@ pub struct Turns<R, W> {
 
 struct Input<R> {
     reader: R,
-    /// What messages call it.
+    /// Its name in messages.
     name: String,
     /// Lines read, blank ones included.
     read: usize,
@@ -52,12 +52,12 @@ struct Output<W> {
     waiting: BTreeMap<usize, String>,
     written: usize,
     count: Count,
-    /// Why nothing more is to be done; a reader that has seen enough is no failure.
+    /// The reason for the end of the work. It is no failure if the reader of the output has closed it.
     ended: Option<Result<(), Failure>>,
 }
 
 impl<R: BufRead, W: Write> Turns<R, W> {
-    /// Nothing is read yet.
+    /// Creates the state before any line is read.
     pub fn new(reader: R, name: &str, writer: W, jobs: usize) -> Self {
         let output = Output { writer, waiting: BTreeMap::new(), written: 0, count: Count::default(), ended: None };
         Self {
@@ -68,7 +68,7 @@ impl<R: BufRead, W: Write> Turns<R, W> {
         }
     }
 
-    /// Answers lines until there are none: each with a line, and whether it was an object.
+    /// Answers lines until there are no more. `answer` returns the answer, and true if the line was an object.
     pub fn work(&self, mut answer: impl FnMut(&Line) -> (String, bool)) {
         while self.has_room() {
             match self.next() {
@@ -82,22 +82,22 @@ impl<R: BufRead, W: Write> Turns<R, W> {
         }
     }
 
-    /// What there was.
+    /// Returns the counts.
     ///
     /// # Errors
-    /// What ended it.
+    /// The failure that ended the work.
     pub fn end(self) -> Result<Count, Failure> {
         let output = self.output.into_inner().unwrap_or_else(PoisonError::into_inner);
         output.ended.unwrap_or(Ok(())).map(|()| output.count)
     }
 
-    /// Waits until answers may wait for others; false when it is over.
+    /// Waits until there is room for another waiting answer. Returns false at the end of the work.
     fn has_room(&self) -> bool {
         let is_full = |output: &mut Output<W>| output.ended.is_none() && output.waiting.len() >= self.most;
         self.moved.wait_while(self.output(), is_full).unwrap_or_else(PoisonError::into_inner).ended.is_none()
     }
 
-    /// The next line that is not blank, and its place among these.
+    /// Returns the next line that is not blank, and its number among these.
     fn next(&self) -> Result<Option<(usize, Line)>, Failure> {
         let mut input = self.input.lock().unwrap_or_else(PoisonError::into_inner);
         loop {
@@ -163,7 +163,7 @@ impl<W: Write> Output<W> {
         self.writer.flush()
     }
 
-    /// The first reason counts.
+    /// Ends the work; only the first reason counts.
     fn end(&mut self, why: Result<(), Failure>) {
         self.ended.get_or_insert(why);
     }

@@ -8,7 +8,7 @@ use crate::grammar::{EffortArgs, MotionArgs, word};
 use clap::{ArgGroup, Args, ValueHint};
 use std::path::PathBuf;
 
-/// Pairs at the most: their results still fit into memory.
+/// Greatest number of pairs: their results still fit into memory.
 const MOST_QUERIES: i64 = 100_000;
 
 /// Run every planner on the same problem, or on many, side by side.
@@ -97,7 +97,7 @@ pub struct CompareArgs {
 }
 
 impl CompareArgs {
-    /// Whether one problem is compared, not several.
+    /// Returns true if one problem is compared, not several.
     pub fn is_single(&self) -> bool {
         self.suite.is_none() && self.queries.is_none()
     }

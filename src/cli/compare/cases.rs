@@ -1,4 +1,4 @@
-//! The problems to compare on: one, a suite's, random ones.
+//! The problems of a comparison: a single one, a suite's, or random ones.
 
 use super::args::CompareArgs;
 use super::pairs::free_pairs;
@@ -11,36 +11,36 @@ use crate::space::Configuration;
 use std::borrow::Cow;
 use std::sync::Arc;
 
-/// All that is to be compared, read and checked.
+/// The problems to compare, read and checked.
 pub struct Cases {
-    /// What it is about.
+    /// Their common title.
     pub title: String,
-    /// At least one.
+    /// Problems, at least one.
     pub cases: Vec<Case>,
     /// Random queries instead of the worlds' own.
     pub sampling: Option<Sampling>,
-    /// What was left out, and why; a line each.
+    /// Excluded problems with the reason, one line each.
     pub left_out: Vec<String>,
     /// Problems that could not be run.
     pub refused: Vec<Refusal>,
-    /// What may surprise about the robots; a line each.
+    /// Warnings about the robots, one line each.
     pub warnings: Vec<String>,
 }
 
 /// A robot in a world, as one column of the comparison.
 pub struct Case {
-    /// Stands for the problem in tables.
+    /// Name of the problem in tables.
     pub name: String,
-    /// Which of the worlds it is in, from 0.
+    /// Number of its world, from 0.
     pub world: usize,
-    /// With the world's own start and goal, or with any where they are drawn.
+    /// The problem with the world's own start and goal, or with any for random queries.
     base: Arc<MotionProblem>,
-    /// Start and goal that were drawn.
+    /// Start and goal of a random query.
     pub query: Option<[Configuration; 2]>,
 }
 
 impl Case {
-    /// The problem itself. A copy of the scene where start and goal are drawn: there may be a million of them.
+    /// Returns the problem itself. For a random query it is a copy of the scene, since there may be a million queries.
     pub fn problem(&self) -> Cow<'_, MotionProblem> {
         match self.query {
             None => Cow::Borrowed(&self.base),
@@ -48,7 +48,7 @@ impl Case {
         }
     }
 
-    /// The problem before start and goal are drawn: its scene is the case's.
+    /// Returns the problem before a random query is set: its scene is the case's.
     pub fn base(&self) -> &MotionProblem {
         &self.base
     }
@@ -59,7 +59,7 @@ fn asked(base: &MotionProblem, start: Configuration, goal: Configuration) -> Mot
 }
 
 impl Cases {
-    /// Reads what the arguments name.
+    /// Reads the files that the arguments name.
     ///
     /// # Errors
     /// Every diagnostic of all files at once.
@@ -73,10 +73,10 @@ impl Cases {
         Self::of_suite(suite, args)
     }
 
-    /// A robot in a world that is read already.
+    /// Creates the cases for a robot in a world that is read already.
     ///
     /// # Errors
-    /// As [`Cases::load`].
+    /// Same as for [`Cases::load`].
     pub fn of_scene(scene: LoadedScene, args: &CompareArgs) -> Result<Self, Failure> {
         Self::of_suite(one(scene), args)
     }
@@ -134,7 +134,7 @@ impl Cases {
     }
 }
 
-/// A robot in a world as a suite of one.
+/// Returns a robot in a world as a suite of one.
 fn one(scene: LoadedScene) -> Suite {
     let name = scene.scene.workspace().name.clone();
     Suite {
@@ -148,13 +148,13 @@ fn one(scene: LoadedScene) -> Suite {
 /// Problems with their names, and those that cannot be run.
 type Bases = (Vec<(String, MotionProblem)>, Vec<Refused>);
 
-/// With the worlds' own start and goal, or those of the command line.
+/// Returns the problems with the worlds' own start and goal, or those of the command line.
 fn problems(suite: Suite, overrides: &Overrides) -> Result<Bases, Failure> {
     let (problems, refused) = suite.problems(overrides)?;
     Ok((problems.into_iter().map(|(name, loaded)| (name, loaded.problem)).collect(), refused))
 }
 
-/// Why a problem is not run, on a line.
+/// Returns the reason why a problem is not run, on a line.
 fn refusal(refused: &Refused) -> Refusal {
     let diagnostic = refused.error.diagnostics().first();
     let kind = match diagnostic.map(|diagnostic| diagnostic.kind) {
@@ -166,10 +166,10 @@ fn refusal(refused: &Refused) -> Refusal {
     Refusal { problem: refused.name.clone(), kind, reason }
 }
 
-/// Scenes whose start and goal nobody will look at: the worlds' own may be missing or blocked.
+/// Returns scenes whose start and goal are not used: the worlds' own may be missing or blocked.
 fn scenes(suite: Suite, overrides: &Overrides) -> Result<Bases, Failure> {
     let scene = |member: input::Member| {
-        // Only a world that was named by itself can have steps here; asked for its goal it says so.
+        // Only a world named on the command line can have steps here; then the request for its goal reports the error.
         if member.scene.has_steps() {
             member.scene.clone().problem(overrides)?;
         }
@@ -181,10 +181,10 @@ fn scenes(suite: Suite, overrides: &Overrides) -> Result<Bases, Failure> {
     Ok((scenes?, suite.refused))
 }
 
-/// The problem, or as many random ones in its scene.
+/// Returns the problem, or this many random ones in its scene.
 ///
 /// # Errors
-/// In words, when hardly anything is free.
+/// The reason, if hardly anything is free.
 fn drawn(name: &str, world: usize, base: Arc<MotionProblem>, sampling: Option<Sampling>) -> Result<Vec<Case>, String> {
     let Some(Sampling { queries, seed }) = sampling else {
         return Ok(vec![Case { name: name.to_owned(), world, base, query: None }]);

@@ -12,13 +12,13 @@ use crate::output::{self, PictureFormat};
 use crate::report::{self, Comparison, Overlay, Study, labels};
 use crate::space::Path;
 
-/// Problems that a page draws one by one where start and goal are random.
+/// Number of random queries that a page draws one by one.
 const DRAWN_QUERIES: usize = 6;
 
-/// Problems that a page draws one by one where each has a world of its own.
+/// Number of problems in different worlds that a page draws one by one.
 const DRAWN_WORLDS: usize = 60;
 
-/// Queries whose paths lie over each other in a page.
+/// Number of queries whose paths a page draws together.
 const OVERLAID: usize = 300;
 
 /// Share of the arm's reach by which contours may deviate in a page's small panels.
@@ -38,8 +38,8 @@ pub fn save(
     sinks::save_picture(format, file, &view(case, comparison, paths))
 }
 
-/// The page's pictures: workspace and configuration space of each problem; of random queries, those on which the planners'
-/// lengths differ most.
+/// Returns the page's pictures: workspace and configuration space of each problem. For random queries, it draws those
+/// on which the planners' lengths differ most.
 pub fn pictures(cases: &Cases, study: &Study, done: &Compared) -> Vec<report::Picture> {
     let mut chosen: Vec<usize> = (0..study.comparisons.len()).collect();
     if cases.sampling.is_some() {
@@ -58,7 +58,7 @@ pub fn pictures(cases: &Cases, study: &Study, done: &Compared) -> Vec<report::Pi
     drawn.collect()
 }
 
-/// All paths of each planner over each other, for each world with random queries.
+/// Returns pictures of all paths of each planner together, for each world with random queries.
 pub fn overlays(cases: &Cases, study: &Study, done: &Compared) -> Vec<Overlay> {
     let Some(sampling) = cases.sampling else { return Vec::new() };
     let worlds = cases.cases.chunks(sampling.queries).zip(done.paths.chunks(sampling.queries));
@@ -109,8 +109,8 @@ fn view(case: &Case, comparison: &Comparison, paths: &[Option<Path>]) -> View {
     })
 }
 
-/// The default planner's proof, where planners proved that there is no path. It is found again rather than kept: of many problems
-/// only a few are drawn.
+/// Returns the default planner's proof, if planners proved that there is no path. The proof is computed again rather
+/// than stored, because only a few of many problems are drawn.
 fn proof(problem: &MotionProblem, comparison: &Comparison) -> Option<CheckedProof> {
     let is_proven = comparison.rows.iter().any(|row| row.outcome == Status::Infeasible);
     let made = is_proven.then(|| plan(&Problem::from(problem.clone()), &Options::default()))?.ok()?;

@@ -1,9 +1,9 @@
 //! `cplan compare`: every planner on the same problems, side by side.
 //!
-//! It makes the figures that `report` shows: `cases` (one problem, a suite's, or random pairs of `pairs`, whose generator
-//! is written out so that a seed keeps its meaning), `runner` (threads, times, memory, and a lower bound for each problem
-//! from the shortest path that anyone found). The allocator that counts bytes is the program's, not the library's:
-//! `cli::run` gets it as a `MemoryMeter`.
+//! It provides the numbers that `report` shows. `cases` has the problems: one, a suite's, or random pairs from `pairs`,
+//! which implements its own generator so that a seed keeps its meaning. `runner` has threads, times and memory, and a
+//! lower bound for each problem from the shortest path that any planner found. The allocator that counts bytes belongs
+//! to the program, not to the library: `cli::run` gets it as a `MemoryMeter`.
 
 mod args;
 mod cases;
@@ -75,11 +75,11 @@ pub fn run(args: &CompareArgs, program: &Program) -> Result<u8, Failure> {
     Ok(exit_code(&study, args.is_single()))
 }
 
-/// Compares in a scene that is read already, for callers that are no shell: told by words of this command line behind the files. Without
-/// random queries it is a study of one problem.
+/// Compares planners in a scene that is read already, for callers from a library. They pass the words of this command
+/// line after the files. Without random queries it is a study of one problem.
 ///
 /// # Errors
-/// Words that make no sense, and what is wrong with start and goal.
+/// Words that make no sense, and defects of start and goal.
 pub fn compare_in(scene: LoadedScene, words: &[String]) -> Result<Study, Failure> {
     let words = ["URDF", "WORLD", "--quiet"].into_iter().chain(words.iter().map(String::as_str));
     let CompareWords { args } = CompareWords::try_parse_from(words).map_err(|error| Failure::Usage(told(&error)))?;
@@ -101,7 +101,7 @@ struct CompareWords {
 /// Runs the planners on the problems.
 ///
 /// # Errors
-/// Options that make no sense for a world, and motions that cannot be timed as asked.
+/// Options that make no sense for a world, and motions that cannot be timed with the options.
 fn measured(args: &CompareArgs, cases: &Cases, meter: Option<MemoryMeter>) -> Result<(Study, Compared), Failure> {
     let entries = entries(args, cases)?;
     let total = cases.cases.len() * entries.first().map_or(0, Vec::len);
@@ -123,7 +123,8 @@ fn measured(args: &CompareArgs, cases: &Cases, meter: Option<MemoryMeter>) -> Re
     Ok((study, done))
 }
 
-/// A contradiction is a failure, and so is a problem that could not be run, after all others were; otherwise the code is that of a single problem's best answer.
+/// Returns the exit code. A contradiction is a failure. So is a problem that could not be run, but only after all
+/// others were run. Otherwise the code is that of a single problem's best answer.
 fn exit_code(study: &Study, is_single: bool) -> u8 {
     match study.settled() {
         _ if !study.alarms().is_empty() || !study.refused.is_empty() => BAD_INPUT,
@@ -134,10 +135,10 @@ fn exit_code(study: &Study, is_single: bool) -> u8 {
     }
 }
 
-/// The planners for each world.
+/// Returns the planners for each world.
 ///
 /// # Errors
-/// Options of a planner that need something of a world which it lacks, or a GPU that is not there.
+/// Options of a planner that need something that a world lacks, or a missing GPU.
 fn entries(args: &CompareArgs, cases: &Cases) -> Result<Vec<Vec<Entry>>, Failure> {
     let methods = if args.planner.is_empty() { Method::ALL.to_vec() } else { args.planner.clone() };
     let plain = methods.iter().map(|&method| {
@@ -163,13 +164,14 @@ fn entries(args: &CompareArgs, cases: &Cases) -> Result<Vec<Vec<Entry>>, Failure
     cases.cases.chunk_by(|a, b| a.world == b.world).map(|world| of(&world[0])).collect()
 }
 
-/// How a planner is run. Bounds are measured by themselves, for all planners alike; what is asked to be within a gap has to know one.
+/// Returns the options for a planner. Bounds are measured separately, for all planners alike; only a planner with a
+/// required gap needs one itself.
 fn options(args: &CompareArgs, planner: Planner, levels: usize) -> Options {
     let (drive, jerk, bounded) = (args.motion.drive(), args.motion.jerk(), planner.gap().is_some());
     Options { planner, levels, bounded, drive, jerk, ..Options::default() }
 }
 
-/// All that there is to write.
+/// All data to write.
 struct Results<'a> {
     args: &'a CompareArgs,
     cases: &'a Cases,
@@ -179,12 +181,12 @@ struct Results<'a> {
 }
 
 impl Results<'_> {
-    /// The only problem, if one was asked for.
+    /// Returns the only problem, if one was asked for.
     fn single(&self) -> Option<&Comparison> {
         self.study.comparisons.first().filter(|_| self.args.is_single())
     }
 
-    /// A file's content.
+    /// Returns a file's content.
     fn content(&self, format: ReportFormat) -> Result<String, Failure> {
         let (single, study) = (self.single(), self.study);
         Ok(match format {

@@ -3,14 +3,16 @@
 use crate::model::Scene;
 use crate::space::{Configuration, Draws};
 
-/// Draws before a world counts as one without free configurations: a free share of a ten-thousandth is found still.
+/// Number of draws after which a world counts as one without free configurations. A free share of 1 in 10,000 is still
+/// found.
 const MOST_DRAWS: usize = 200_000;
 
-/// `count` pairs of free configurations, all independent and uniform over the free part of the joint space (a turn on
-/// circles): start, goal, start, goal and so on out of one sequence of draws, joint 1 first, those that are not free
-/// dropped. Free is what keeps more than the scene's clearance from every obstacle. Fewer pairs are the first of more.
+/// Draws `count` pairs of free configurations. All are independent and uniform over the free part of the joint space
+/// (one turn on circles). One sequence of draws gives start, goal, start, goal and so on, joint 1 first; configurations
+/// that are not free are dropped. A configuration is free if it keeps more than the scene's clearance from every
+/// obstacle. A smaller count gives the first pairs of a larger one.
 ///
-/// None if hardly anything is free.
+/// Returns `None` if hardly anything is free.
 pub fn free_pairs(scene: &Scene, count: usize, seed: u64) -> Option<Vec<[Configuration; 2]>> {
     let mut draws = Draws::new(seed);
     (0..count).map(|_| Some([free(scene, &mut draws)?, free(scene, &mut draws)?])).collect()
@@ -47,8 +49,8 @@ mod tests {
         assert_ne!(pairs[0][0], pairs[0][1]);
     }
 
-    /// Which share of the samples lies in a quarter of the joint space is, within five standard deviations, which share
-    /// of the free space does: counted on a grid.
+    /// For each quarter of the joint space, compares its share of the samples with its share of the free space, counted
+    /// on a grid. They agree within five standard deviations.
     #[test]
     fn pairs_are_uniform_over_the_free_space_of_a_torus() {
         let scene = scene("planar_2r_continuous", "torus_open");

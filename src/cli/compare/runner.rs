@@ -1,4 +1,4 @@
-//! Runs every planner on every problem, several at a time if asked to.
+//! Runs every planner on every problem, with several jobs if requested.
 
 use super::cases::{Case, Cases};
 use crate::cli::memory::MemoryMeter;
@@ -16,52 +16,52 @@ use std::time::{Duration, Instant};
 /// A planner to compare.
 #[derive(Debug, Clone)]
 pub struct Entry {
-    /// Stands for the planner in tables.
+    /// Name of the planner in tables.
     pub label: String,
-    /// The planner, and how it is run.
+    /// The planner and its options.
     pub options: Options,
 }
 
-/// What is there when all is done.
+/// The results of all runs.
 pub struct Compared {
-    /// One a case.
+    /// One comparison per case.
     pub comparisons: Vec<Comparison>,
-    /// Of each case, the path of each planner that found one.
+    /// For each case, the path of each planner that found one.
     pub paths: Vec<Vec<Option<Path>>>,
-    /// Computing time of all of it, by the clock on the wall.
+    /// Total computing time, as elapsed real time.
     pub elapsed: Duration,
 }
 
-/// How to run.
+/// Settings of the runs.
 pub struct Runner<'a> {
-    /// For each world its planners, the same number for all.
+    /// The planners for each world, the same number for all.
     pub entries: &'a [Vec<Entry>],
-    /// Runs at the same time.
+    /// Number of jobs.
     pub jobs: usize,
-    /// What counts bytes, for one run at a time only.
+    /// Counter of allocated bytes, for one run at a time only.
     pub meter: Option<MemoryMeter>,
-    /// Where progress is shown.
+    /// Display of progress.
     pub progress: &'a Progress,
 }
 
 /// A run's row, and its path.
 type Ran = Result<(Row, Option<Path>), PlanError>;
 
-/// Boxes of the run before all others.
+/// Number of boxes for the warm-up run.
 const WARMING: usize = 1000;
 
-/// A bound that is no farther below the shortest path found, as a share of it, is good enough.
+/// Required gap between a bound and the shortest path found, as a share of the path.
 const BOUND_GAP: f64 = 1e-4;
 
 impl Runner<'_> {
-    /// Runs them all. Results come in the order of the cases, whatever is done when.
+    /// Runs all cases. Results come in the order of the cases, independent of the order of execution.
     ///
     /// # Errors
     /// Motions that cannot be timed as asked, the first of them in that order.
     pub fn run(&self, cases: &Cases) -> Result<Compared, (String, PlanError)> {
         let clock = Instant::now();
         let width = self.entries.first().map_or(0, Vec::len);
-        // Each problem begins with another planner: the first one pays for what the others find in the caches.
+        // Each problem begins with another planner, because the first one fills the caches for the others.
         let runs = self.all(cases.cases.len() * width, |i| {
             let (number, turn) = (i / width, i % width);
             let case = &cases.cases[number];
@@ -95,7 +95,7 @@ impl Runner<'_> {
         Ok(Compared { comparisons, paths, elapsed: clock.elapsed() })
     }
 
-    /// `count` pieces of work on as many threads as there are jobs; the results in order.
+    /// Does `count` pieces of work on as many threads as there are jobs, and returns the results in order.
     fn all<T: Send>(&self, count: usize, work: impl Fn(usize) -> T + Sync) -> Vec<T> {
         let mut results = Vec::with_capacity(count);
         let Ok(()) = in_order(count, self.jobs, work, |result| {
@@ -105,7 +105,8 @@ impl Runner<'_> {
         results
     }
 
-    /// One run, measured. A coarse one goes before the very first, which would else pay for loading the program.
+    /// Does one run and measures it. A coarse run goes before the very first one, which otherwise would include the
+    /// time to load the program.
     fn one(&self, case: &Case, entry: &Entry, is_first: bool) -> Ran {
         self.progress.begin(&case.name, &entry.label);
         let problem = Problem::from(case.problem().into_owned());
@@ -158,7 +159,7 @@ impl Runner<'_> {
     }
 }
 
-/// The planner's path of the other kind, if it has one; whoever is measured does not wait for it.
+/// Returns the planner's path of the other kind, if it has one; the time for it is not measured.
 fn other_path(problem: &Problem, options: &Options) -> Result<Option<OtherPath>, PlanError> {
     if !options.planner.method().has_own_path() || options.planner.path_kind() == PathKind::Middles {
         return Ok(None);
@@ -168,19 +169,19 @@ fn other_path(problem: &Problem, options: &Options) -> Result<Option<OtherPath>,
     Ok(made.length().map(|length| OtherPath { length, clearance: made.clearance() }))
 }
 
-/// What no motion is shorter than, within a gap if it can be; none without a path.
+/// Returns a lower bound on the length of motions, within a gap if possible; `None` without a path.
 fn lower_bound<'a>(problem: &MotionProblem, paths: impl Iterator<Item = &'a Path>, gap: f64) -> Option<f64> {
     let shortest = paths.min_by(|a, b| a.length().total_cmp(&b.length()))?;
     Some(bound(problem, shortest, Metric::Euclidean, gap).lower)
 }
 
-/// The unit of lengths in joint space.
+/// Returns the unit of lengths in joint space.
 pub fn length_unit(problem: &MotionProblem) -> String {
     let units = problem.scene().arm().joints.each_ref().map(|j| j.unit());
     if units[0] == units[1] { units[0].into() } else { units.join(", ") }
 }
 
-/// Says why there is no memory to tell, if there is none.
+/// Prints the reason if memory cannot be measured.
 pub fn meter(meter: Option<MemoryMeter>, jobs: usize, quiet: bool) -> Option<MemoryMeter> {
     if jobs > 1 && meter.is_some() && !quiet {
         sinks::say("note: memory is told for --jobs 1 only: what several runs allocate at a time cannot be told apart");

@@ -9,9 +9,9 @@ use std::path::PathBuf;
 pub enum ReportFormat {
     /// Tables in Markdown.
     Markdown,
-    /// A line a run.
+    /// One line per run.
     Csv,
-    /// All there is.
+    /// All data.
     Json,
     /// A page with charts and paths.
     Html,
@@ -19,10 +19,10 @@ pub enum ReportFormat {
     Arena,
 }
 
-/// What the file names ask for, checked before any work is done.
+/// Returns the formats for the file names, checked before any work is done.
 ///
 /// # Errors
-/// Extensions that are none of ours, files that cannot be written.
+/// Unknown extensions, and files that cannot be written.
 pub fn report_sinks(paths: &[PathBuf]) -> Result<Vec<(PathBuf, ReportFormat)>, Failure> {
     let ends = [
         ("md", ReportFormat::Markdown),

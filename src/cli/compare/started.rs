@@ -1,15 +1,15 @@
-//! A date and a time for people.
+//! A date and a time as text.
 
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
-/// Now, as `2026-11-21 14:03:53 UTC`.
+/// Returns the present time, such as `2026-11-21 14:03:53 UTC`.
 pub fn now() -> String {
     let since = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or(Duration::ZERO);
     written(since.as_secs())
 }
 
-/// So many seconds after the beginning of 1970. Days are turned into dates by Howard Hinnant's `civil_from_days`: eras of
-/// 400 years that begin in March, so that leap days come last.
+/// Returns the time that is this many seconds after the beginning of 1970. Days are converted to dates by Howard
+/// Hinnant's `civil_from_days`: eras of 400 years that begin in March, so that leap days come last.
 fn written(seconds: u64) -> String {
     let (days, second) = (seconds / 86_400 + 719_468, seconds % 86_400);
     let (era, day_of_era) = (days / 146_097, days % 146_097);
@@ -36,7 +36,7 @@ mod tests {
         assert_eq!(written(4_107_542_400), "2100-03-01 00:00:00 UTC");
     }
 
-    /// Day by day with a calendar kept by hand.
+    /// Compares day by day with a simple calendar.
     #[test]
     fn every_day_of_two_centuries() {
         let (mut year, mut month, mut day) = (1970, 1, 1);

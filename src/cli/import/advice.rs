@@ -1,17 +1,17 @@
-//! What of a world is hardly meant, with its cure.
+//! Notes about parts of a world that are probably mistakes, with a hint.
 
 use super::obstacles::{Taken, coordinates, placed};
 use crate::cli::fresh::word;
 use cplan_drawing::{Geometry, Notes, Shape};
 use std::path::Path;
 
-/// Drawings of cells are neither wider than this nor narrower, metres.
+/// Usual range of a drawing's width, metres.
 const USUAL: [f64; 2] = [0.01, 100.0];
 
 /// Least and greatest coordinates.
 type Bounds = [(f64, f64); 2];
 
-/// Notes what lies where the arm's base is or around all else, and an extent that no cell has.
+/// Adds notes about obstacles at the arm's base or around all others, and about an unusual extent.
 pub(super) fn note(taken: &[Taken], notes: &mut Notes) {
     let bounds: Vec<Bounds> = taken.iter().map(|taken| bounds(coordinates(&taken.shape))).collect();
     let border = border(taken, &bounds);
@@ -45,7 +45,8 @@ fn bounds(points: impl Iterator<Item = [f64; 2]>) -> Bounds {
     })
 }
 
-/// The solid that lies around all others, if one does: people draw the walls of a room like that, and how far an arm reaches.
+/// Returns the solid that surrounds all others, if there is one: drawings often show the walls of a room, or an arm's
+/// reach, like that.
 fn border(taken: &[Taken], bounds: &[Bounds]) -> Option<usize> {
     let holds = |i: usize, j: usize| (0..2).all(|k| bounds[i][k].0 < bounds[j][k].0 && bounds[j][k].1 < bounds[i][k].1);
     let is_solid = |shape: &Shape| match &shape.geometry {
@@ -53,14 +54,14 @@ fn border(taken: &[Taken], bounds: &[Bounds]) -> Option<usize> {
         Geometry::Circle { .. } => true,
         Geometry::Polyline(_) => false,
     };
-    // The widest is the only one that can.
+    // Only the widest obstacle can surround all others.
     let width = |i: usize| bounds[i][0].1 - bounds[i][0].0;
     let widest = (0..taken.len()).max_by(|&i, &j| width(i).total_cmp(&width(j)))?;
     let others = (0..taken.len()).filter(|&j| j != widest);
     (taken.len() > 1 && is_solid(&taken[widest].shape) && others.clone().all(|j| holds(widest, j))).then_some(widest)
 }
 
-/// Whether a point of the world lies in a solid.
+/// Returns true if a point of the world lies in a solid.
 fn holds(shape: &Shape, point: [f64; 2]) -> bool {
     let within = |ring: &[[f64; 2]]| {
         let ring: Vec<[f64; 2]> = ring.iter().map(|&p| placed(shape, p)).collect();

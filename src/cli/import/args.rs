@@ -66,7 +66,7 @@ pub struct ImportArgs {
 }
 
 impl ImportArgs {
-    /// The drawing's name, without folder and extension.
+    /// Returns the drawing's name, without folder and extension.
     pub(super) fn title(&self) -> String {
         self.drawing.file_stem().map_or_else(String::new, |name| name.to_string_lossy().into_owned())
     }
@@ -76,7 +76,7 @@ fn tolerance(text: &str) -> Result<f64, String> {
     number_in(text, |x| x.is_finite() && x >= FINEST, &format!("of metres, finite and at least {FINEST}"))
 }
 
-/// Longest move, metres: drawings hold coordinates of half of it.
+/// Longest move, metres: drawings hold coordinates of half of this.
 const LONGEST_MOVE: f64 = 2e12;
 
 fn displacement(text: &str) -> Result<[f64; 2], String> {

@@ -1,4 +1,4 @@
-//! Which parts of a drawing are taken, and as what.
+//! Selects the parts of a drawing, and decides their type.
 
 use super::obstacles::{Names, Taken, rounded};
 use crate::cli::failure::Failure;
@@ -32,22 +32,22 @@ impl FromStr for LayerHeight {
     }
 }
 
-/// What the options say of layers and names.
+/// The options about layers and names.
 pub(super) struct Layers<'a> {
     pub only: &'a [String],
     pub without: &'a [String],
     pub heights: &'a [LayerHeight],
     pub walls: &'a [String],
-    /// Greatest distance of a circle from the wall that is made of it, metres.
+    /// Greatest distance between a circle and the wall that replaces it, metres.
     pub tolerance: f64,
 }
 
-/// Whether an obstacle, what it lies on or what hides it has this name.
+/// Returns true if an obstacle, its layer, or the layer that hides it has this name.
 fn is_called(taken: &Taken, name: &str) -> bool {
     is_same(&taken.name, name) || taken.shape.called().iter().any(|own| is_same(own, name))
 }
 
-/// Names are the same in upper and lower case.
+/// Compares names without regard to upper and lower case.
 fn is_same(name: &str, other: &str) -> bool {
     name.to_lowercase() == other.to_lowercase()
 }
@@ -75,13 +75,13 @@ impl Layers<'_> {
         Err(Failure::Option(format!("{option}: the drawing has nothing called \"{name}\"\n  cure: {known}")))
     }
 
-    /// Whether what may be asked for by these names is taken.
+    /// Returns true if the options include an obstacle with these names.
     pub fn asks_for(&self, names: &[String]) -> bool {
         let among = |asked: &[String]| asked.iter().any(|name| names.iter().any(|own| is_same(own, name)));
         (self.only.is_empty() || among(self.only)) && !among(self.without)
     }
 
-    /// What is taken, with what the options say of it.
+    /// Returns the selected obstacles, with the heights and walls that the options set.
     pub fn chosen(&self, found: Vec<Taken>, notes: &mut Notes) -> Vec<Taken> {
         let mut names = Names::of(&found);
         let mut chosen = Vec::new();
@@ -90,7 +90,7 @@ impl Layers<'_> {
             if !self.only.is_empty() && !among(self.only) || among(self.without) {
                 continue;
             }
-            // What is asked for by its own layer alone may still lie in a block that is hidden as a whole.
+            // An obstacle that is selected only by its own layer may still lie in a block that is hidden as a whole.
             let shape = &taken.shape;
             let is_asked_for = |own: &String| self.only.iter().any(|name| is_same(own, name));
             let is_taken = || {
@@ -118,7 +118,7 @@ impl Layers<'_> {
     }
 }
 
-/// The outlines of an obstacle as thin walls.
+/// Returns the outlines of an obstacle as thin walls.
 fn walls(taken: Taken, tolerance: f64, names: &mut Names) -> Vec<Taken> {
     let rings = match taken.shape.geometry.clone() {
         Geometry::Polygon { outer, holes } => [outer].into_iter().chain(holes).collect(),
@@ -134,7 +134,7 @@ fn walls(taken: Taken, tolerance: f64, names: &mut Names) -> Vec<Taken> {
     rings.into_iter().map(&mut wall).collect()
 }
 
-/// Corners on a circle, whose chords are as near to it as that.
+/// Returns corners on a circle, with chords within this distance of it.
 fn chords([x, y]: [f64; 2], radius: f64, tolerance: f64) -> Vec<[f64; 2]> {
     const LEAST: f64 = 8.0;
     let half = (1.0 - tolerance / radius).clamp(0.0, 1.0).acos();
@@ -146,7 +146,7 @@ fn chords([x, y]: [f64; 2], radius: f64, tolerance: f64) -> Vec<[f64; 2]> {
     (0..count).map(at).collect()
 }
 
-/// What was taken of each layer.
+/// Returns the number of obstacles taken from each layer.
 pub(super) fn lines(taken: &[Taken]) -> Vec<String> {
     let mut layers = BTreeMap::<&str, usize>::new();
     for layer in taken.iter().filter_map(|taken| taken.shape.layer.as_deref()) {

@@ -1,4 +1,4 @@
-//! `cplan import`: a drawing becomes a world.
+//! `cplan import`: converts a drawing to a world.
 
 mod advice;
 mod args;
@@ -24,7 +24,7 @@ use serde::Serialize;
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
-/// What was made of the drawing, for scripts.
+/// The result of the import, for scripts.
 #[derive(Serialize)]
 struct Json<'a> {
     /// Always `imported`.
@@ -32,14 +32,14 @@ struct Json<'a> {
     drawing: String,
     output: Option<String>,
     obstacles: Vec<Entry<'a>>,
-    /// What was not taken, or not as it is written.
+    /// Content that was left out or changed.
     notes: &'a [String],
-    /// The world, if it is written nowhere else.
+    /// The world, if it is not written to a file.
     #[serde(skip_serializing_if = "Option::is_none")]
     world: Option<&'a str>,
 }
 
-/// An obstacle, and where it comes from.
+/// An obstacle, and its origin in the drawing.
 #[derive(Serialize)]
 struct Entry<'a> {
     name: &'a str,
@@ -59,7 +59,7 @@ impl<'a> From<&'a Taken> for Entry<'a> {
 /// Reads the drawing and writes the world.
 ///
 /// # Errors
-/// A drawing that cannot be read, or of which nothing is taken; I/O.
+/// A drawing that cannot be read, or without any obstacle; I/O.
 pub fn run(args: &ImportArgs) -> Result<u8, Failure> {
     let format = Format::from_path(&args.drawing).ok_or_else(|| {
         let file = args.drawing.display();
@@ -102,7 +102,7 @@ pub fn run(args: &ImportArgs) -> Result<u8, Failure> {
     }
     let text = world_file::text(args, &taken, &notes);
     let name = args.output.clone().unwrap_or_else(|| "the imported world".into());
-    // What is written can be read, and what is drawn is what was read.
+    // This makes sure that the written world can be read, and the picture shows the world as it was read.
     let world = input::world_from(Source::in_memory(name, text.as_str()))?;
     let mut files: Vec<(PathBuf, Vec<u8>)> = Vec::new();
     for sink in &pictures {
@@ -116,7 +116,7 @@ pub fn run(args: &ImportArgs) -> Result<u8, Failure> {
     Ok(DONE)
 }
 
-/// The pictures, once all that is to be written has been found to be no other file.
+/// Returns the pictures, after checking that all outputs are different files.
 fn sinks(args: &ImportArgs) -> Result<Vec<Sink>, Failure> {
     if let Some(path) = &args.output {
         if path.extension().is_none_or(|extension| !extension.eq_ignore_ascii_case("toml")) {
@@ -129,7 +129,7 @@ fn sinks(args: &ImportArgs) -> Result<Vec<Sink>, Failure> {
     Ok(pictures)
 }
 
-/// A diagnostic of the drawing.
+/// Returns a diagnostic of the drawing.
 fn refused(args: &ImportArgs, diagnostic: Diagnostic) -> Failure {
     Failure::Input(Diagnostic { origin: args.drawing.display().to_string(), ..diagnostic }.into())
 }
@@ -141,7 +141,7 @@ fn picture(args: &ImportArgs, world: &World, taken: &[Taken]) -> String {
     draw::obstacles(&[args.title(), below], obstacles, &layers)
 }
 
-/// Says what was made: on stdout, or on stderr where stdout has the world.
+/// Reports the result: on stdout, or on stderr if the world goes to stdout.
 fn tell(args: &ImportArgs, taken: &[Taken], notes: &[String], world: &World, text: &str) -> Result<(), Failure> {
     let json = || {
         sinks::pretty(&Json {
@@ -160,7 +160,7 @@ fn tell(args: &ImportArgs, taken: &[Taken], notes: &[String], world: &World, tex
     sinks::print(text)
 }
 
-/// What was taken and what was not, and what to do next.
+/// Returns the numbers of obstacles taken and left out, and the next command.
 fn summary(args: &ImportArgs, taken: &[Taken], notes: &[String], world: &World) -> String {
     let [x, y] = draw::extent(&world.workspace.obstacles);
     let size = |(low, high): (f64, f64)| format!("{low:.3} to {high:.3}");
@@ -178,7 +178,7 @@ fn summary(args: &ImportArgs, taken: &[Taken], notes: &[String], world: &World) 
     laid_out(&lines)
 }
 
-/// The command that plans in the world; what it lacks is in capitals.
+/// Returns the command that plans in the world; missing values are in capitals.
 fn next(args: &ImportArgs, path: &Path) -> String {
     let query = &args.query;
     let start = if query.start.is_none() { " --start Q1,Q2" } else { "" };

@@ -1,4 +1,4 @@
-//! Shapes as obstacles: where they come to lie, sound, each with a name of its own.
+//! Converts shapes to obstacles: in their place, valid, and with unique names.
 
 use crate::geometry::{Point, Polygon};
 use crate::input::{Diagnostic, LARGEST, Position};
@@ -10,24 +10,25 @@ use std::f64::consts::PI;
 #[derive(Clone)]
 pub(super) struct Taken {
     pub name: String,
-    /// In metres, as the world file has it: in its frame, if it has one.
+    /// The shape in metres, in the frame of the world file, if it has one.
     pub shape: Shape,
 }
 
-/// What is too small for the file.
+/// Note for shapes that are too small for the file.
 const NO_EXTENT: &str = "what has no extent: left out";
 
-/// Where a drawing comes to lie: turned, then moved.
+/// The placement of a drawing: turned, then moved.
 pub(super) struct Placement {
     pub turn: f64,
     pub shift: [f64; 2],
 }
 
-/// Decimals that the file has: a nanometre is less than anyone measures, and leaves short numbers.
+/// Rounding of coordinates in the file, per metre: a nanometre is smaller than any measurement, and gives short
+/// numbers.
 const GRAINS: f64 = 1e9;
 
 impl Placement {
-    /// The frame of a block, as it lies in the world.
+    /// Returns the frame of a block, as it lies in the world.
     fn frame(&self, frame: Frame) -> Frame {
         let drawing = Frame { at: self.shift, angle: self.turn };
         let angle = frame.angle + self.turn;
@@ -35,7 +36,7 @@ impl Placement {
         Frame { at: drawing.placed(frame.at).map(rounded), angle: angle + 0.0 }
     }
 
-    /// As the file has it: seen from the frame of a block, else in the world.
+    /// Returns a point in the file's coordinates: relative to the frame of a block, otherwise in the world.
     fn point(&self, p: [f64; 2], frame: Option<&Frame>) -> [f64; 2] {
         let drawing = Frame { at: self.shift, angle: self.turn };
         frame.map_or_else(|| drawing.placed(p), |frame| frame.local(p)).map(rounded)
@@ -51,13 +52,13 @@ impl Placement {
     }
 }
 
-/// A length of the file, without a negative zero.
+/// Returns a length of the file, without a negative zero.
 pub(super) fn rounded(value: f64) -> f64 {
     (value * GRAINS).round() / GRAINS + 0.0
 }
 
-/// What a drawing has, each with the name that the world gives it. An outline that crosses itself is what it goes round, or thin walls
-/// where even that is too narrow.
+/// Returns the obstacles of a drawing, each with its name in the world. An outline that crosses itself becomes the area
+/// that it surrounds, or thin walls if even that is too narrow.
 pub(super) fn found(shapes: Vec<Shape>, placement: &Placement, notes: &mut Notes) -> Vec<Taken> {
     let mut sound: Vec<Shape> = Vec::new();
     for shape in shapes {
@@ -93,7 +94,7 @@ pub(super) fn found(shapes: Vec<Shape>, placement: &Placement, notes: &mut Notes
     named(sound)
 }
 
-/// Rings as polygons that do not cross themselves.
+/// Returns rings as polygons that do not cross themselves.
 fn untangled(outer: Ring, holes: Vec<Ring>, shape: &Shape, notes: &mut Notes) -> Vec<Geometry> {
     if is_sound(&outer, &holes) {
         return vec![Geometry::Polygon { outer, holes }];
@@ -125,7 +126,7 @@ fn is_sound(outer: &[[f64; 2]], holes: &[Ring]) -> bool {
     Polygon::new(points(outer), holes.iter().map(|hole| points(hole)).collect()).is_ok()
 }
 
-/// Refuses what lies where no arm can be; the drawing has been moved by `shift`.
+/// Refuses shapes at coordinates that no arm can have; the drawing has been moved by `shift`.
 pub(super) fn within_reach(taken: &[Taken], shift: [f64; 2]) -> Result<(), Diagnostic> {
     taken.iter().try_for_each(|Taken { shape, .. }| {
         let greatest = |numbers: &mut dyn Iterator<Item = f64>| numbers.map(f64::abs).fold(0.0, f64::max);
@@ -145,8 +146,8 @@ pub(super) fn within_reach(taken: &[Taken], shift: [f64; 2]) -> Result<(), Diagn
     })
 }
 
-/// What to do about a drawing that lies far off: the move that brings its middle to the arm, in whole metres, if it is not too large
-/// altogether.
+/// Returns a hint for a drawing that is far away: the move that brings its middle to the arm, in whole metres, unless
+/// the drawing is too large.
 fn far_off(taken: &[Taken], shift: [f64; 2]) -> String {
     let points: Vec<[f64; 2]> = taken.iter().flat_map(|taken| coordinates(&taken.shape)).collect();
     let ends = |k: usize| {
@@ -163,7 +164,7 @@ fn far_off(taken: &[Taken], shift: [f64; 2]) -> String {
     }
 }
 
-/// Points of the world that are as far out as the shape.
+/// Returns points of the world with the same extent as the shape.
 pub(super) fn coordinates(shape: &Shape) -> impl Iterator<Item = [f64; 2]> {
     let points = match &shape.geometry {
         Geometry::Polygon { outer, holes } => outer.iter().chain(holes.iter().flatten()).copied().collect(),
@@ -176,16 +177,16 @@ pub(super) fn coordinates(shape: &Shape) -> impl Iterator<Item = [f64; 2]> {
     points.into_iter().map(|p| placed(shape, p)).collect::<Vec<_>>().into_iter()
 }
 
-/// Where a point of a shape lies in the world.
+/// Returns the place of a shape's point in the world.
 pub(super) fn placed(shape: &Shape, p: [f64; 2]) -> [f64; 2] {
     shape.frame.map_or(p, |frame| frame.placed(p))
 }
 
-/// No names: that of the layer which every DXF has is none, either.
+/// Names that count as missing, such as that of the layer that every DXF has.
 const UNNAMED: [&str; 2] = ["", "0"];
 
-/// Gives each a name of its own: that of what is drawn, or of its layer, with a number where several have it. What is hidden comes
-/// after what is seen, so that names stay whatever is taken.
+/// Gives each obstacle a unique name: its own, or that of its layer, with a number if several share it. Hidden
+/// obstacles are numbered after visible ones, so that names do not depend on the selection.
 fn named(shapes: Vec<Shape>) -> Vec<Taken> {
     let base = |shape: &Shape| {
         let name =
@@ -198,7 +199,7 @@ fn named(shapes: Vec<Shape>) -> Vec<Taken> {
         let group: Vec<usize> = (0..shapes.len()).filter(|&i| shapes[i].hidden_by.is_some() == is_hidden).collect();
         let mut counts = HashMap::<String, usize>::new();
         group.iter().for_each(|&i| *counts.entry(base(&shapes[i])).or_default() += 1);
-        // Somebody may have numbered some already.
+        // The drawing may contain numbered names already.
         let single: HashSet<String> =
             counts.into_iter().filter(|(_, count)| *count == 1).map(|(name, _)| name).collect();
         let single: HashSet<String> = single.into_iter().filter(|name| names.taken.insert(name.clone())).collect();
@@ -210,21 +211,21 @@ fn named(shapes: Vec<Shape>) -> Vec<Taken> {
     given.into_iter().zip(shapes).map(|(name, shape)| Taken { name, shape }).collect()
 }
 
-/// Names that are given already.
+/// Names in use.
 #[derive(Default)]
 pub(super) struct Names {
     taken: HashSet<String>,
-    /// The last number that follows a name.
+    /// The last number used after a name.
     numbers: HashMap<String, usize>,
 }
 
 impl Names {
-    /// Those of obstacles.
+    /// Returns the names of obstacles.
     pub fn of(taken: &[Taken]) -> Self {
         Self { taken: taken.iter().map(|taken| taken.name.clone()).collect(), ..Self::default() }
     }
 
-    /// The next that is free: the name and a number.
+    /// Returns the next that is free: the name and a number.
     pub fn numbered(&mut self, name: &str) -> String {
         let number = self.numbers.entry(name.to_owned()).or_default();
         loop {

@@ -6,10 +6,10 @@ use crate::text::plain_line;
 use cplan_drawing::Geometry;
 use std::fmt::Write;
 
-/// Points in a line of the file.
+/// Number of points per line of the file.
 const IN_LINE: usize = 6;
 
-/// The world: head, start and goal, obstacles.
+/// Returns the world: head, start and goal, obstacles.
 pub(super) fn text(args: &ImportArgs, taken: &[Taken], notes: &[String]) -> String {
     let file = args.drawing.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
     let mut text = format!("# {}, by `cplan import`. Lengths in metres, angles in radians.\n", plain_line(&file));
@@ -78,7 +78,7 @@ fn obstacle(Taken { name, shape }: &Taken) -> String {
     text
 }
 
-/// Points in lines that can be read.
+/// Returns points in lines of moderate length.
 fn points(points: &[[f64; 2]]) -> String {
     let lines: Vec<String> = points
         .chunks(IN_LINE)
@@ -90,7 +90,7 @@ fn points(points: &[[f64; 2]]) -> String {
     }
 }
 
-/// A name as TOML has it.
+/// Returns a name as TOML has it.
 fn quoted(name: &str) -> String {
     toml::Value::from(name).to_string()
 }

@@ -1,5 +1,5 @@
-//! `cplan verify`: whether a recorded motion is free of collision and within the limits, or a recorded task is that and the one
-//! that the world asks for.
+//! `cplan verify`: checks if a recorded motion is free of collision and within the limits, or if a recorded task is
+//! also the one that the world describes.
 
 mod text;
 
@@ -80,8 +80,8 @@ pub struct VerifyArgs {
 /// Checks and reports.
 ///
 /// # Errors
-/// Bad input and I/O, and options that do not go with what is judged. A motion that collides is no error: finding that out
-/// is the job.
+/// Bad input and I/O, and options that do not fit the recording. A collision is no error, because finding it is the
+/// job.
 pub fn run(args: &VerifyArgs) -> Result<u8, Failure> {
     let sinks = sinks::sinks_with(&[], &args.picture, args.certificate.as_deref())?;
     let mut loaded = input::load_scene(args.files.robot(), &args.files.world)?.keeping(args.clearance)?;
@@ -153,7 +153,7 @@ fn draw(
     file: &std::path::Path,
 ) -> Result<(), Failure> {
     let path = recording.outline();
-    // The arm is shown where it hits.
+    // The picture shows the arm at its collision.
     let shown = findings.way.first_contact.as_ref().map(|c| c.moment.configuration.into());
     let view = View::of_picture(&Picture {
         title: vec![title_of(scene), format!("{} samples", findings.samples)],

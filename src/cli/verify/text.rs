@@ -1,4 +1,4 @@
-//! What `verify` found, for people.
+//! The findings of `verify` as text.
 
 use crate::check::Limit;
 use crate::engine::findings::{
@@ -9,10 +9,10 @@ use crate::output::{Line, StepLine, configuration, laid_out, step_lines};
 use crate::space::Recording;
 use crate::text::{at_least, counted, nonzero, told_apart};
 
-/// Depths below this, metres, are rounding.
+/// Depths below this, metres, count as rounding.
 const TOUCHING: f64 = 1e-9;
 
-/// The findings for people.
+/// Returns the findings for people.
 pub(super) fn summary(arm: &Arm, recording: &Recording, findings: &MotionFindings) -> String {
     let mut lines = vec![("result", result(findings))];
     lines.extend(way(arm, &findings.way, findings.verdict));
@@ -37,7 +37,7 @@ pub(super) fn summary(arm: &Arm, recording: &Recording, findings: &MotionFinding
     laid_out(&lines)
 }
 
-/// When, in words.
+/// Returns the time or place in words.
 fn when(m: &MomentFinding) -> String {
     match (m.time, m.waypoint) {
         (Some(time), _) => format!("at {time:.6} s (sample {})", m.sample),
@@ -45,7 +45,7 @@ fn when(m: &MomentFinding) -> String {
     }
 }
 
-/// What is met on the way.
+/// Returns the encounters along the motion.
 fn way(arm: &Arm, way: &WayFinding, verdict: Judgement) -> Vec<Line> {
     let place = |e: &EncounterFinding| {
         format!("{} {}, {}", e.pair, when(&e.moment), configuration(arm, e.moment.configuration.into()))
@@ -87,12 +87,12 @@ fn way(arm: &Arm, way: &WayFinding, verdict: Judgement) -> Vec<Line> {
     lines
 }
 
-/// A limit that is broken.
+/// Returns a limit that is broken.
 fn broken(arm: &Arm, limit: &LimitFinding) -> String {
     let excess = &limit.excess;
     let joint = &arm.joints[excess.joint];
     let unit = joint.unit();
-    // What is allowed has no sign.
+    // The allowed value has no sign.
     let [size, allowed] = told_apart([excess.value.abs(), excess.allowed], 6);
     let value = if excess.value < 0.0 { format!("-{size}") } else { size };
     let what = match excess.limit {
@@ -111,7 +111,7 @@ fn broken(arm: &Arm, limit: &LimitFinding) -> String {
     format!("{}: {what}, {}", limit.joint, when(&limit.moment))
 }
 
-/// A turn of the wrist that hits something.
+/// Returns a turn of the wrist that hits something.
 fn turn(step: &StepFinding) -> Option<Line> {
     let contact = step.turn.as_ref()?.contact.as_ref()?;
     let object = step.object.as_deref().or(step.carried.as_deref()).unwrap_or_default();
@@ -119,7 +119,7 @@ fn turn(step: &StepFinding) -> Option<Line> {
     Some(("turn", format!("{what} in {}, at {:.6} rad", step.name(), contact.angle)))
 }
 
-/// A line a step.
+/// Returns a line a step.
 fn rows(steps: &[StepFinding]) -> Vec<String> {
     let repeated = steps.iter().any(|step| step.cycle > 1);
     let line = |step: &StepFinding| {

@@ -22,7 +22,7 @@ fn grid(cells: [usize; 2], circles: [bool; 2], blocked: Vec<bool>) -> Grid {
 proptest! {
     #![proptest_config(cplan_cases::cases(60))]
 
-    /// Term by term: circles by the shorter direction, and a frame of one cell beyond high limits.
+    /// The sum is computed term by term: circles by the shorter direction, and a frame of one cell beyond high limits.
     #[test]
     fn the_sum_is_that_over_all_obstacle_cells(
         (rows, columns, blocked) in (1..9_usize, 1..9_usize).prop_flat_map(|(rows, columns)| {

@@ -135,7 +135,7 @@ fn leads(domain: &Domain, values: &[f64], way: &Result<Vec<usize>, Stuck>) -> bo
     domain.boundaries().contains(&Boundary::Reflecting) && domain.neighbors(stuck.cell).into_iter().any(level)
 }
 
-/// Found by the property above: level about the cell in the last row, except for rounding.
+/// Found by the property above: a field that is level around the cell in the last row, except for rounding.
 #[test]
 fn a_field_that_rounding_keeps_from_being_level_is_told() {
     let domain = drawn("G...\n...#\n....\n.#..", [Boundary::Reflecting; 2], Levels::PUBLISHED);

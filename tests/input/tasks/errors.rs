@@ -20,7 +20,7 @@ fn healthy() -> String {
     format!("{CELL}{STEPS}")
 }
 
-/// The number of steps in a world that must be read.
+/// Returns the number of steps of a task whose world must be valid.
 fn steps_of(world: &str, overrides: &Overrides) -> usize {
     task_of(world, overrides).unwrap_or_else(|error| panic!("{error}")).task.steps().count()
 }
@@ -218,7 +218,7 @@ fn an_orientation_is_that_of_the_last_place() {
     let once = "angle = 1.5 }\n";
     let world = healthy().replace(once, &format!("{once}{again}"));
     assert_eq!(steps_of(&world, &Overrides::default()), 7);
-    // Without a wrist the first turn fails; were it not there, the second would be none.
+    // Without a wrist the first turn fails; without the first, the second would not be a turn.
     let still = world.replace("wrist = { velocity = 6.0, acceleration = 60.0 }", "").replace(", angle = 1.5", "");
     assert_eq!(steps_of(&still, &Overrides::default()), 7);
 }
@@ -256,10 +256,10 @@ fn what_the_arm_cannot_do() {
         .replace("at = [0.5, 1.5]", "at = [0.0, 1.81]")
         .replace("pick = \"part\"", "pick = \"part\"\ngrasp = [0.02, 0]");
     assert_eq!(steps_of(&far, &Overrides::default()), 5);
-    // No clearance is kept from what it rests on.
+    // No clearance is kept from the support.
     let clearance = Overrides { clearance: Some(0.02), ..Overrides::default() };
     assert_eq!(steps_of(&healthy(), &clearance), 5);
-    // Each step is named once, whatever its repetitions.
+    // The error names each step once, however often the task repeats it.
     let many =
         healthy().replace("[[obstacle]]", "[task]\nrepeat = 50\n[[obstacle]]").replace("[0.1, 0.2]", "[0.1, 3.2]");
     let error = task_of(&many, &Overrides::default()).unwrap_err();

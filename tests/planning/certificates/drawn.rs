@@ -1,4 +1,4 @@
-//! Random arms among few and large obstacles, as the numbers of which their files are written.
+//! Random arms among a few large obstacles, kept as numbers from which the files are written.
 
 use crate::common::dice::Dice;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
@@ -6,7 +6,8 @@ use std::fmt::Write;
 
 pub type V = [f64; 2];
 
-/// Root axes of the plane's two coordinates and of its normal, and which way the normal points where the coordinates turn left.
+/// Root axes of the plane's two coordinates and of its normal, and the sign of the normal's direction if the
+/// coordinates turn left.
 pub const PLANES: [([usize; 3], f64); 3] = [([0, 1, 2], 1.0), ([0, 2, 1], -1.0), ([1, 2, 0], 1.0)];
 
 /// A problem in numbers: lengths in metres.
@@ -19,20 +20,21 @@ pub struct Drawn {
     pub origins: [V; 2],
     pub heights: [f64; 2],
     pub solids: [Vec<Solid>; 2],
-    /// Whether they are `<visual>`, for want of others.
+    /// True if the solids are `<visual>` because the links have no others.
     pub visual: bool,
-    /// The tip as seen from the second joint; none: there.
+    /// The tip as seen from the second joint; `None` if it is there.
     pub tip: Option<V>,
-    /// By how much each axis is off the plane's normal, or slide off the plane, radians: exported files have such.
+    /// Angle of each axis off the plane's normal, or of each slide off the plane, radians. Exported files have such
+    /// deviations.
     pub tilts: V,
-    /// Where the robot stands, and how it is turned.
+    /// Position and orientation of the robot.
     pub at: V,
     pub angle: f64,
     pub obstacles: Vec<Obstacle>,
     pub clearance: f64,
     pub start: V,
     pub goal: Goal,
-    /// What all lengths are multiples of.
+    /// Unit of all lengths.
     pub scale: f64,
 }
 
@@ -45,9 +47,9 @@ pub enum Goal {
 #[derive(Debug, Clone, Copy)]
 pub struct Joint {
     pub slides: bool,
-    /// Of a joint that turns: 1 to the left, -1 to the right. Of one that slides the angle of its direction.
+    /// Revolute joint: 1 if it turns to the left, -1 if to the right. Prismatic joint: the angle of its direction.
     pub way: f64,
-    /// None: without end.
+    /// `None` if the joint is continuous.
     pub range: Option<V>,
 }
 
@@ -83,7 +85,7 @@ pub enum Outline {
 }
 
 impl Drawn {
-    /// An arm of a kind, 0 to 3: RR, RP, PR, PP. The start and the goal are yet to be chosen.
+    /// Draws an arm of a kind, 0 to 3: RR, RP, PR, PP. The caller chooses the start and the goal.
     pub fn new(dice: &mut Dice, kind: u64) -> Self {
         let scale = 10_f64.powf(dice.within(-3.0, 3.0));
         let plane = dice.below(3);
@@ -106,7 +108,7 @@ impl Drawn {
         let reach = 2.2 * length;
         let obstacles = (0..1 + dice.below(5)).map(|_| obstacle(dice, base, reach, scale)).collect();
         let is_placed = dice.chance(0.3);
-        // By dice of their own: all else is as it was without.
+        // The tilts have their own dice, so that all other draws stay unchanged.
         let mut own = Dice::new(scale.to_bits());
         let tilts = if own.chance(0.3) { [0, 1].map(|_| own.within(-4e-4, 4e-4)) } else { [0.0; 2] };
         let tip = [dice.within(0.2, 1.0) * length, if dice.chance(0.7) { 0.0 } else { 0.1 * length }];
@@ -134,7 +136,7 @@ impl Drawn {
         self.solids.iter().flatten().any(is_oblique)
     }
 
-    /// A vector of the plane and a height in the coordinates of the URDF.
+    /// Returns a vector of the plane and a height in the coordinates of the URDF.
     fn xyz(&self, [u, v]: V, n: f64) -> String {
         let mut xyz = [0.0; 3];
         for (axis, value) in PLANES[self.plane].0.into_iter().zip([u, v, n]) {
@@ -195,7 +197,7 @@ impl Drawn {
         text + "</robot>\n"
     }
 
-    /// The world file, with start and goal or without.
+    /// Returns the world file, with or without start and goal.
     pub fn world(&self, has_ends: bool) -> String {
         let mut text = format!("clearance = {:?}\n", self.clearance);
         if has_ends {
@@ -229,7 +231,7 @@ fn spaced(numbers: &[f64]) -> String {
     numbers.iter().map(|n| format!("{n:?}")).collect::<Vec<_>>().join(" ")
 }
 
-/// A bar along the plane's first coordinate, upright, oblique, or a ball.
+/// Draws a bar along the plane's first coordinate, an upright or oblique one, or a ball.
 fn solid(dice: &mut Dice, plane: usize, length: f64, scale: f64) -> Solid {
     let width = dice.within(0.02, 0.12) * scale;
     let axes = PLANES[plane].0;

@@ -1,8 +1,10 @@
 //! Certificates of random worlds, and falsified ones.
 //!
-//! Every proof that there is no way has a certificate that holds: arms of all kinds, in all planes, moved and turned, from millimetres
-//! to a kilometre, among obstacles at heights, with clearance, to joint values and places of the tip. What is falsified is refused, or
-//! still true, as an oracle has it that shares no code with the checker or the library. Some of both in every run; campaigns, of some
+//! Every proof of infeasibility has a certificate that the checker accepts. The arms are of all kinds, in all planes,
+//! moved and turned, from millimetres to a kilometre. The obstacles have heights, the problems a clearance, and the
+//! goals are joint values or places of the tip. The checker refuses each falsified certificate, or it is still true. An
+//! oracle decides that, and shares no code with the checker or the library.
+//! Every run tries some of both. Campaigns of some 10 000 worlds and of 1 000 000 falsified certificates are
 //! 10 000 worlds and of 1 000 000 falsified certificates, are
 //!
 //! ```sh
@@ -31,20 +33,20 @@ use std::time::{Duration, Instant};
 /// Kinds of arms: RR, RP, PR, PP.
 const KINDS: u64 = 4;
 
-/// Draws of start and goal in a world, and of the two until both are free.
+/// Number of pairs of start and goal per world, and of draws until both are free.
 const ENDS: usize = 3;
 const TRIES: usize = 200;
 
-/// Larger certificates are not falsified: it takes long, and shows no more.
+/// Size above which certificates are not falsified, because it takes long and shows nothing new.
 const MOST_BOXES: usize = 30;
 
 /// Certificates to falsify, at the fewest.
 const FEWEST: usize = 3;
 
-/// From the worlds of so many seeds certificates are taken to be falsified.
+/// Largest number of seeds whose certificates are falsified.
 const MOST_SEEDS: usize = 240;
 
-/// A problem without a way, and its certificate.
+/// An infeasible problem and its certificate.
 struct Closed {
     drawn: Drawn,
     certificate: String,
@@ -57,14 +59,14 @@ struct Tally {
     tips: usize,
     boxes: usize,
     largest: usize,
-    /// Of arms with oblique cylinders.
+    /// Number of arms with oblique cylinders.
     oblique: usize,
-    /// What certificates do not hold, and why.
+    /// Refused certificates, with the reasons.
     failed: Vec<String>,
     checking: Duration,
 }
 
-/// Worlds with start and goal, planned; those without a way, whose certificates hold.
+/// Plans in a world between several starts and goals, and returns the infeasible problems, with valid certificates.
 fn closed(seed: u64, tally: &mut Tally) -> Vec<Closed> {
     let mut dice = Dice::new(seed.wrapping_mul(0x2545_F491_4F6C_DD1D));
     let kind = seed % KINDS;
@@ -135,7 +137,7 @@ fn certificates_of_random_worlds_hold() {
     assert!(!usual() || tally.infeasible.iter().sum::<usize>() > 3 && tally.tips > 0, "{tally:?}");
 }
 
-/// Something else in the certificate, or in the files that it is held against.
+/// Changes something in the certificate, or in the files that it is checked against.
 fn falsify(dice: &mut Dice, Closed { drawn, certificate }: &Closed) -> (Drawn, Value) {
     let (mut drawn, mut value): (Drawn, Value) = (drawn.clone(), serde_json::from_str(certificate).unwrap());
     let scale = drawn.scale;
@@ -172,7 +174,7 @@ fn falsify(dice: &mut Dice, Closed { drawn, certificate }: &Closed) -> (Drawn, V
                     value["boxes"][number][end][k] = value["boxes"][other][end][k].clone();
                 }
             }
-            // Another shape or part, or none.
+            // Refers to another shape or part, or to one that does not exist.
             6 => value["boxes"][number]["shape"] = json!(dice.below(shapes + 1)),
             7 => value["boxes"][number]["part"] = json!(dice.below(parts + 1)),
             8 => {
@@ -256,7 +258,7 @@ fn falsify(dice: &mut Dice, Closed { drawn, certificate }: &Closed) -> (Drawn, V
     (drawn, value)
 }
 
-/// The same numbers in other words, in a text that is JSON.
+/// Rewrites the same numbers in another notation, in a text that is still JSON.
 fn respelled(dice: &mut Dice, text: &str) -> String {
     let mut out = String::new();
     let mut rest = text;
@@ -266,7 +268,7 @@ fn respelled(dice: &mut Dice, text: &str) -> String {
         let end = rest.find(|c: char| !(c.is_ascii_digit() || "+-.eE".contains(c))).unwrap_or(rest.len());
         let (number, after) = rest.split_at(end);
         rest = after;
-        // Counts stay counts, and there is no second exponent.
+        // Counts stay integers, and there is no second exponent.
         let is_plain = number.contains('.') && !number.contains('e');
         out += &match dice.below(if is_plain { 4 } else { 1 }) {
             0 => number.to_owned(),
@@ -316,7 +318,7 @@ fn nonsense(dice: &mut Dice, text: &str) -> String {
         1 => "[".repeat(dice.below(200_000)),
         2 => text.replacen(": [", &format!(": {}", "[".repeat(dice.below(5000))), 1 + dice.below(40)),
         3 => {
-            // The number that begins next, or the rest of one.
+            // Finds the number that begins next, or the rest of one.
             let Some(from) = text[at..].find(|c: char| c.is_ascii_digit()).map(|n| n + at) else {
                 return String::new();
             };
@@ -330,7 +332,7 @@ fn nonsense(dice: &mut Dice, text: &str) -> String {
     }
 }
 
-/// Which of the three answers it was.
+/// Returns which of the three answers the checker gave.
 fn judged(urdf: &str, world: &str, certificate: &str) -> Result<(), bool> {
     match check(urdf, world, certificate) {
         Ok(_) => Ok(()),
@@ -342,7 +344,7 @@ fn judged(urdf: &str, world: &str, certificate: &str) -> Result<(), bool> {
 #[test]
 fn falsified_certificates_are_refused_or_true() {
     let (mut tally, mut pool) = (Tally::default(), Vec::new());
-    // Some worlds have no way: more of them until there is enough to falsify.
+    // Some worlds are infeasible: tries more until there is enough to falsify.
     let drawn = seeds(24);
     for seed in drawn.start.. {
         if seed - drawn.start >= (MOST_SEEDS as u64).min(drawn.end - drawn.start) && pool.len() >= FEWEST {
@@ -372,14 +374,14 @@ fn falsified_certificates_are_refused_or_true() {
                 let text = nonsense(&mut dice, &closed.certificate);
                 let answer = judged(&closed.drawn.urdf(), &closed.drawn.world(true), &text);
                 if answer.is_ok() {
-                    // Of the numbers in there that doubles do not have.
+                    // The text may have numbers that are no doubles.
                     let near = text.replace("e1099", "e99").replace("e-1099", "e-99");
                     let value = serde_json::from_str(&near).unwrap();
                     assert_eq!(oracle::lie(&closed.drawn, &value), None, "seed {seed}: {text}");
                 }
                 count(answer);
             }
-            // What these files mean is not known any more.
+            // The meaning of these files is no longer known.
             4 => {
                 let (urdf, world) = (closed.drawn.urdf(), closed.drawn.world(true));
                 let (urdf, world) = match dice.below(2) {

@@ -1,4 +1,4 @@
-//! Every motion that is found in a random world has a certificate that holds.
+//! Every motion found in a random world has a valid certificate.
 //!
 //! ```sh
 //! CPLAN_TIMES=100 cargo test --profile quick --test planning certificates::motions -- --nocapture
@@ -20,7 +20,7 @@ use std::time::{Duration, Instant};
 struct Tally {
     found: [usize; KINDS as usize],
     tips: usize,
-    /// Bounds on the ways to several configurations at once.
+    /// Number of bounds on the paths to several configurations at once.
     to_tips: usize,
     oblique: usize,
     largest: usize,
@@ -28,7 +28,7 @@ struct Tally {
     longest: Duration,
 }
 
-/// Plans in a world of this seed, by the shortest path, the first and one far from obstacles in turn.
+/// Plans in the world of this seed, in turn by the shortest path, the first path and one far from obstacles.
 fn ways(seed: u64, tally: &mut Tally) {
     let mut dice = Dice::new(seed.wrapping_mul(0x9e6c_63d0_876a_1b1d));
     let kind = seed % KINDS;

@@ -1,5 +1,5 @@
-//! Whether a certificate is true, as far as samples in floating point show: with kinematics, projections, distances, inverse kinematics
-//! and a flood fill of its own.
+//! Decides whether a certificate is true, as far as samples in floating point show. It has its own kinematics,
+//! projections, distances, inverse kinematics and flood fill.
 
 use super::drawn::{Drawn, Goal, Joint, Kind, Outline, PLANES, Solid, V};
 use serde_json::Value;
@@ -8,10 +8,11 @@ use std::f64::consts::{PI, TAU};
 /// Rounding, as a share of lengths and angles.
 const ROUNDING: f64 = 1e-9;
 
-/// A configuration is said to lie in a cell if it is farther than this from its sides, as a share of the domain.
+/// A configuration counts as inside a cell if it is farther than this from the sides, as a share of the domain.
 const INSIDE: f64 = 1e-6;
 
-/// The tip is at a place if it is no farther from there, as a share of lengths: less than the checker tells apart.
+/// Distance from a place within which the tip counts as there, as a share of lengths: less than the checker's
+/// tolerance.
 const REACHED: f64 = 1e-13;
 
 /// Samples of a box along each joint.
@@ -53,7 +54,7 @@ impl Joint {
 }
 
 impl Drawn {
-    /// Where a point that link 0 or 1 carries is in the world.
+    /// Returns the position in the world of a point that link 0 or 1 carries.
     fn carried(&self, link: usize, p: V, q: V) -> V {
         let p = if link == 1 { plus(self.origins[1], self.joints[1].moved(p, q[1])) } else { p };
         let root = plus(self.origins[0], self.joints[0].moved(p, q[0]));
@@ -65,14 +66,14 @@ impl Drawn {
     }
 }
 
-/// All within a radius of the convex hull of some points; heights of the whole.
+/// All points within a radius of the convex hull of some points; the heights are those of the whole.
 struct Body {
     points: Vec<V>,
     radius: f64,
     heights: V,
 }
 
-/// What a solid covers, or a little more, as seen from its joint.
+/// Returns the space that a solid covers, or a little more, as seen from its joint.
 fn body(drawn: &Drawn, link: usize, Solid { kind, at, rpy }: &Solid) -> Body {
     let [roll, pitch, yaw] = rpy.map(f64::sin_cos);
     let placed = |[x, y, z]: [f64; 3]| {
@@ -142,7 +143,7 @@ fn distance_to(p: V, (a, b): (V, V)) -> f64 {
     off[0].hypot(off[1])
 }
 
-/// The distance of two convex polygons, 0 where they overlap.
+/// Returns the distance of two convex polygons; 0 if they overlap.
 fn distance(a: &[V], b: &[V]) -> f64 {
     let holds = |ring: &[V], p: V| ring.len() > 2 && edges(ring).all(|(u, v)| cross(minus(v, u), minus(p, u)) >= 0.0);
     let crosses = |(a, b): (V, V), (c, d): (V, V)| {
@@ -157,12 +158,12 @@ fn distance(a: &[V], b: &[V]) -> f64 {
     corners(a, b).min(corners(b, a))
 }
 
-/// Two numbers, of which squares are finite.
+/// Reads two numbers, clamped so that their squares are finite.
 fn pair(value: &Value) -> Option<V> {
     Some([value.get(0)?.as_f64()?, value.get(1)?.as_f64()?].map(|x| x.clamp(-1e100, 1e100)))
 }
 
-/// What is wrong with a certificate, if anything. It is of the form that the checker takes.
+/// Returns the fault of a certificate, if there is one. The certificate has the form that the checker accepts.
 pub fn lie(drawn: &Drawn, certificate: &Value) -> Option<String> {
     let clearance = certificate["clearance"].as_f64().unwrap_or(drawn.clearance);
     let boxes: Vec<[V; 2]> = certificate["boxes"]
@@ -197,7 +198,7 @@ pub fn lie(drawn: &Drawn, certificate: &Value) -> Option<String> {
             let q = [at(0, i), at(1, j)];
             let points: Vec<V> = body.points.iter().map(|p| drawn.carried(link, *p, q)).collect();
             let apart = distance(&points, &corners) - body.radius - radius - clearance;
-            // Far from the origin coordinates lose more.
+            // Far from the origin, coordinates are less exact.
             let size = points.iter().chain(&corners).flatten().fold(drawn.scale, |most, x| most.max(x.abs()));
             if apart > ROUNDING * size {
                 return Some(format!("box {number}: apart by {apart} at {q:?}"));
@@ -207,7 +208,7 @@ pub fn lie(drawn: &Drawn, certificate: &Value) -> Option<String> {
     connection(drawn, certificate, &boxes)
 }
 
-/// A part of an obstacle in its place, if it is one.
+/// Returns a part of an obstacle in its place, or an error if it is not one of the obstacle's parts.
 fn part_of(drawn: &Drawn, part: &Value) -> Result<(Vec<V>, f64), &'static str> {
     let number = part["obstacle"].as_u64().ok_or("names no obstacle")? as usize;
     let obstacle = drawn.obstacles.get(number).ok_or("is of an obstacle that is not there")?;
@@ -256,7 +257,7 @@ fn part_of(drawn: &Drawn, part: &Value) -> Result<(Vec<V>, f64), &'static str> {
     }
 }
 
-/// How the boxes leave the start connected with a goal, if they do.
+/// Reports how the boxes leave the start connected with a goal, if they do.
 fn connection(drawn: &Drawn, certificate: &Value, boxes: &[[V; 2]]) -> Option<String> {
     let domain = drawn.joints.map(|joint| joint.domain());
     let ends = [0, 1].map(|k| {
@@ -274,7 +275,7 @@ fn connection(drawn: &Drawn, certificate: &Value, boxes: &[[V; 2]]) -> Option<St
         };
         !boxes.iter().any(covers)
     };
-    // The cell well within which a configuration lies, if there is one.
+    // Finds the cell that contains a configuration well within, if there is one.
     let cell = |q: V| {
         let found = [0, 1].map(|k| {
             let value = match drawn.joints[k].range {
@@ -320,7 +321,8 @@ fn connection(drawn: &Drawn, certificate: &Value, boxes: &[[V; 2]]) -> Option<St
     reached.map(|goal| format!("the goal {goal:?} is connected with the start"))
 }
 
-/// Configurations that put the tip at a place, by Newton's method from many sides, damped where joints are of no use.
+/// Returns configurations that put the tip at a place, by Newton's method from many starts, damped where joints have no
+/// effect.
 fn reaching(drawn: &Drawn, tip: V) -> Vec<V> {
     const SEEDS: usize = 12;
     let domain = drawn.joints.map(|joint| joint.domain());

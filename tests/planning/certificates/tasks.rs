@@ -1,4 +1,4 @@
-//! Every random task that can be done has a certificate that holds. Infeasible ones have none.
+//! Every feasible random task has a valid certificate. Infeasible ones have none.
 //!
 //! ```sh
 //! CPLAN_TIMES=100 cargo test --profile quick --test planning certificates::tasks -- --nocapture
@@ -31,7 +31,7 @@ struct Tally {
     longest: Duration,
 }
 
-/// Objects, and steps that pick and place them, for an arm among its obstacles: the text of a world.
+/// Returns a world file with objects, and steps that pick and place them, for an arm among its obstacles.
 fn world(dice: &mut Dice, drawn: &Drawn, mut free: impl FnMut(&mut Dice) -> Option<V>) -> Option<String> {
     let scale = drawn.scale;
     let has_wrist = (drawn.at, drawn.angle) == ([0.0; 2], 0.0);
@@ -141,7 +141,7 @@ fn tasks(seed: u64, tally: &mut Tally) {
         tally.turned += usize::from(certificate.contains("\"turn\""));
         tally.resting += usize::from(world.contains("supports"));
         tally.free_order += usize::from(world.contains("task.order"));
-        // What is taken elsewhere by more than anything may miss is not what lies there.
+        // If the object lies elsewhere, by more than any tolerance, the certificate picks something that is not there.
         let mut whole: Value = serde_json::from_str(&certificate).unwrap();
         let far = 1e-3 * drawn.scale.max(1.0);
         let Some((before, after)) = world.split_once("[[object]]") else { continue };

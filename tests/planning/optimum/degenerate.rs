@@ -10,7 +10,7 @@ use std::f64::consts::{PI, TAU};
 
 const CIRCLES: [JointRange; 2] = [JointRange::Circle, JointRange::Circle];
 
-/// The bound where nothing is in the way is the length of the straight motion to the nearest copy of a goal.
+/// Checks the bound without obstacles: the length of the straight motion to the nearest copy of a goal.
 fn assert_straight(axes: [JointRange; 2], start: Configuration, goals: &[Configuration]) {
     let scene = scene(rr(axes), Vec::new());
     let topology = scene.arm().topology();
@@ -62,8 +62,8 @@ fn a_goal_at_the_start_is_reached_at_once() {
     }
 }
 
-/// Joint 1's domain begins as 64 strips. Starts and goals exactly where two meet, on either side of it by a last bit, on
-/// the seam, and the same on other turns.
+/// Joint 1's domain begins as 64 strips. Starts and goals lie exactly on the border of two strips, on either side of it
+/// by one last bit, on the seam, and the same on other turns.
 #[test]
 fn starts_and_goals_on_slices() {
     let axes = [JointRange::Circle, JointRange::Interval { lower: -1.0, upper: 2.5 }];
@@ -94,7 +94,7 @@ fn among(axes: [JointRange; 2], pieces: Vec<Convex>, start: Configuration, goal:
     asked(scene(rr(axes), pieces), start, goal)
 }
 
-/// A post that the upper arm cannot pass: goals on its other side are reached the other way round, with a straight arm.
+/// The upper arm cannot pass a post. Goals on its other side are reached in the other direction, with a straight arm.
 #[test]
 fn the_other_way_round() {
     let post = disc(Point::new(0.5, 0.0), 0.1);
@@ -114,7 +114,7 @@ fn the_other_way_round() {
     }
 }
 
-/// A joint without room to move: nothing to cut into strips, or nothing beside them.
+/// A joint without room to move leaves nothing to cut into strips, or nothing beside them.
 #[test]
 fn joints_that_cannot_move() {
     let fixed = JointRange::Interval { lower: 0.5, upper: 0.5 };
@@ -142,9 +142,9 @@ fn the_same_to_the_last_bit() {
     }
 }
 
-/// A capsule on a carriage that slides past an obstacle, or on the axis of joint 1. Within one strip what it meets leaves the
-/// lower limit of joint 2 and comes in at the upper one, a turn away: all the way in between the elbow is in the link, and in no
-/// obstacle.
+/// A capsule sits on a carriage that slides past an obstacle, or on the axis of joint 1. Within one strip, its
+/// collision interval leaves the lower limit of joint 2 and enters at the upper one, a turn away. All along, the elbow
+/// is in the link, and in no obstacle.
 #[test]
 fn what_is_in_the_link_all_along_closes_nothing() {
     let (far, half, radius) = (0.9_f64, 0.1_f64, 0.1);

@@ -7,10 +7,10 @@ use cplan::model::{JointType, MotionProblem};
 use cplan::space::{Configuration, GoalSet, JointRange, Metric};
 use std::f64::consts::TAU;
 
-/// Half the way that each slide has, metres.
+/// Half the range of each slide, metres.
 pub const REACH: f64 = 2.0;
 
-/// A tool without extent whose slides point along `angles`, among `pieces`.
+/// Returns a tool without extent whose slides point along `angles`, among `pieces`.
 pub fn gantry(angles: [f64; 2], pieces: Vec<Convex>, start: Configuration, goals: &[Configuration]) -> MotionProblem {
     let slide = |angle: f64| JointType::Prismatic { direction: Vector::new(angle.cos(), angle.sin()) };
     let axis = JointRange::Interval { lower: -REACH, upper: REACH };
@@ -20,12 +20,12 @@ pub fn gantry(angles: [f64; 2], pieces: Vec<Convex>, start: Configuration, goals
     asked(scene(arm, pieces), start, goals.iter().copied().collect::<GoalSet>())
 }
 
-/// With slides along x and y.
+/// Returns the gantry with slides along x and y.
 pub fn square(pieces: Vec<Convex>, start: Configuration, goal: Configuration) -> MotionProblem {
     gantry([0.0, TAU / 4.0], pieces, start, &[goal])
 }
 
-/// Within the gap of a length that is known: from the limits' side nothing is known of it.
+/// Checks that the bound is within the gap of a known length, whatever length limit it starts from.
 fn assert_is(problem: &MotionProblem, length: f64) {
     for factor in LIMITS {
         let found = bound(problem, Metric::Euclidean, factor * length, 1e-5 / factor);
@@ -39,7 +39,7 @@ fn around_a_block() {
     assert_is(&square(vec![block], q(-1.5, 0.0), q(1.5, 0.0)), 1.0 + 2.0 * 1.0_f64.hypot(0.25));
 }
 
-/// Out of a U, around one of its sides, and along its outside: four straight pieces.
+/// The path leads out of a U, around one of its sides, and along its outside: four straight pieces.
 #[test]
 fn out_of_a_trap() {
     let walls =
@@ -56,7 +56,7 @@ fn out_of_a_trap() {
     assert_is(&square(turned.collect(), turn(start), turn(goal)), out(-1.0, 0.7).min(out(1.0, 0.8)));
 }
 
-/// A wall across the whole space but for a slot a hundredth wide.
+/// A wall spans the whole space except for a slot a hundredth wide.
 #[test]
 fn through_a_slot() {
     let walls = vec![rectangle(-0.05, 0.05, -3.0, 0.7), rectangle(-0.05, 0.05, 0.71, 3.0)];
@@ -66,7 +66,7 @@ fn through_a_slot() {
     assert_is(&square(turned.collect(), q(0.0, -1.0), q(0.0, 1.0)), length);
 }
 
-/// Two slots one after the other, far apart: to the one and back to the other.
+/// Two slots lie behind one another, far apart: the path leads to one and back to the other.
 #[test]
 fn through_two_slots() {
     let wall = |x: f64, slot: f64| [rectangle(x, x + 0.1, -3.0, slot), rectangle(x, x + 0.1, slot + 0.01, 3.0)];
@@ -76,20 +76,20 @@ fn through_two_slots() {
     assert_is(&square(walls, q(-1.0, 0.0), q(1.0, 0.0)), length);
 }
 
-/// A disc: two tangents and an arc.
+/// A path around a disc has two tangents and an arc.
 #[test]
 fn around_a_disc() {
     let tangent = (1.5_f64 * 1.5 - 0.5 * 0.5).sqrt();
     let arc = 0.5 * (TAU / 2.0 - 2.0 * (0.5_f64 / 1.5).acos());
     let round = disc(Point::origin(), 0.5);
     assert_is(&square(vec![round], q(-1.5, 0.0), q(1.5, 0.0)), 2.0 * tangent + arc);
-    // The same of a point that is to keep clear.
+    // The same for a point with a clearance.
     let smaller = square(vec![disc(Point::origin(), 0.2)], q(-1.5, 0.0), q(1.5, 0.0));
     let scene = smaller.scene().clone().with_clearance(0.3).unwrap();
     assert_is(&asked(scene, q(-1.5, 0.0), q(1.5, 0.0)), 2.0 * tangent + arc);
 }
 
-/// A wall from side to side leaves no way: nothing below any limit.
+/// A wall from side to side leaves no path, so the bound exceeds any limit.
 #[test]
 fn no_way_is_longer_than_any_limit() {
     let problem = square(vec![rectangle(-0.1, 0.1, -3.0, 3.0)], q(-1.0, 0.0), q(1.0, 0.0));

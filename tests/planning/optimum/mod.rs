@@ -1,6 +1,6 @@
-//! Lower bounds on the length of every free motion. A bound above the length of a motion that is free is a lie, so bounds
-//! are held against motions from elsewhere: of all planners on random worlds, of brute force among polygons, and of
-//! closed forms. The limit is always far above the length, because bounds are cut off there.
+//! Lower bounds on the length of every free motion. A bound above the length of a free motion is false. So bounds are
+//! compared with independent motions: of all planners on random worlds, of brute force among polygons, and of closed
+//! forms. The limit is always far above the length, because bounds are cut off there.
 
 mod degenerate;
 mod gantry;
@@ -12,20 +12,20 @@ use cplan::model::MotionProblem;
 use cplan::search::{Motions, least_length};
 use cplan::space::Metric;
 
-/// What rounding may add to a length, as a share of it.
+/// Relative error that rounding may add to a length.
 const ROUNDING: f64 = 1e-9;
 
-/// Limits, as multiples of a length: far above it.
+/// Length limits as multiples of the length, far above it.
 const LIMITS: [f64; 2] = [3.0, 10.0];
 
-/// The bound for a problem.
+/// Returns the bound for a problem.
 fn bound(problem: &MotionProblem, metric: Metric, limit: f64, gap: f64) -> f64 {
     let (scene, start, goals) = (problem.scene(), problem.start(), problem.goals());
     let clearance = scene.workspace().clearance;
     least_length(&Motions { scene, start, goals, clearance, metric }, limit, gap, &[])
 }
 
-/// Euclidean, weighted, and time.
+/// Returns the metrics: Euclidean, weighted, and time.
 fn metrics() -> [Metric; 3] {
     [Metric::Euclidean, Metric::Weighted { weights: [1.0, 0.3] }, Metric::Time { speeds: [0.7, 2.0] }]
 }

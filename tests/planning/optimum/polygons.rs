@@ -8,7 +8,7 @@ use cplan::space::{Configuration, Metric};
 use proptest::prelude::*;
 use std::f64::consts::TAU;
 
-/// Depth to which a segment may lead into a polygon and still pass it by, metres.
+/// Depth to which a segment may enter a polygon and still count as passing it, metres.
 const GRAZE: f64 = 1e-12;
 
 /// Sides of polygons in joint space, as half-planes `n . q <= c`, in counterclockwise order.
@@ -24,7 +24,7 @@ fn sides(corners: &[Configuration]) -> Sides {
     (0..corners.len()).map(side).collect()
 }
 
-/// Whether a segment leads through the inside of a polygon: clips it by all sides moved inwards.
+/// Returns true if a segment leads through the inside of a polygon: clips it by all sides moved inwards.
 fn enters(sides: &Sides, a: Configuration, b: Configuration) -> bool {
     let (mut from, mut to) = (0.0_f64, 1.0_f64);
     for (normal, offset) in sides {
@@ -42,8 +42,8 @@ fn enters(sides: &Sides, a: Configuration, b: Configuration) -> bool {
     from < to
 }
 
-/// Length of the shortest way from the first of `points` to the second among the corners of polygons, by Dijkstra's
-/// algorithm without a heap.
+/// Returns the length of the shortest path from the start to the nearest goal among the corners of polygons, by
+/// Dijkstra's algorithm without a heap.
 fn shortest(polygons: &[Vec<Configuration>], start: Configuration, goals: &[Configuration], metric: Metric) -> f64 {
     let all: Vec<Sides> = polygons.iter().map(|corners| sides(corners)).collect();
     let mut points = vec![start];
@@ -71,7 +71,7 @@ fn inside(sides: &Sides, q: Configuration) -> bool {
     sides.iter().all(|(normal, offset)| normal.dot(&q) <= offset + 1e-6)
 }
 
-/// Polygons of 3 to 6 corners, some of them thin, in joint space.
+/// Returns a strategy for polygons of 3 to 6 corners, some of them thin, in joint space.
 fn polygon() -> impl Strategy<Value = Vec<Configuration>> {
     let at = (-1.8..1.8_f64, -1.8..1.8_f64);
     (at, 3..7_u8, 0.05..0.8_f64, prop_oneof![Just(1.0), 0.01..0.3_f64], 0.0..TAU, 0.0..TAU).prop_map(
@@ -100,7 +100,8 @@ fn agree(polygons: &[Vec<Configuration>], angles: [f64; 2], start: Configuration
     }
 }
 
-/// The ends of what is closed at rows along a side are in line: none may be lost between what the others see.
+/// The ends of the closed intervals in the slices along a slanting side are in line. None may be lost between the
+/// values that its neighbours imply.
 #[test]
 fn along_a_slanting_side() {
     let corners = [

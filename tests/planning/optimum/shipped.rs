@@ -1,4 +1,4 @@
-//! The shipped workspaces: how near bounds come to the best path that is known.
+//! The shipped workspaces: distance of the bounds from the best known path.
 
 use super::{ROUNDING, bound};
 use crate::common::shipped_feasible;
@@ -6,7 +6,7 @@ use cplan::Outcome;
 use cplan::engine::{Method, Planner, solve};
 use cplan::space::Metric;
 
-/// The gap asked for, and to the best known path, which is itself within a thousandth of the optimum.
+/// Requested gap, also to the best known path, which is itself within a thousandth of the optimum.
 const GAP: f64 = 1e-4;
 const NEAR: f64 = 2e-3;
 

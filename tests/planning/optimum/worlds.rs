@@ -12,10 +12,10 @@ use std::f64::consts::TAU;
 
 const SLABS: usize = 20_000;
 
-/// What makes a path short, one after the other.
+/// Optimization criteria, tried one after the other.
 const CRITERIA: [Criterion; 3] = [Criterion::Euclidean, Criterion::Weighted([1.0, 0.3]), Criterion::Time];
 
-/// Certified motions of all that plan.
+/// Returns certified motions of all planners.
 fn motions(problem: &MotionProblem) -> Vec<Path> {
     let options = |method: Method, criterion: Criterion| {
         let planner = Planner::named(method).with_criterion(criterion).with_margin(1e-4).with_cells(128);
@@ -31,7 +31,7 @@ fn motions(problem: &MotionProblem) -> Vec<Path> {
     paths.into_iter().flatten().collect()
 }
 
-/// No bound is above any motion that is known.
+/// Checks that the bound is not above any known motion.
 fn keeps_below(problem: &MotionProblem, gap: f64) {
     let paths = motions(problem);
     for metric in metrics() {
@@ -49,7 +49,7 @@ fn gaps() -> impl Strategy<Value = f64> {
     prop_oneof![Just(1e-2), Just(1e-4)]
 }
 
-/// A convex obstacle of any kind.
+/// Returns a strategy for convex obstacles of any kind.
 fn obstacle() -> impl Strategy<Value = Convex> {
     let at = (0.2..1.9_f64, -3.2..3.2_f64).prop_map(|(r, t)| Point::new(r * t.cos(), r * t.sin()));
     (at, 0..5_u8, 0.03..0.3_f64, 0.0..TAU).prop_map(|(at, kind, size, turn)| {
@@ -68,8 +68,8 @@ fn obstacle() -> impl Strategy<Value = Convex> {
     })
 }
 
-/// A pair whose walls part and meet within a strip: level barriers through them all closed the way once, as they brought out that
-/// the elbow, in the link all along, counted as in the obstacle.
+/// The walls of a pair part and meet within a strip. Level barriers through all of them once closed the path by
+/// mistake, because the elbow, in the link all along, counted as in the obstacle.
 #[test]
 fn walls_that_part_and_meet_close_no_way() {
     for gap in [1e-2, 1e-4] {
@@ -93,7 +93,8 @@ proptest! {
         keeps_below(&asked(scene, start, goals.into_iter().collect::<GoalSet>()), gap);
     }
 
-    /// Touching, pointed and thin obstacles, joints of all ranges, starts on limits, on other turns, next to obstacles.
+    /// Includes touching, pointed and thin obstacles, joints of all ranges, and starts on limits, on other turns and
+    /// next to obstacles.
     #[test]
     fn nor_in_worlds_made_to_be_hard(kind in 0_usize..4, seed in any::<u64>(), gap in gaps()) {
         let problem = world::world(world::KINDS[kind], seed);
@@ -101,7 +102,7 @@ proptest! {
         keeps_below(&problem.unwrap(), gap);
     }
 
-    /// Two walls that leave a slot.
+    /// Two walls leave a slot.
     #[test]
     fn nor_through_narrow_passages(
         kind in 0_usize..5, at in (0.5..1.5_f64, -3.2..3.2_f64), width in prop_oneof![1e-4..1e-2_f64, 0.1..0.3_f64],

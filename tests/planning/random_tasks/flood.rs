@@ -1,5 +1,5 @@
-//! Scenes with payloads against a flood fill with distances of its own: cells that are free all over connect, cells that
-//! are blocked all over part.
+//! Scenes with payloads against a flood fill with its own distances: entirely free cells connect, entirely blocked
+//! cells separate.
 
 use super::replay::World;
 use super::task;
@@ -58,7 +58,7 @@ impl Bitmap {
         at[1] * CELLS + at[0]
     }
 
-    /// Whether two configurations are connected through cells of some kinds, corners included.
+    /// Returns true if two configurations are connected through cells of some kinds, corners included.
     fn connects(&self, from: Configuration, to: Configuration, through: &[Cell]) -> bool {
         let (from, to) = (self.locate(from), self.locate(to));
         let mut seen = vec![false; self.cells.len()];
@@ -89,7 +89,7 @@ fn payloads_are_judged_like_a_flood_fill() {
     for seed in seeds(40) {
         let task = task::task(seed);
         let mut dice = Dice::new(seed.wrapping_add(1_000_000));
-        // The object hangs on the arm as if it had been taken at the start.
+        // The object is attached to the arm as if picked at the start.
         let object = dice.below(task.objects.len());
         let supports: Vec<usize> = (0..task.workspace.obstacles.len()).filter(|_| dice.chance(0.2)).collect();
         let mut at = task.objects.clone();

@@ -1,5 +1,5 @@
-//! The library's own judge of recorded tasks, on random ones: what is planned is free, and as asked for; with objects that are
-//! larger than planned for it mostly is not.
+//! The library's own judge of recorded tasks, on random ones. Plans are free and fulfil the task. With larger
+//! objects than planned for, most of them are not free.
 
 use super::{options, task};
 use crate::common::random::{seeds, times};
@@ -10,7 +10,7 @@ use cplan::model::{RecordedStep, RecordedTurn};
 use cplan::motion::Drive;
 use cplan::space::{Configuration, Recording};
 
-/// What a result file says.
+/// Returns the content of a result file.
 fn record(answer: &TaskAnswer, TaskMotion { sequence, .. }: &TaskMotion) -> (Recording, Vec<RecordedStep>) {
     let trajectory = &sequence.trajectory;
     let rows = |rows: &[[f64; 2]]| rows.iter().map(|q| Configuration::new(q[0], q[1])).collect::<Vec<_>>();

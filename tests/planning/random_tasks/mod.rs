@@ -1,5 +1,5 @@
-//! Random pick-and-place tasks against a replay by brute force: whatever is planned is done again step by step, with
-//! kinematics, distances and rules of its own, and looked at densely.
+//! Random pick-and-place tasks against a replay by brute force. The replay repeats each plan step by step, with its own
+//! kinematics, distances and rules, and checks dense samples.
 //!
 //! `CPLAN_TIMES=30 cargo test --test planning random_tasks -- --nocapture` tries thirty times as many.
 
@@ -52,7 +52,7 @@ fn what_is_planned_can_be_done() {
     assert!(found.done * 2 > found.infeasible + found.unknown, "hardly any task can be done: {found:?}");
 }
 
-/// The oracle is no rubber stamp: plans for smaller objects are not good for larger ones, nor for other targets.
+/// The oracle does refuse plans: those for smaller objects are not valid for larger ones, nor for other targets.
 #[test]
 fn what_is_planned_for_another_task_is_refused() {
     let (mut larger, mut elsewhere, mut done) = (0, 0, 0);

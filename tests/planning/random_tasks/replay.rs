@@ -1,21 +1,21 @@
-//! Does a planned task again. Shares no code with the library but the types of its input and output: what lies where,
-//! what is carried and what may be touched follows from the task alone.
+//! Replays a planned task. It shares no code with the library except the types of its input and output. Positions of
+//! objects, the payload and the allowed contacts follow from the task alone.
 #![allow(dead_code, reason = "each test uses some of it")]
 
 use crate::random_worlds::solid::{Solid, V, add, norm, rotate, sub};
 use cplan::engine::task::TaskAnswer;
 use cplan::model::{Action, Goal, Holding, Item, Joint, JointType, Step, Task};
 
-/// Positions agree to this, metres: inverse kinematics promises a few nanometres.
+/// Tolerance of positions, metres: inverse kinematics is exact to a few nanometres.
 const NEAR: f64 = 1e-7;
 
 /// Looks at each motion.
 const LOOKS: usize = 300;
 
-/// Share of the arm's reach to which an object may press into what supports it.
+/// Greatest depth to which an object may press into its support, as a share of the arm's reach.
 const PENETRATION_ALLOWANCE: f64 = 1e-4;
 
-/// As the book says, metres.
+/// The tolerance of the book, metres.
 const RESTING_TOLERANCE: f64 = 1e-6;
 
 /// A frame: cosine and sine of its turn, and its origin.
@@ -34,10 +34,11 @@ fn turned(angle: f64, at: V) -> Frame {
     ([angle.cos(), angle.sin()], at)
 }
 
-/// What is carried.
+/// A payload.
 struct Held {
     object: usize,
-    /// Rigid: the object in link 2's frame. Level: the object about the tip, in the plane's directions.
+    /// Rigid payloads: the object in link 2's frame. Level ones: the object relative to the tip, in the plane's
+    /// directions.
     frame: Frame,
     level: bool,
     supports: Vec<usize>,
@@ -52,7 +53,7 @@ pub struct World<'a> {
 }
 
 /// # Errors
-/// What is wrong, in words.
+/// A description of the fault.
 pub fn replay(task: &Task, answer: &TaskAnswer, all: bool) -> Result<(), String> {
     let mut world = World::at_first(task);
     let renewed = order(task, answer, all)?;
@@ -107,11 +108,11 @@ pub fn replay(task: &Task, answer: &TaskAnswer, all: bool) -> Result<(), String>
     Ok(())
 }
 
-/// What the object picked by a leg may touch where it is placed.
+/// Returns the objects that the object picked by a leg may touch at its target.
 fn next_supports(task: &Task, answer: &TaskAnswer, index: usize) -> Vec<usize> {
     let picked = &answer.legs[index].step;
     let follows = |step: &&Step| (step.cycle, step.number) > (picked.cycle, picked.number);
-    // Pairs stay together, and a place has the number after its pick, moves between them aside.
+    // Pairs stay together, and a target has the number after its pick, except for moves between them.
     task.steps()
         .filter(follows)
         .find_map(|step| match &step.action {
@@ -121,10 +122,10 @@ fn next_supports(task: &Task, answer: &TaskAnswer, index: usize) -> Vec<usize> {
         .unwrap_or_default()
 }
 
-/// Of each leg the objects that are supplied before it.
+/// Returns for each leg the objects that are supplied before it.
 ///
 /// # Errors
-/// Steps in an order that the task does not allow.
+/// If the steps have an order that the task does not allow.
 fn order(task: &Task, answer: &TaskAnswer, all: bool) -> Result<Vec<Vec<usize>>, String> {
     let mut renewed = vec![Vec::new(); answer.legs.len() + 1];
     let mut next = 0;
@@ -158,9 +159,9 @@ fn order(task: &Task, answer: &TaskAnswer, all: bool) -> Result<Vec<Vec<usize>>,
     if next < answer.legs.len() { Err("more steps than asked for".into()) } else { Ok(renewed) }
 }
 
-/// Position and velocity between samples, as the documentation of trajectories says.
+/// Returns position and velocity between samples, as documented for trajectories.
 fn state(t: &cplan::motion::Trajectory, time: f64) -> (V, V) {
-    // Nothing moves where there is but one sample.
+    // A single sample does not move.
     if let [at] = &t.position[..] {
         return ([at[0], at[1]], [0.0; 2]);
     }
@@ -193,7 +194,7 @@ fn limits(joints: &[Joint; 2], position: V, velocity: V, share: f64) -> Result<(
 }
 
 impl<'a> World<'a> {
-    /// All objects where they lie at first.
+    /// Returns the initial world, with all objects at their first places.
     pub fn at_first(task: &'a Task) -> Self {
         let lies = task.objects.iter().map(|o| {
             let (sin, cos) = o.at.rotation.angle().sin_cos();
@@ -202,7 +203,7 @@ impl<'a> World<'a> {
         World { task, lies: lies.collect(), held: None, released: None }
     }
 
-    /// The same with an object in the hand, as the arm at `q` would take it.
+    /// Returns the world with an object in the hand, as the arm at `q` would take it.
     pub fn carrying(mut self, object: usize, q: V, supports: Vec<usize>) -> Self {
         let (frames, tip) = self.frames(q);
         if let Some(lies) = self.lies[object].take() {
@@ -226,13 +227,13 @@ impl<'a> World<'a> {
         ([first, second], tip)
     }
 
-    /// Where the carried object is.
+    /// Returns the pose of the carried object.
     fn carried(&self, held: &Held, q: V) -> Frame {
         let (frames, tip) = self.frames(q);
         if held.level { compose(([1.0, 0.0], tip), held.frame) } else { compose(frames[1], held.frame) }
     }
 
-    /// Everything that can be met: number, body, heights.
+    /// Returns all bodies that can be hit: number, body, heights.
     fn obstacles(&self) -> Vec<(usize, Solid, [f64; 2])> {
         let mut bodies = Vec::new();
         for (number, obstacle) in self.task.workspace.obstacles.iter().enumerate() {
@@ -249,12 +250,14 @@ impl<'a> World<'a> {
         bodies
     }
 
-    /// By how much a body that rests on something presses into it less than it may; negative: more. Whatever the clearance.
+    /// Returns how much deeper a body may press into its support; negative if it presses too deep. The clearance does
+    /// not matter.
     fn pressed(&self, body: &Solid, support: &Solid) -> f64 {
         body.distance(support) + PENETRATION_ALLOWANCE * self.task.arm.reach()
     }
 
-    /// Calls `f` with what moves, what it can meet, their distance at `q`, and of what rests on the other [`World::pressed`].
+    /// Calls `f` with each moving body, an obstacle, their distance at `q`, and [`World::pressed`] if the body rests on
+    /// the obstacle.
     fn distances(&self, q: V, target: Option<usize>, mut f: impl FnMut(&str, usize, f64, Option<f64>)) {
         let fixed = self.task.workspace.obstacles.len();
         let (frames, _) = self.frames(q);
@@ -279,7 +282,7 @@ impl<'a> World<'a> {
             let body = Solid::new(piece).placed(frame.0, frame.1);
             for (number, solid, heights) in &obstacles {
                 let [lower, upper] = [object.heights.lower, object.heights.upper].map(|height| height + object.lift);
-                // What it rests on it does not meet.
+                // An object does not collide with its support.
                 if lower + RESTING_TOLERANCE < heights[1] && heights[0] <= upper {
                     let rests = held.supports.contains(number);
                     f("the object", *number, body.distance(solid), rests.then(|| self.pressed(&body, solid)));
@@ -288,7 +291,7 @@ impl<'a> World<'a> {
         }
     }
 
-    /// Whether nothing is nearer than `keep` at `q`, and supports are not pressed into.
+    /// Checks that nothing is nearer than `keep` at `q`, and that no body presses too deep into its support.
     fn check(&self, q: V, target: Option<usize>, keep: f64) -> Result<(), String> {
         const ROUNDING: f64 = 1e-8;
         let mut wrong = Ok(());
@@ -302,8 +305,9 @@ impl<'a> World<'a> {
         wrong
     }
 
-    /// By how much everything is farther from obstacles than it has to be at `q`, and than it can be: a body that does not
-    /// press into its support at all is free, but it depends on its corners how far short of [`World::pressed`] it has to stay.
+    /// Returns two values of the room at `q`: the distance from obstacles beyond the required one, at the least and at
+    /// the most. A body that does not press into its support at all is free. Otherwise its corners decide how far short
+    /// of [`World::pressed`] it must stay.
     pub fn room(&self, q: V) -> [f64; 2] {
         let (mut surely, mut perhaps) = (f64::INFINITY, f64::INFINITY);
         self.distances(q, None, |_, _, distance, pressed| {
@@ -314,7 +318,7 @@ impl<'a> World<'a> {
         [surely, perhaps]
     }
 
-    /// How fast any point can move for each unit of each joint's rate.
+    /// Returns a bound on the speed of any point per unit of each joint's rate.
     pub fn speeds(&self) -> V {
         let arm = &self.task.arm;
         let own = arm
@@ -335,7 +339,7 @@ impl<'a> World<'a> {
         [0, 1].map(|k| if arm.joints[k].joint_type.is_revolute() { [first, second][k] } else { 1.0 })
     }
 
-    /// What happens at the end of a motion; `then` is what the next place may touch.
+    /// Applies the end of a motion; `then` lists the objects that may be touched at the next target.
     fn finish(&mut self, q: V, step: &Step, then: &[usize], turn: Option<[f64; 2]>, keep: f64) -> Result<(), String> {
         let (frames, tip) = self.frames(q);
         let near = |a: V, b: V| norm(sub(a, b)) < NEAR;
@@ -396,7 +400,7 @@ impl<'a> World<'a> {
         Ok(())
     }
 
-    /// A turn of the wrist, looked at densely.
+    /// Checks dense samples of a turn of the wrist.
     fn turn(&mut self, q: V, turn: Option<[f64; 2]>, keep: f64) -> Result<(), String> {
         let Some([from, to]) = turn else { return Ok(()) };
         let held = self.held.as_mut().ok_or("nothing is held that could be turned")?;

@@ -21,7 +21,8 @@ pub fn task(seed: u64) -> Task {
     }
     let workspace =
         Workspace { name: "random".into(), obstacles, clearance, preferences: Vec::new(), movers: Vec::new() };
-    // Where the tip can be: forward kinematics of random configurations, most of them free of what stays.
+    // Places that the tip can reach: forward kinematics of random configurations, most of them free of static
+    // obstacles.
     let topology = arm.topology();
     let still = placed(arm.clone(), workspace.clone());
     let anywhere = |dice: &mut Dice| {
@@ -46,7 +47,7 @@ pub fn task(seed: u64) -> Task {
             shape,
             pieces,
             heights: if dice.chance(0.3) { Heights { lower: 0.0, upper: 0.05 } } else { Heights::ALL },
-            // Carried at just the height at which others end.
+            // The object is carried at exactly the height at which others end.
             lift: if dice.chance(0.3) { 0.05 } else { 0.0 },
             holding,
             at: Isometry2::new(at.coords, dice.within(-PI, PI)),
@@ -68,7 +69,7 @@ pub fn task(seed: u64) -> Task {
     let scene = placed(task.arm.clone(), task.obstacles(&all));
     task.start = (0..500).map(|_| anywhere(&mut dice)).find(|q| scene.obstructions(*q).is_empty()).unwrap_or_default();
     if !scene.obstructions(task.start).is_empty() {
-        // Nowhere: the task is without obstacles then.
+        // No start is free, so the task gets no obstacles.
         task.workspace.obstacles.clear();
     }
     let fixed = task.workspace.obstacles.len();

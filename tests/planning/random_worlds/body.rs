@@ -5,12 +5,12 @@ use crate::common::dice::Dice;
 use cplan::geometry::{Convex, Vector};
 use cplan::model::{Arm, Carrier, MotionProblem, Obstacle, SelfObstacle};
 
-/// The world of a seed, of the given kind of arm; none if the draw has no two free configurations.
+/// Returns the world of a seed, of the given kind of arm; `None` if the draw has no two free configurations.
 pub fn world_of_body(kind: &str, seed: u64) -> Option<MotionProblem> {
     world::drawn(kind, seed, self_obstacles)
 }
 
-/// Shapes that stand still near the base, and shapes on link 1 near its end, some of which a link is free to meet.
+/// Draws static shapes near the base, and shapes on link 1 near its end. A link is free to meet some of them.
 fn self_obstacles(dice: &mut Dice, arm: &Arm) -> Vec<SelfObstacle> {
     let mut all = Vec::new();
     for number in 0..1 + dice.below(4) as usize {
@@ -34,7 +34,7 @@ fn self_obstacles(dice: &mut Dice, arm: &Arm) -> Vec<SelfObstacle> {
     all
 }
 
-/// An obstacle for each of its pieces.
+/// Returns one obstacle for each of its pieces.
 fn split(obstacle: &Obstacle) -> Vec<Obstacle> {
     let one = |piece: &Convex| Obstacle { pieces: vec![piece.clone()], ..obstacle.clone() };
     obstacle.pieces.iter().map(one).collect()

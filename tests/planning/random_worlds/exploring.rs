@@ -1,7 +1,7 @@
-//! Explorations of random worlds against brute force: what is called free is free, what is called explored shows nothing new, what is
-//! called unreachable is, and the arm moves where it may.
+//! Explorations of random worlds against brute force. Free cells are free, an explored world shows nothing new, an
+//! unreachable goal is unreachable, and the arm moves only where it may.
 //!
-//! `CPLAN_WORLDS=50` looks at so many of each kind of arm, and says how long ways and decisions were.
+//! `CPLAN_WORLDS=50` tries 50 of each kind of arm, and prints the lengths of the paths and the endings.
 
 use super::flood::{Truth, connected};
 use super::oracle::Oracle;
@@ -22,13 +22,13 @@ const STRATEGIES: [Strategy; 5] =
 /// Rounding of a distance.
 const ROUNDING: f64 = 1e-9;
 
-/// Two sides of cells that a ray meets nearer to each other than this are met at a corner, where rounding decides what it sees.
+/// Distance below which two sides of cells count as met at a corner, where rounding decides which cell the ray meets.
 const CORNER: f64 = 1e-9;
 
 /// Cells along both axes of joint space.
 const GRID: [usize; 2] = [36, 40];
 
-/// A sensor whose rays do not go along the map's sides.
+/// Returns a sensor whose rays do not run along the map's sides.
 fn sensor(scene: &Scene, seed: u64) -> Sensor {
     let usual = Sensor::usual(scene.arm());
     let mount = if seed.is_multiple_of(5) { Mount::Base } else { Mount::Tip };
@@ -59,7 +59,7 @@ fn square(map: &OccupancyMap, cell: usize) -> [Point; 4] {
         .map(|[u, v]| map.pose * Point::new((x + u) * map.resolution, (y + v) * map.resolution))
 }
 
-/// Free cells hold nothing, occupied ones something.
+/// Checks that free cells hold nothing, and occupied ones something.
 fn map_is_true(scene: &Scene, map: &OccupancyMap) {
     let obstacles: Vec<Solid> =
         scene.workspace().obstacles.iter().flat_map(|obstacle| obstacle.pieces.iter().map(Solid::new)).collect();
@@ -74,7 +74,7 @@ fn map_is_true(scene: &Scene, map: &OccupancyMap) {
     }
 }
 
-/// An unknown cell that a ray would show, by all sides that it meets, in order.
+/// Returns an unknown cell that a ray would show, from all sides that it meets, in order.
 fn shown_by_ray(map: &OccupancyMap, from: Point, angle: f64, range: f64) -> Option<usize> {
     let local = map.pose.inverse_transform_point(&from) / map.resolution;
     let (from, ahead, far) = ([local.x, local.y], [angle.cos(), angle.sin()], range / map.resolution);
@@ -110,7 +110,8 @@ fn center(topology: &Topology, at: [usize; 2]) -> Configuration {
     })
 }
 
-/// The cells of the grid that can be reached from where the exploration ended, by brute force in what is known.
+/// Returns the cells of the grid that can be reached from the end of the exploration, by brute force in the known part
+/// of the world.
 fn reachable(oracle: &Oracle, topology: &Topology, from: Configuration) -> Vec<[usize; 2]> {
     let mut cells: Vec<[usize; 2]> = (0..GRID[0]).flat_map(|i| (0..GRID[1]).map(move |j| [i, j])).collect();
     let is_free: Vec<bool> = cells.iter().map(|&at| oracle.room(center(topology, at)) > ROUNDING).collect();
@@ -150,7 +151,7 @@ fn reachable(oracle: &Oracle, topology: &Topology, from: Configuration) -> Vec<[
     cells
 }
 
-/// Looks at all that an exploration says; how it ended.
+/// Checks all claims of an exploration. Returns how it ended.
 fn is_true(problem: &MotionProblem, sensor: &Sensor, done: &Exploration) -> &'static str {
     let (scene, arm) = (problem.scene(), problem.scene().arm());
     let (topology, map) = (arm.topology(), done.survey.map());
@@ -172,7 +173,7 @@ fn is_true(problem: &MotionProblem, sensor: &Sensor, done: &Exploration) -> &'st
         }
         Ending::Explored { given_up, .. } => {
             assert!(*given_up == 0 || sensor.noise > 0.0, "{given_up} given up without errors");
-            // Who knows all that need not move.
+            // With a complete map, the arm need not move.
             if sensor.noise == 0.0 {
                 let again = explored_from(Some(map.clone()), problem, sensor, Strategy::Nearest);
                 assert!(again.legs.len() < 2 && again.survey.map() == map, "{} legs more", again.legs.len());
@@ -182,12 +183,12 @@ fn is_true(problem: &MotionProblem, sensor: &Sensor, done: &Exploration) -> &'st
                 let q = center(&topology, cell);
                 let (from, ahead) = sensor.pose(arm, q.into());
                 let new = sensor.rays(ahead).find_map(|angle| shown_by_ray(map, from, angle, sensor.range));
-                // Where distances are wrong a reading may have shown nothing there.
+                // If distances have errors, a reading may have shown nothing there.
                 assert!(new.is_none() || *given_up > 0, "cell {new:?} of the map can be seen from {q:?}");
             }
         }
         Ending::Unreachable(why) => {
-            // Occupied cells are solid, in the optimistic path's world as in what is known.
+            // Occupied cells are solid, both in the optimistic path's world and in the known part.
             let unknown_is_free = !why.contains("in what is known");
             let solid = Oracle::new(&done.survey.scene(arm, clearance, unknown_is_free));
             let goals: Vec<Configuration> = problem.goals().points().collect();
@@ -233,7 +234,8 @@ fn explorations_say_what_is_true() {
     }
 }
 
-/// One of these has a way whose next portal, the only one of its cell, is more than half a turn of joint 2 off.
+/// One of these worlds has a path whose next portal, the only one of its cell, is more than half a turn of joint 2
+/// away.
 #[test]
 fn a_portal_beyond_half_a_turn_ends_a_sleeve() {
     let worlds: Vec<MotionProblem> = KINDS.iter().filter_map(|kind| world(kind, 11)).collect();

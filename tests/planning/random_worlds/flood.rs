@@ -1,15 +1,15 @@
-//! Whether start and goal are connected: a flood fill over cells that are surely free, surely blocked, or neither.
+//! Decides whether start and goal are connected: a flood fill over cells that are surely free, surely blocked, or
+//! neither.
 //!
-//! Cells are halved along both axes until the answer is certain or there are as many as asked for. What a large cell
-//! surely is its small ones surely are, so this decides whatever the finest lattice alone would decide, at the cost of its
-//! undecided cells.
+//! Cells are halved along both axes until the answer is certain or the limit is reached. If a large cell is surely free
+//! or blocked, so are its parts. So the result is that of the finest lattice, at the cost of the undecided cells.
 
 use super::oracle::{Meeting, Oracle};
 use super::solid::V;
 use cplan::space::Configuration;
 use std::f64::consts::TAU;
 
-/// What the lattice says of a way from the start to any goal.
+/// Verdict of the lattice about a path from the start to any goal.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Truth {
     Connected,
@@ -24,7 +24,7 @@ const OPEN: u8 = 3;
 /// Cells along an axis to begin with.
 const COARSEST: usize = 32;
 
-/// A cell that is neither, and what can meet in it.
+/// A cell that is neither free nor blocked, and the bodies that can meet in it.
 struct Open {
     at: [usize; 2],
     meetings: std::ops::Range<usize>,
@@ -39,7 +39,7 @@ struct Lattice<'a> {
     meetings: Vec<Meeting>,
 }
 
-/// Says whether a way leads from `start` to one of `goals`, with up to `finest x finest` cells.
+/// Decides whether a path leads from `start` to one of `goals`, with up to `finest x finest` cells.
 pub fn connected(oracle: &Oracle, start: Configuration, goals: &[Configuration], finest: usize) -> Truth {
     let mut lattice = Lattice::coarsest(oracle);
     loop {
@@ -71,7 +71,7 @@ impl<'a> Lattice<'a> {
         lattice
     }
 
-    /// Twice as fine; only cells in `around` count, all others are out of reach.
+    /// Returns the lattice with cells half as large. Only cells in `around` count; all others are out of reach.
     fn halved(self, around: &[bool]) -> Self {
         let (n, coarse) = (2 * self.n, self.n);
         let mut labels = vec![BLOCKED; n * n];
@@ -98,7 +98,7 @@ impl<'a> Lattice<'a> {
         self.oracle.axes.map(|(lower, upper, _)| (upper - lower) / self.n as f64)
     }
 
-    /// Labels a cell in which only these can meet.
+    /// Labels a cell in which only these pairs can meet.
     fn judge(&mut self, at: [usize; 2], candidates: &[Meeting]) {
         let step = self.step();
         let middle = [0, 1].map(|k| self.oracle.axes[k].0 + (at[k] as f64 + 0.5) * step[k]);
@@ -135,8 +135,8 @@ impl<'a> Lattice<'a> {
         i * self.n + j
     }
 
-    /// Free cells to which a straight motion leads from `q`: its own, or from a place too tight for the lattice such as
-    /// are reached in steps no longer than the room at their beginning.
+    /// Returns free cells to which a straight motion leads from `q`: its own cell, or cells around a place too tight
+    /// for the lattice. Each step is at most as long as the room at its beginning.
     fn ways_out(&self, q: Configuration) -> Vec<usize> {
         let own = self.cell(q);
         if self.labels[own] == FREE {

@@ -1,17 +1,21 @@
 //! Answers to random worlds against brute force, and against each other.
 //!
-//! 5 to 30 obstacles, arms of all kinds, joints with limits and without. The brute force shares no code with the library:
-//! a flood fill over up to 2048 x 2048 cells, wherever that is decisive. `cargo test` looks at a few worlds with little
-//! effort; the long run, with the default options and counts printed, is
+//! The worlds have 5 to 30 obstacles, arms of all kinds, and joints with and without limits. The brute force shares no
+//! code with the library: a flood fill over up to 2048 x 2048 cells, wherever that is decisive. `cargo test` tries a
+//! few worlds with little effort. The long run, with the default options and printed counts, is
 //!
 //! ```sh
 //! CPLAN_WORLDS=2500 cargo test --profile quick --test planning random_worlds -- --nocapture
 //! ```
 //!
-//! for so many worlds of each kind of arm, on all cores. Also from the environment: `CPLAN_KIND` (only this kind),
-//! `CPLAN_FIRST` (the first seed, that of `CPLAN_SEED`), `CPLAN_LATTICE` (cells along an axis, 2048), `CPLAN_SHARE` (planners other than
-//! shortest, visibility and subdivision answer every so many worlds, 20), `CPLAN_LEVELS` (attempts of a planner, as
-//! [`Options::default`] has it), `CPLAN_THREADS`.
+//! It tries this many worlds of each kind of arm, on all cores. Further environment variables:
+//! - `CPLAN_KIND`: only this kind.
+//! - `CPLAN_FIRST`: the first seed (default: that of `CPLAN_SEED`).
+//! - `CPLAN_LATTICE`: cells along an axis (default: 2048).
+//! - `CPLAN_SHARE`: interval between worlds in which planners other than shortest, visibility and subdivision answer
+//!   (default: 20).
+//! - `CPLAN_LEVELS`: attempts of a planner (default: that of [`Options::default`]).
+//! - `CPLAN_THREADS`: number of threads.
 
 mod body;
 mod exploring;
@@ -33,7 +37,7 @@ use std::time::{Duration, Instant};
 /// Largest sum of rounding errors in a distance.
 const ROUNDING: f64 = 1e-9;
 
-/// Answers that take longer are listed by the long run.
+/// Time above which the long run lists an answer.
 const SLOW: Duration = Duration::from_secs(2);
 
 const PLANNERS: usize = Method::ALL.len();
@@ -44,7 +48,7 @@ struct Count {
     found: usize,
     infeasible: usize,
     unknown: usize,
-    /// Unknown, where the flood fill is decisive.
+    /// Unknown, although the flood fill is decisive.
     unknown_yet_decided: usize,
     time: Duration,
     longest: (Duration, u64),
@@ -65,21 +69,21 @@ struct Tally {
 /// The first margin of polygons, as a share of the reach.
 const MARGIN: f64 = 1e-3;
 
-/// How to look.
+/// Settings of a run.
 struct Run {
     levels: usize,
     boxes: usize,
     cells: Option<usize>,
     lattice: usize,
-    /// Every so many worlds all planners answer.
+    /// Interval between worlds in which all planners answer.
     share: u64,
-    /// Whether there are worlds of arms whose own body is in their way, too.
+    /// True to include arms whose own body is in their way.
     body: bool,
     long: bool,
 }
 
 impl Run {
-    /// Every planner as it is, beside so fine a lattice.
+    /// Returns the run with the default settings of each planner, and this lattice.
     fn usual(lattice: usize) -> Self {
         let Options { levels, boxes, .. } = Options::default();
         Self { levels, boxes, cells: None, lattice, share: u64::MAX, body: false, long: false }
@@ -92,7 +96,7 @@ impl Run {
     }
 }
 
-/// What is wrong with an answer, if anything.
+/// Returns the fault of an answer, if there is one.
 fn lie(problem: &MotionProblem, oracle: &Oracle, truth: Truth, answer: &Answer) -> Option<String> {
     match &answer.outcome {
         Outcome::Unknown(_) => None,
@@ -126,7 +130,7 @@ fn lie(problem: &MotionProblem, oracle: &Oracle, truth: Truth, answer: &Answer) 
     }
 }
 
-/// Answers to one world; the lies among them.
+/// Compares the answers to one world, and records false ones.
 fn look(problem: &MotionProblem, seed: u64, run: &Run, tally: &Mutex<Tally>) {
     let kind = problem.scene().arm().kind();
     let clock = Instant::now();
@@ -182,7 +186,8 @@ fn look(problem: &MotionProblem, seed: u64, run: &Run, tally: &Mutex<Tally>) {
             }
         }
     }
-    // Both roadmaps see the same polygons on the same level, and the visibility graph holds a shortest path in them.
+    // On the same level, both roadmaps have the same polygons, and the visibility graph contains a shortest path among
+    // them.
     let of = |method: Method| Method::ALL.into_iter().zip(lengths).find(|of| of.0 == method).and_then(|of| of.1);
     if let (Some((shortest, _, level)), Some((other, _, at))) = (of(Method::Visibility), of(Method::Trapezoid))
         && level == at
@@ -191,7 +196,7 @@ fn look(problem: &MotionProblem, seed: u64, run: &Run, tally: &Mutex<Tally>) {
         lies.push(format!("{kind} {seed}: visibility {shortest}, trapezoid {other}"));
     }
     // A path that keeps more than three times the first margin lies in those polygons, unless it turns more often than
-    // they do. (Of several goals the nearest is chosen by what stands in for the tight ones, so none may be tight here.)
+    // they do. (Replacements of tight goals decide which of several goals is nearest, so no goal may be tight here.)
     let margin = 3.0 * MARGIN * problem.scene().arm().reach();
     if let Some((shortest, _, _)) = of(Method::Visibility)
         && problem.goals().points().all(|goal| oracle.room(goal) > margin)
@@ -223,7 +228,7 @@ fn look(problem: &MotionProblem, seed: u64, run: &Run, tally: &Mutex<Tally>) {
     }
 }
 
-/// All worlds of a kind with these seeds.
+/// Tries all worlds of a kind with these seeds.
 fn look_at_all(kind: &str, seeds: std::ops::Range<u64>, run: &Run, threads: usize) -> Tally {
     let next = AtomicU64::new(seeds.start);
     let tally = Mutex::new(Tally::default());
@@ -272,8 +277,9 @@ fn print(kind: &str, tally: &Tally) {
     }
 }
 
-/// Worlds in which something went wrong once: link 1 touches an obstacle wherever it slides, which filled the memory with
-/// columns, or left the start in one that was not looked into (PP, PR); a proof asked for less depth than its check (RP).
+/// Worlds with former defects. In two kinds (PP, PR), link 1 touches an obstacle wherever it slides. That filled the
+/// memory with columns, or left the start in a column that was not examined. In the third (RP), a proof required less
+/// depth than its check.
 #[test]
 fn remembered_worlds_are_decided() {
     let run = Run::usual(512);

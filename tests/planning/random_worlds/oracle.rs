@@ -1,13 +1,13 @@
-//! The arm among its obstacles by brute force. Shares no code with the library but the types of its input: kinematics
-//! and distances are its own.
+//! The arm among its obstacles by brute force. It shares no code with the library except the types of its input:
+//! kinematics and distances are its own.
 
 use super::solid::{Solid, V, add, dot, norm, rotate, sub};
 use cplan::model::{Carrier, JointType, Scene};
 use cplan::space::{Configuration, Path};
 
-/// A part of a link and what it can meet.
+/// A part of a link and the obstacles that it can hit.
 struct Mover {
-    /// 0 or 1; 2 for link 2 with joint 1 at zero, which meets what joint 1 carries.
+    /// 0 or 1; 2 for link 2 with joint 1 at zero, which can hit obstacles fixed to link 1.
     link: usize,
     solid: Solid,
     obstacles: Vec<u16>,
@@ -30,7 +30,7 @@ pub struct Oracle {
     pub axes: [(f64, f64, bool); 2],
 }
 
-/// What holds all over a box of configurations, for one meeting.
+/// Bounds that hold in a whole box of configurations, for one meeting.
 pub struct Bounds {
     pub least: f64,
     pub most: f64,
@@ -107,7 +107,7 @@ impl Oracle {
         Self { motions, base, offset, movers, obstacles, clearance: scene.workspace().clearance, axes }
     }
 
-    /// All that can meet.
+    /// Returns all pairs that can meet.
     pub fn meetings(&self) -> impl Iterator<Item = Meeting> + '_ {
         self.movers.iter().enumerate().flat_map(|(m, mover)| mover.obstacles.iter().map(move |&o| (m as u16, o)))
     }
@@ -118,7 +118,7 @@ impl Oracle {
         Posture { frames: [first, second, as_link_1_has_it], placed: None }
     }
 
-    /// How both links are turned, and where their origins are.
+    /// Returns the rotation and the origin of both links.
     fn frames(&self, q: V) -> [(V, V); 2] {
         let mut turn = [1.0, 0.0];
         let mut place = self.base;
@@ -136,8 +136,8 @@ impl Oracle {
         })
     }
 
-    /// How near to forbidden a meeting can come, and how far from it, while each joint deviates by up to `half`: distance
-    /// less the clearance to keep.
+    /// Returns the least and the greatest room of a meeting while each joint deviates by up to `half`. The room is the
+    /// distance minus the clearance to keep.
     pub fn bounds(&self, posture: &mut Posture, (m, o): Meeting, half: V) -> Bounds {
         let mover = &self.movers[usize::from(m)];
         let solid = self.placed(posture, m);
@@ -169,12 +169,12 @@ impl Oracle {
         &posture.placed.as_ref().expect("just placed").1
     }
 
-    /// Distance to the nearest obstacle less the clearance to keep.
+    /// Returns the distance to the nearest obstacle minus the clearance to keep.
     pub fn room(&self, q: Configuration) -> f64 {
         self.room_up_to(q, f64::INFINITY)
     }
 
-    /// The room, if it is less than `most`.
+    /// Returns the room, or `most` if that is less.
     fn room_up_to(&self, q: Configuration, most: f64) -> f64 {
         let mut posture = self.posture([q[0], q[1]]);
         let mut least = most;
@@ -190,13 +190,13 @@ impl Oracle {
         least
     }
 
-    /// Bound on how fast any point moves while the joints move by `d` in unit time.
+    /// Returns a bound on the speed of any point while the joints move by `d` in unit time.
     pub fn speed(&self, d: Configuration) -> f64 {
         self.movers.iter().map(|m| dot(m.speed, [d[0].abs(), d[1].abs()])).fold(0.0, f64::max)
     }
 
-    /// A configuration on the path with less room than `proven`: looked for in steps of `step`, longer ones only where
-    /// the distance proves that nothing is left out.
+    /// Finds a configuration on the path with less room than `proven`. The search takes steps of `step`; longer ones
+    /// only if the distance proves that they skip nothing.
     pub fn violation(&self, path: &Path, proven: f64, step: f64) -> Option<(Configuration, f64)> {
         let mut worst = None;
         for (a, b) in path.segments().chain([(path.goal(), path.goal())]) {

@@ -1,4 +1,4 @@
-//! Convex bodies and their distance, for the oracles: separating axes where they overlap, corners to sides where not.
+//! Convex bodies and their distance, for the oracles: separating axes if they overlap, corners to sides if not.
 #![allow(dead_code, reason = "each oracle uses some of it")]
 
 use cplan::geometry::Convex;
@@ -9,8 +9,8 @@ pub type V = [f64; 2];
 /// Most corners of a body.
 const MOST: usize = 8;
 
-/// Gaps nearer to zero than this are left to the distance of corners to sides: of bodies in one line no normal tells
-/// how far they are apart.
+/// Gaps nearer to zero than this are computed from the distance of corners to sides. If bodies lie on one line, no
+/// normal shows their distance.
 const TOUCHING: f64 = 1e-12;
 
 pub fn sub(a: V, b: V) -> V {
@@ -29,18 +29,18 @@ pub fn norm(a: V) -> f64 {
     dot(a, a).sqrt()
 }
 
-/// `a` turned by the angle with the cosine and sine `by`.
+/// Returns `a` turned by the angle with the cosine and sine `by`.
 pub fn rotate(a: V, by: V) -> V {
     [by[0] * a[0] - by[1] * a[1], by[1] * a[0] + by[0] * a[1]]
 }
 
-/// All within a radius of a convex polygon, a segment or a point.
+/// All points within a radius of a convex polygon, a segment or a point.
 #[derive(Debug, Clone, Copy)]
 pub struct Solid {
     count: usize,
     corners: [V; MOST],
-    /// Outward unit normals of the sides, each of the side from the corner of the same index; of a segment both, of a
-    /// point none.
+    /// Outward unit normals of the sides, each of the side from the corner of the same index; two for a segment, none
+    /// for a point.
     normals: [V; MOST],
     middle: V,
     /// Greatest distance of a corner from the middle.
@@ -68,7 +68,7 @@ impl Solid {
         Self { count, corners, normals, middle, size, radius: shape.radius(), reach }
     }
 
-    /// Turned about the origin, then moved.
+    /// Returns the body turned about the origin, then moved.
     pub fn placed(&self, turn: V, place: V) -> Self {
         let mut at = *self;
         for i in 0..self.count {
@@ -83,12 +83,12 @@ impl Solid {
         &self.corners[..self.count]
     }
 
-    /// A lower bound on the signed distance, in no time.
+    /// Returns a cheap lower bound on the signed distance.
     pub fn roughly(&self, other: &Self) -> f64 {
         norm(sub(self.middle, other.middle)) - self.size - other.size - self.radius - other.radius
     }
 
-    /// Signed distance: negative is the depth of penetration.
+    /// Returns the signed distance: negative is the depth of penetration.
     pub fn distance(&self, other: &Self) -> f64 {
         let gap = self.widest_gap(other).max(other.widest_gap(self));
         let cores = if gap < -TOUCHING && gap.is_finite() {
@@ -99,7 +99,8 @@ impl Solid {
         cores - self.radius - other.radius
     }
 
-    /// The greatest distance of the other body from the line of a side of this one; minus infinity without sides.
+    /// Returns the greatest distance of the other body from the line of a side of this one; minus infinity without
+    /// sides.
     fn widest_gap(&self, other: &Self) -> f64 {
         let mut widest = f64::NEG_INFINITY;
         let sides = if self.count > 1 { self.count } else { 0 };
@@ -113,7 +114,7 @@ impl Solid {
         widest
     }
 
-    /// Least squared distance of a corner of this body from a side of the other.
+    /// Returns the least squared distance of a corner of this body from a side of the other.
     fn corners_to_sides(&self, other: &Self) -> f64 {
         let mut least = f64::INFINITY;
         for i in 0..other.count {

@@ -15,12 +15,12 @@ use std::f64::consts::{PI, TAU};
 /// The four kinds of arms.
 pub const KINDS: [&str; 4] = ["RR", "RP", "PR", "PP"];
 
-/// The world of a seed, of the given kind of arm; none if the draw has no two free configurations.
+/// Returns the world of a seed, of the given kind of arm; `None` if the draw has no two free configurations.
 pub fn world(kind: &str, seed: u64) -> Option<MotionProblem> {
     drawn(kind, seed, |_, _| Vec::new())
 }
 
-/// The same with obstacles of the robot's own.
+/// Returns the same world with self-obstacles of the robot.
 pub fn drawn(kind: &str, seed: u64, body: impl Fn(&mut Dice, &Arm) -> Vec<SelfObstacle>) -> Option<MotionProblem> {
     let mut dice = Dice::new(seed.wrapping_mul(0x2545_F491_4F6C_DD1D) ^ u64::from(kind.as_bytes()[0]) << 8);
     let mut arm = arm(&mut dice, kind);
@@ -83,7 +83,7 @@ fn rectangle(x0: f64, x1: f64, y0: f64, y1: f64, radius: f64) -> Convex {
     convex(vec![Point::new(x0, y0), Point::new(x1, y0), Point::new(x1, y1), Point::new(x0, y1)], radius)
 }
 
-/// A bar, a hammer, a hook, an offset plate, a capsule, a wire, or next to nothing.
+/// Draws a bar, a hammer, a hook, an offset plate, a capsule, a wire, or an almost empty link.
 fn link(dice: &mut Dice, name: &str, length: f64) -> Link {
     let width = dice.within(0.01, 0.08);
     let shapes = match dice.below(7) {
@@ -120,7 +120,7 @@ fn link(dice: &mut Dice, name: &str, length: f64) -> Link {
     Link { name: name.into(), parts, source: OutlineSource::Collision }
 }
 
-/// One obstacle, or several that touch.
+/// Draws one obstacle, or several that touch.
 pub fn obstacle(dice: &mut Dice, reach: f64, base: Point) -> Vec<Obstacle> {
     let (angle, radius) = (dice.within(-PI, PI), reach * dice.within(0.02, 1.0).sqrt());
     let center = base + Vector::new(angle.cos(), angle.sin()) * radius;
@@ -182,7 +182,7 @@ pub fn obstacle(dice: &mut Dice, reach: f64, base: Point) -> Vec<Obstacle> {
     }
 }
 
-/// A free configuration: anywhere, on a limit, beyond a turn, or next to an obstacle.
+/// Draws a free configuration: anywhere, on a limit, beyond a turn, or next to an obstacle.
 fn free(dice: &mut Dice, scene: &Scene) -> Option<Configuration> {
     let oracle = Oracle::new(scene);
     let topology = scene.arm().topology();

@@ -1,10 +1,10 @@
-//! Files as people and exporters write them: what can be meant in one way only is taken, and said; the rest is refused with a
-//! cure.
+//! Files as people and exporters write them. If only one meaning is possible, the program uses it and reports that. It
+//! refuses the rest with a hint.
 
 use super::{Done, FREE, Place, shipped};
 
 impl Done {
-    /// A path, and all parts in the summary.
+    /// Checks that a path is found, and that the summary has all parts.
     fn found(&self, parts: &[&str]) {
         assert_eq!(self.code, 0, "{}{}", self.stdout, self.stderr);
         for part in parts {
@@ -17,7 +17,7 @@ fn obstacle(shape: &str) -> String {
     format!("{FREE}[[obstacle]]\nname = \"it\"\n{shape}\n")
 }
 
-/// The result without what depends on how the obstacles were written.
+/// Returns the part of the result that does not depend on how the obstacles were written.
 fn path_of(done: &Done) -> serde_json::Value {
     assert_eq!(done.code, 0, "{}", done.stderr);
     done.json()["path"].clone()
@@ -40,7 +40,7 @@ fn rings_that_repeat_points_are_the_rings_without() {
     let repeated = "polyline = [[1.2, 0.2], [1.2, 0.2], [1.6, 0.2], [1.6, 0.4], [1.6, 0.4]]";
     assert_eq!(path_of(&place.plan(obstacle(repeated), "--json")), wall);
     place.plan(obstacle(repeated), "").found(&["repeat the one before"]);
-    // A polyline may come back to where it was.
+    // A polyline may return to an earlier point.
     place
         .plan(obstacle("polyline = [[1.2, 0.2], [1.6, 0.2], [1.6, 0.4], [1.2, 0.2], [1.1, 0.3]]"), "--quiet")
         .found(&[]);
@@ -65,7 +65,7 @@ fn preferred_regions_are_read_like_obstacles_and_verify_says_so() {
         ("configurations = [[0, 0], [1, 0], [1, 1], [0, 0]]", "preference \"wish\": the last point of a ring repeats"),
     ] {
         place.plan(wish(shape), "").found(&[note]);
-        // The motion of the world without repetitions, judged in this one.
+        // The motion for the world without repetitions is judged in this one.
         let judged = place.run(&["verify", &robot, "world.toml", "a.csv"], "");
         judged.found(&[note]);
     }
@@ -96,7 +96,7 @@ fn holes_are_free_and_enclosed() {
         place.write("world.toml", world);
         place.run(&["arm.urdf", "world.toml"], options)
     };
-    // The second link, a short block about (1.5, 0), in the hole; a turn of joint 1 takes it out of it.
+    // The second link, a short block at (1.5, 0), is in the hole. A turn of joint 1 moves it out.
     let outer = "[[1, -0.5], [2.2, -0.5], [2.2, 0.5], [1, 0.5]]";
     let hole = "[[1.3, -0.2], [1.7, -0.2], [1.7, 0.2], [1.3, 0.2]]";
     for shape in [format!("polygon = {outer}\nholes = [{hole}]"), format!("polygon = [{outer}, {hole}]")] {
@@ -110,7 +110,7 @@ fn holes_are_free_and_enclosed() {
     plan(thin("1.5, 0.0", &outside), "").refused(1, &["hole 1 does not lie inside", "line 8", "cure"]);
     let alone = "circle = { center = [1, 1], radius = 0.1 }\nholes = [[[5, 5], [6, 5], [6, 6]]]";
     plan(thin("1.5, 0.0", alone), "").refused(1, &["only a polygon has holes", "cure"]);
-    // Pictures of all kinds show what is there.
+    // Pictures of all kinds show the obstacles.
     let shape = format!("polygon = {outer}\nholes = [{hole}]");
     plan(thin("0.05, 0.0", &shape), "--picture a.svg --picture a.html --quiet").found(&[]);
     assert!(place.read("a.svg").contains("<path"));
@@ -128,7 +128,7 @@ fn corners_that_touch_are_taken_and_crossings_are_not() {
     place.plan(obstacle(crossing), "").refused(1, &["crosses itself at (1.3, 0.3)", "cure"]);
 }
 
-/// An arm whose joints have these attributes and no more in their `<limit>`.
+/// Returns an arm whose joints have only these attributes in their `<limit>`.
 fn arm(limit: &str) -> String {
     let link = |name: &str| {
         format!(
@@ -226,7 +226,7 @@ fn the_only_planar_pair_is_taken() {
         place.run(&["arm.urdf", "world.toml"], options)
     };
     let (up, across) = ("0 0 1", "0 1 0");
-    // A SCARA: two arms, a quill and a wrist. The wrist would do with either arm, but is no neighbour of one.
+    // A SCARA has two arms, a quill and a wrist. The wrist suits either arm, but is a neighbour of neither.
     let scara = [
         joint("a1", "revolute", up, "base", "l1"),
         joint("a2", "revolute", up, "l1", "l2"),
@@ -246,7 +246,7 @@ fn the_only_planar_pair_is_taken() {
         joint("a2", "revolute", up, "l2", "l3"),
     ];
     run(&between, "").found(&["the two joints are \"a1\" and \"a2\""]);
-    // Three in a row, which share a plane: the first two.
+    // Of three joints in a row that share a plane, the program takes the first two.
     let three = [
         joint("a1", "revolute", up, "base", "l1"),
         joint("a2", "revolute", up, "l1", "l2"),
@@ -266,7 +266,7 @@ fn the_only_planar_pair_is_taken() {
         joint("z", "revolute", "1 0 0", "l2", "l3"),
     ];
     run(&none, "").refused(1, &["none of the robot's 3 joints", "cure"]);
-    // A pair that is named and not planar: the help names the one that is.
+    // The world names a pair that is not planar; the help names the planar one.
     place.write("world.toml", format!("[robot]\njoints = [\"a2\", \"quill\"]\n{TURN}"));
     run(&scara, "").refused(1, &["one common plane", "[robot] joints = [\"a1\", \"a2\"]"]);
 }
@@ -278,7 +278,7 @@ fn starts_are_taken_by_the_tip_if_one_ik_solution_alone_reaches_it() {
     let limited = arm("lower=\"0\" upper=\"3\" velocity=\"1\"").replace("\"continuous\"", "\"revolute\"");
     place.write("limited.urdf", limited);
     let world = "[robot]\nlimits = { j2 = [0, 3] }\n[start]\ntip = [1, 0.5]\n[goal]\njoints = [1, 1]\n";
-    // The tip is the origin of "fore" where nothing else is: the end of link 1.
+    // Without other links, the tip is the origin of "fore": the end of link 1.
     let tool = |urdf: &str| {
         let urdf = place.read(urdf);
         let tool = "<link name=\"tool\"/><joint name=\"t\" type=\"fixed\"><origin xyz=\"1 0 0\"/><parent link=\"fore\"/>\

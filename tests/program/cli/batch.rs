@@ -1,4 +1,4 @@
-//! Problems as JSON lines: each is answered as the main job answers it.
+//! Problems as JSON lines: each answer equals that of the main job.
 
 use super::*;
 use serde_json::{Value, json};
@@ -22,7 +22,7 @@ fn rows_are_what_the_main_job_says() {
     let [urdf, world] = shelf();
     let walled = shipped("workspaces/singular_closed.toml");
     place.write("world.toml", FREE);
-    // Words of the main job, a line, and the same job's files.
+    // Compares options of the main job, a line, and the main job's files.
     let jobs = [
         (vec![], json!({"id": 1, "urdf": urdf, "world": world}), [&urdf, &world]),
         (
@@ -139,7 +139,7 @@ fn an_id_comes_back_as_it_is_written() {
     let [urdf, world] = shelf().map(|path| json!(path).to_string());
     let ids = ["123456789012345678901234567890", "1e400", "-0.10", "[1e999, {\"a\": 1.0}]", "\"\\u00e4\"", "null"];
     let lines = ids.map(|id| format!("{{\"id\": {id}, \"urdf\": {urdf}, \"world\": {world}}}\n")).concat();
-    // A byte order mark is no part of the first line, and a blank one behind it is none.
+    // A byte order mark is not part of the first line, and a blank line behind it is skipped.
     for mark in ["", "\u{feff}", "\u{feff}\n"] {
         place.write("problems.jsonl", format!("{mark}{lines}{{\"id\": 1e400}}\n{{\"id\": 1, \"urdf\": 1e400}}\n"));
         let done = place.run(&["batch", "problems.jsonl"], "--fields status");
@@ -175,13 +175,13 @@ fn answers_come_while_lines_do_and_end_with_their_reader() {
         assert_eq!(row, "{\"status\":\"found\"}\n");
     }
     drop(from);
-    // It ends with the first answer that nobody takes, and then takes no more.
+    // The program ends at the first answer that it cannot write, and reads no further lines.
     while to.write_all(line.as_bytes()).is_ok() {}
     let output = child.wait_with_output().unwrap();
     assert_eq!((output.status.code(), output.stderr), (Some(0), Vec::new()));
 }
 
-/// A problem that takes longer than its time has an answer, and so have those after it.
+/// A problem that exceeds its time limit is answered, and so are those after it.
 #[test]
 fn each_problem_has_an_answer_in_time() {
     let place = Place::new();
@@ -196,7 +196,7 @@ fn each_problem_has_an_answer_in_time() {
     assert_eq!(answered(&place, &lines, "--time 0").code, 2);
 }
 
-/// What the world asks for itself may be blocked: each line asks for something else.
+/// The world's own start and goal may be blocked, because each line requests others.
 #[test]
 fn worlds_whose_own_ends_are_blocked_are_answered_line_by_line() {
     let place = Place::new();

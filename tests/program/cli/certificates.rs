@@ -1,18 +1,18 @@
-//! `--certificate`, and what the checker, which shares no code with the program, says of it.
+//! `--certificate`, and the verdict of the checker, which shares no code with the program.
 
 use super::{FREE, Place, shipped};
 use cplan_check_files::{CheckError, check, check_files};
 use serde_json::Value;
 use std::path::Path;
 
-/// The certificate without the digests of its files: about whatever files are given.
+/// Returns the certificate without the digests of its files, so that it applies to any files.
 pub fn without_digests(certificate: &str) -> String {
     let mut whole: Value = serde_json::from_str(certificate).unwrap();
     ["urdf", "world", "others"].iter().for_each(|name| drop(whole.as_object_mut().unwrap().remove(*name)));
     whole.to_string()
 }
 
-/// Shipped worlds without a way, and their robots.
+/// Returns shipped infeasible worlds, and their robots.
 fn closed() -> Vec<(String, String)> {
     let folder = std::fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("workspaces")).unwrap();
     let mut found = Vec::new();
@@ -40,7 +40,8 @@ fn every_shipped_world_without_a_way_has_a_certificate_that_holds() {
         let read = |path: &str| std::fs::read_to_string(path).unwrap();
         let judged = |world: &str, certificate: &str| check(&read(&robot), world, certificate);
         judged(&read(&world), &certificate).unwrap_or_else(|why| panic!("{world}: {why}"));
-        // Without one of the boxes that are needed a way is open, and in the twin, whose way is open, some of it is not true.
+        // Without one of the necessary boxes, a path is open. In the twin, which has a path, part of the certificate is
+        // false.
         let whole: Value = serde_json::from_str(&certificate).unwrap();
         let without = |k: usize| {
             let mut fewer = whole.clone();
@@ -71,7 +72,8 @@ fn what_is_asked_on_the_command_line_is_in_the_certificate() {
     }
 }
 
-/// What is asked in a shipped world, with the goal as a place of the tip: both elbows, two of a slide, a stretched arm.
+/// The tasks are those of shipped worlds, with the goal as a place of the tip: both elbows, two solutions of a slide, a
+/// stretched arm.
 #[test]
 fn places_of_the_tip_that_are_shut_off_have_certificates_that_hold() {
     let place = Place::new();
@@ -90,7 +92,7 @@ fn places_of_the_tip_that_are_shut_off_have_certificates_that_hold() {
         let certificate = place.read("c.json");
         let said = check(&read(&files[0]), &read(&files[1]), &certificate).unwrap();
         assert!(said.contains("a place of the tip \"tool0\""), "{said}");
-        // The start itself is on the start's side.
+        // The start itself is also on the start's side.
         let mut other: Value = serde_json::from_str(&certificate).unwrap();
         other.as_object_mut().unwrap().remove("goal_tip");
         other["goal"] = start_of(&read(&files[1]));
@@ -99,13 +101,13 @@ fn places_of_the_tip_that_are_shut_off_have_certificates_that_hold() {
     }
 }
 
-/// The joint values of the start.
+/// Returns the joint values of the start.
 fn start_of(world: &str) -> Value {
     let start = world.split("[start]").nth(1).and_then(|rest| rest.split("joints =").nth(1)).unwrap();
     serde_json::from_str(start.lines().next().unwrap()).unwrap()
 }
 
-/// The same world elsewhere, with the robot where it stands there: all is turned to the left and moved by (2, -1).
+/// The robot stands elsewhere, and the world with it: everything is turned to the left and moved by (2, -1).
 #[test]
 fn a_robot_that_stands_elsewhere_has_a_certificate_too() {
     let place = Place::new();
@@ -128,7 +130,7 @@ fn a_robot_that_stands_elsewhere_has_a_certificate_too() {
     assert!(matches!(judged(&world.replace("90deg", "100deg")), Err(CheckError::Fails(_))));
 }
 
-/// Links that are only to be seen, and bars in place of links without shapes.
+/// The links have only visual geometry, or no shapes, so that bars replace them.
 #[test]
 fn whatever_stands_for_a_link_is_named() {
     let place = Place::new();
@@ -156,7 +158,7 @@ fn a_certificate_does_not_take_the_place_of_its_input() {
     done.refused(1, &["world.toml is the input"]);
 }
 
-/// A certificate is about its files, byte by byte, and about those that they name.
+/// A certificate is about its files, byte by byte, and about the files that they name.
 #[test]
 fn certificates_are_bound_to_their_files() {
     let place = Place::new();
@@ -185,7 +187,7 @@ fn certificates_are_bound_to_their_files() {
     place.write("den.pgm", &other);
     assert!(matches!(judged(), Err(CheckError::Fails(why)) if why.contains("den.pgm")));
     place.write("den.pgm", &picture);
-    // What is verified is bound to the same files, not to the trajectory.
+    // The certificate of `verify` is bound to the same files, not to the trajectory.
     let done = place.run(&["verify", "arm.urdf", "den.toml", "m.csv"], "--quiet --certificate v.json");
     assert_eq!(done.code, 0, "{}", done.stderr);
     let digests = |file: &str| {
@@ -197,7 +199,8 @@ fn certificates_are_bound_to_their_files() {
     check_files(&urdf, &world, &place.path("v.json")).unwrap();
 }
 
-/// Beside the result, or in it: there readers of the result pass over it, and the checker finds it.
+/// The certificate is written beside the result or into it. In the result, its readers skip the certificate, and the
+/// checker finds it.
 #[test]
 fn a_certificate_can_be_a_part_of_the_result() {
     let place = Place::new();
@@ -215,7 +218,7 @@ fn a_certificate_can_be_a_part_of_the_result() {
     assert!(matches!(judged("plain.json"), Err(CheckError::Input { .. })));
     let done = place.run(&["verify", &files[0], &files[1], "r.json"], "--quiet");
     assert_eq!(done.code, 0, "{}", done.stderr);
-    // Without a way the boxes of the proof are looked at again, from the same file.
+    // For an infeasible problem, `recheck` verifies the boxes of the proof from the same file.
     let closed = [files[0].clone(), shipped("workspaces/limits_closed.toml")];
     assert_eq!(place.run(&closed, "--quiet --certificate r.json --output r.json").code, 3);
     check_files(closed[0].as_ref(), closed[1].as_ref(), place.path("r.json").as_ref()).unwrap();
@@ -225,7 +228,7 @@ fn a_certificate_can_be_a_part_of_the_result() {
     done.refused(1, &["m.csv", "one file"]);
 }
 
-/// A block of 1 m along x as an STL, a little thinner in its middle: its hull is what counts.
+/// Returns a block of 1 m along x as an STL, a little thinner in its middle. Its hull counts.
 fn stl() -> String {
     let ring = |x: f64, half: f64| [[x, -half, -half], [x, half, -half], [x, half, half], [x, -half, half]];
     let rings = [ring(-0.5, 0.05), ring(0.0, 0.02), ring(0.5, 0.05)];
@@ -269,7 +272,8 @@ fn arms_of_meshes_have_certificates_that_hold() {
     }
 }
 
-/// Arms of a millimetre or two, of two bars, by polygons a thousand times as large: the shortest paths keep some nanometres from their sides.
+/// The arms have two bars of a millimetre or two, and the polygons are a thousand times as large. The shortest paths
+/// keep some nanometres from their sides.
 #[test]
 fn shortest_paths_past_what_is_a_thousand_times_as_large_have_certificates_that_hold() {
     let arm = |[first, second]: [f64; 2], width: f64| {
@@ -316,7 +320,7 @@ fn shortest_paths_past_what_is_a_thousand_times_as_large_have_certificates_that_
     }
 }
 
-/// Goal areas: what is found ends on a rim, what is not is proven for all of them, and the checker knows both.
+/// A path to goal areas ends on a rim, and a proof of infeasibility covers all of them. The checker supports both.
 #[test]
 fn goal_areas_have_certificates_that_hold() {
     let robot = shipped("robots/room_gantry.urdf");
@@ -331,7 +335,7 @@ fn goal_areas_have_certificates_that_hold() {
     let post = "[[obstacle]]\npolyline = [[4, -3], [4, 3]]\nheight = [0, 3]\n";
     let found = judged("[[5, -1], [7, 1]], [[-9, -2], [-8, 2]]", post, 0);
     let length = found["length"].as_f64().unwrap();
-    // Past the wall's end to the lower left corner of the first area's upper side.
+    // The path leads past the wall's end to the lower left corner of the first area's upper side.
     let expected = 4f64.hypot(3.15) + 1f64.hypot(2.15);
     assert!((expected - 0.2..expected + 0.2).contains(&length), "{length} {expected}");
     let inside = judged("[[-1, -1], [1, 1]]", post, 0);

@@ -1,4 +1,4 @@
-//! Certificates of motions, and what the checker, which shares no code with the program, says of them.
+//! Certificates of motions, and the verdict of the checker, which shares no code with the program.
 
 use super::certificates::without_digests;
 use super::{FREE, Place, shelf, shipped};
@@ -6,7 +6,7 @@ use cplan_check_files::{CheckError, check, check_files};
 use serde_json::Value;
 use std::path::Path;
 
-/// Shipped worlds with a way, by name, and their robots.
+/// Returns shipped feasible worlds by name, and their robots.
 fn open() -> Vec<(String, String)> {
     let folder = std::fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("workspaces")).unwrap();
     let mut found = Vec::new();
@@ -25,7 +25,7 @@ fn read(path: &str) -> String {
     std::fs::read_to_string(path).unwrap()
 }
 
-/// The certificate with something else for its motion.
+/// Returns the certificate with another motion.
 fn altered(certificate: &str, alter: impl FnOnce(&mut Vec<Value>)) -> String {
     let mut whole: Value = serde_json::from_str(certificate).unwrap();
     alter(whole["motion"]["knots"].as_array_mut().unwrap());
@@ -51,7 +51,7 @@ fn every_shipped_world_with_a_way_has_a_certificate_that_holds() {
         let verdict = judged(&world, &certificate);
         eprintln!("{world}: {} bytes, {:.3} s", certificate.len(), begun.elapsed().as_secs_f64());
         let said = verdict.unwrap_or_else(|why| panic!("{world}: {why}"));
-        // The bound that was told, up to what walls lose that a checker is to look along.
+        // The checker proves the reported bound, except for the loss from the walls that it sums up.
         let plan: Value = serde_json::from_str(&place.read("plan.json")).unwrap();
         let [told, length] = ["lower_bound", "length"].map(|of| plan["optimum"][of].as_f64().unwrap());
         if let Some((_, proven)) = said.split_once("is shorter than ") {
@@ -63,7 +63,7 @@ fn every_shipped_world_with_a_way_has_a_certificate_that_holds() {
             eprintln!("  no bound");
         }
         let fails = |world: &str, certificate: &str| matches!(judged(world, certificate), Err(CheckError::Fails(_)));
-        // Without its end it leads nowhere; farther from everything than anything is it is not.
+        // Without its end, the motion does not reach the goal. A clearance greater than any distance is false.
         assert!(fails(&world, &altered(&certificate, |knots| knots.truncate(knots.len() / 2))), "{world}");
         let farther = certificate.replacen("\"motion\"", "\"clearance\": 100.0,\n  \"motion\"", 1);
         assert!(fails(&world, &farther), "{world}");
@@ -84,7 +84,7 @@ fn what_is_played_and_what_is_asked_is_in_the_certificate() {
         assert_eq!(done.code, 0, "{}", done.stderr);
         let [certificate, plan] =
             ["c.json", "plan.json"].map(|file| serde_json::from_str::<Value>(&place.read(file)).unwrap());
-        // The samples are the trajectory's, number by number.
+        // The samples equal the trajectory's, number by number.
         let knots = certificate["motion"]["knots"].as_array().unwrap();
         let times = plan["trajectory"]["time"].as_array().unwrap();
         assert!(knots.len() == times.len() && (0..knots.len()).all(|k| knots[k][0] == times[k]));
@@ -105,7 +105,7 @@ fn what_is_played_and_what_is_asked_is_in_the_certificate() {
     assert!(tip.contains("goal (0.35, 0.5), a place of the tip") && tip.contains("within 1e-1"), "{tip}");
 }
 
-/// The other planners' motions, and one that takes its corners sharp.
+/// Includes the motions of the other planners, and one with sharp corners.
 #[test]
 fn motions_of_every_planner_hold() {
     let place = Place::new();
@@ -174,7 +174,8 @@ fn an_arm_far_from_the_origin() {
     assert!(said.as_ref().is_ok_and(|said| said.contains("is shorter than")), "{said:?}");
 }
 
-/// A double beside a limit that is no double, degrees or more digits than a double has, may lie a hair beyond it.
+/// A limit in degrees, or with more digits than a double has, is no double. The nearest double may lie slightly beyond
+/// it.
 #[test]
 fn motions_from_limit_to_limit_are_within_the_limits_as_they_are_written() {
     let place = Place::new();
@@ -211,7 +212,7 @@ fn motions_from_limit_to_limit_are_within_the_limits_as_they_are_written() {
     }
 }
 
-/// Next to a limit of 0 no share of it is any room.
+/// A limit of 0 has no room in proportion to its size.
 #[test]
 fn motions_at_a_limit_of_0_are_within_the_limits_as_they_are_written() {
     let place = Place::new();

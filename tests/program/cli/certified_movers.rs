@@ -1,4 +1,4 @@
-//! Certificates of what is planned among what moves, and what the checker, which shares no code with the program, says of them.
+//! Certificates of plans among moving obstacles, and the verdict of the checker, which shares no code with the program.
 
 use super::certified_tasks::read;
 use super::{Place, shipped};
@@ -8,7 +8,7 @@ use cplan_check_files::{CheckError, check};
 use std::f64::consts::PI;
 use std::fmt::Write;
 
-/// Shipped worlds in which something moves, by name.
+/// Names of shipped worlds with moving obstacles or objects.
 const WORLDS: [&str; 8] =
     ["belt_pick", "belt_stop", "cart_in_task", "conveyor", "crossing", "gate", "swing", "traffic"];
 
@@ -23,7 +23,8 @@ fn every_shipped_motion_among_what_moves_has_a_certificate_that_holds() {
             check(&read(&robot), &read(&world), &place.read("c.json")).unwrap_or_else(|why| panic!("{name}: {why}"));
         let is_task = ["belt_pick", "belt_stop", "cart_in_task"].contains(&name);
         assert!(said.contains(if is_task { "steps from the start" } else { "is shorter than" }), "{name}: {said}");
-        // So has what is recorded, by how the format joins samples; a table does not say which step is done when.
+        // Recordings have certificates too, by the interpolation of their format. A table does not state which step
+        // ends when.
         for file in if is_task { &["m.json"][..] } else { &["m.json", "m.csv"] } {
             let judged = place.run(&["verify", &robot, &world, file], "--quiet --certificate v.json");
             assert_eq!((judged.code, &*judged.stderr), (0, ""), "{name} {file}");
@@ -31,14 +32,14 @@ fn every_shipped_motion_among_what_moves_has_a_certificate_that_holds() {
             assert!(said.is_ok(), "{name} {file}: {said:?}");
         }
     }
-    // Where the only way is closed for ever nothing is claimed.
+    // If the only path is closed for ever, the program claims nothing.
     let place = Place::new();
     let unknown = place.run(&[robot, shipped("workspaces/moving/parked.toml")], "--quiet --certificate c.json");
     assert_eq!(unknown.code, 4);
     assert!(unknown.stderr.contains("claims nothing") && !place.path("c.json").exists(), "{}", unknown.stderr);
 }
 
-/// The same motion in a world where the cart comes half a second later, or is not heard of.
+/// The motion is checked in a world where the cart comes half a second later, or one without the cart.
 #[test]
 fn of_another_time_it_does_not_hold() {
     let (place, robot, world) =
@@ -62,7 +63,7 @@ fn of_another_time_it_does_not_hold() {
     assert!(matches!(&judged, Err(CheckError::Fails(why)) if why.contains("obstacle")), "{judged:?}");
 }
 
-/// Posts that stand, and discs, triangles and bars that come by and may turn.
+/// Draws static posts, and discs, triangles and bars that pass by and may turn.
 fn drawn(dice: &mut Dice) -> String {
     let spot = |dice: &mut Dice| {
         let (angle, radius) = (dice.within(-PI, PI), dice.within(0.5, 1.9));
@@ -104,7 +105,7 @@ fn certificates_among_random_movers_hold() {
         let (place, mut dice) = (Place::new(), Dice::new(seed ^ 0x6d6f_7665));
         place.write("world.toml", drawn(&mut dice));
         let done = place.run(&[&*robot, "world.toml"], "--certificate c.json");
-        // Where an end is not free there is nothing to plan.
+        // If an end is not free, there is nothing to plan.
         if done.code != 0 {
             continue;
         }
@@ -117,7 +118,7 @@ fn certificates_among_random_movers_hold() {
     assert!(!usual() || (found > 8 && waited > 0), "{found} found, {waited} with waits");
 }
 
-/// What stands still on a part of its way goes no way there, and so in no direction.
+/// The object stands still on a part of its trajectory. There it has no direction.
 #[test]
 fn what_waits_out_of_reach_is_never_within_reach() {
     let place = Place::new();
@@ -131,7 +132,8 @@ fn what_waits_out_of_reach_is_never_within_reach() {
     assert!(done.stdout.contains("never within the arm's reach"), "{}", done.stdout);
 }
 
-/// A pick at the very beginning of its window, which is no whole nanosecond: the first one within it.
+/// The pick is at the very beginning of its window, which is not a whole nanosecond. The plan uses the first whole
+/// nanosecond within it.
 #[test]
 fn a_pick_at_the_beginning_of_its_window_is_within_it() {
     let (place, urdf) = (Place::new(), shipped("robots/planar_2r.urdf"));

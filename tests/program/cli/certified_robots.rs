@@ -1,11 +1,12 @@
-//! Certificates about robots as tools export them, and maps as tools write them: what the program takes the checker takes.
+//! Certificates for robots as tools export them, and maps as tools write them: the checker accepts the same files as
+//! the program.
 
 use super::Place;
 use super::certificates::without_digests;
 use cplan_check_files::{CheckError, check_files};
 use std::path::PathBuf;
 
-/// Two bars of 1 m and 0.8 m. What differs is in the places of the words in braces.
+/// Two bars of 1 m and 0.8 m. The words in braces are placeholders for the differences.
 const ARM: &str = r#"<robot name="r" {version}>
 <link name="base"/>
 <joint name="j1" type="revolute">
@@ -22,7 +23,7 @@ const ARM: &str = r#"<robot name="r" {version}>
 {more}
 </robot>"#;
 
-/// What stands there where nothing is said.
+/// Defaults of the placeholders.
 const USUAL: [(&str, &str); 9] = [
     ("{version}", ""),
     ("{mounting}", ""),
@@ -35,21 +36,21 @@ const USUAL: [(&str, &str); 9] = [
     ("{more}", ""),
 ];
 
-/// Discs that leave the upper arm next to no room, whichever way it turns, and the start and the goal within that.
+/// Discs that leave the upper arm little room in either direction; start and goal are within it.
 const WORLD: &str = "[start]\njoints = [0.0, 0.0]\n[goal]\njoints = [0.2, 0.5]\n\
                      [[obstacle]]\ncircle = { center = [0.38, 0.32], radius = 0.1 }\n\
                      [[obstacle]]\ncircle = { center = [0.38, -0.32], radius = 0.1 }\n\
                      [[obstacle]]\ncircle = { center = [-0.5, 0.0], radius = 0.1 }\n";
 
-/// A robot, or a world, as somebody writes it.
+/// A robot, or a world, in somebody's notation.
 #[derive(Default)]
 struct Case<'a> {
     what: &'a str,
     robot: &'a [(&'a str, &'a str)],
-    /// Before and after the rest of the world.
+    /// Text before and after the rest of the world.
     world: [&'a str; 2],
     files: &'a [(&'a str, &'a [u8])],
-    /// What the checker says besides, of motions.
+    /// Expected part of the checker's report on motions.
     said: &'a str,
 }
 
@@ -66,7 +67,8 @@ impl Case<'_> {
         [self.world[0], WORLD, self.world[1]].join("\n")
     }
 
-    /// That the program's certificates of a motion and of a proof hold, and do not where something else stands.
+    /// Checks that the program's certificates of a motion and of a proof hold, and that they fail in a world with
+    /// another obstacle.
     fn is_certified(&self) {
         let place = Place::new();
         self.written(&place);
@@ -89,7 +91,7 @@ impl Case<'_> {
         assert!(said.contains("leads from the start") && said.contains(self.said), "{}: {said}", self.what);
         let proof = planned(&closed, 3);
         judged(&closed, &proof).unwrap_or_else(|why| panic!("{}: {why}", self.what));
-        // The elbow is where the plane's coordinates have it.
+        // The elbow is at the expected place in the plane's coordinates.
         let blocked = format!("{open}\n[[obstacle]]\ncircle = {{ center = [1.0, 0.0], radius = 0.01 }}\n");
         for (world, certificate) in [(&blocked, &motion), (&open, &proof)] {
             let other = judged(world, &without_digests(certificate));
@@ -98,7 +100,7 @@ impl Case<'_> {
     }
 }
 
-/// Frames that are turned by rounded angles, axes that are a little off, and planes along no axes.
+/// Frames are turned by rounded angles, axes are slightly off, and planes are not along axes.
 #[test]
 fn frames_and_axes_as_exporters_write_them() {
     for (what, robot, said) in [
@@ -119,7 +121,7 @@ fn frames_and_axes_as_exporters_write_them() {
 
 const ENDLESS: &str = r#"<limit lower="-1e16" upper="1e16" velocity="1" effort="1"/>"#;
 
-/// Limits that are soft, infinite, or none, and joints that stand where others have them.
+/// Limits are soft, infinite, or missing, and joints are held or follow others.
 #[test]
 fn limits_and_joints_that_do_not_move() {
     let finger = |limit: &str, rest: &str| {
@@ -162,7 +164,7 @@ fn limits_and_joints_that_do_not_move() {
     ] {
         Case { what, robot, world, ..Case::default() }.is_certified();
     }
-    // Within the limits, beyond the soft ones.
+    // The motion is within the limits, but beyond the soft ones.
     let place = Place::new();
     let robot = [("{soft}", r#"<safety_controller soft_lower_limit="-2.5" soft_upper_limit="0.1" k_velocity="1"/>"#)];
     let case = Case { robot: &robot, ..Case::default() };
@@ -178,7 +180,8 @@ fn limits_and_joints_that_do_not_move() {
     assert!(matches!(&said, Err(CheckError::Fails(why)) if why.contains("leaves its limits")), "{said:?}");
 }
 
-/// Corners between others on a line, at the place or turned; ends at half a turn, and beyond a limit by rounding.
+/// Corners lie on a line between others, at their place or turned. Ends are at half a turn, and beyond a limit by
+/// rounding.
 #[test]
 fn worlds_whose_numbers_are_no_doubles() {
     for (what, obstacle) in [
@@ -249,7 +252,8 @@ fn worlds_whose_numbers_are_no_doubles() {
     }
 }
 
-/// What a wrist turns covers a disc, and at all angles one within; what does not hold its axis, and what mimics a joint of the arm or the tool, is refused.
+/// The links that a wrist turns cover a disc, and at all angles a smaller one. The program refuses a link away from the
+/// wrist's axis, and one that mimics a joint of the arm or the tool.
 #[test]
 fn what_moves_besides_the_arm() {
     let place = Place::new();
@@ -275,7 +279,7 @@ fn what_moves_besides_the_arm() {
         let [urdf, world, certificate] = ["arm.urdf", "world.toml", "c.json"].map(|file| place.path(file));
         check_files(&urdf, &world, &certificate)
     };
-    // A post 0.1 m ahead of a gripper whose ends are 0.15 m from the axis and now are beside.
+    // The post is 0.1 m ahead of a gripper whose ends are 0.15 m from the axis and now to the sides.
     let done = run(&bar("0 0 0"), &task(1.9));
     assert!(done.code == 1 && done.stderr.contains("not free"), "{}{}", done.stdout, done.stderr);
     let done = run(&bar("0 0 0"), &task(2.0));
@@ -288,7 +292,7 @@ fn what_moves_besides_the_arm() {
     let beside = run(&bar("0.1 0 0"), &task(2.5));
     assert!(beside.code == 1 && beside.stderr.contains("turns with the wrist"), "{}", beside.stderr);
     assert!(matches!(judged(), Err(CheckError::Input { message, .. }) if message.contains("turns with the wrist")));
-    // A bar beside the base that turns as the arm does, one above the arm, and one that follows the wrist.
+    // A bar beside the base turns like the arm, another is above the arm, and one follows the wrist.
     for (parent, leader, world) in
         [("base", "j1", WORLD), ("l1", "j2", WORLD), ("gripper", "w", &task(2.5)), ("base", "w", &task(2.5))]
     {
@@ -343,7 +347,7 @@ fn meshes_and_what_stands_in_for_them() {
     };
     let bar = ["[robot]\nbar = 0.05", ""];
     let [obj, dae, none] = ["bar.obj", "bar.dae", "none.stl"].map(mesh);
-    // So many corners that the outline is cut up.
+    // The mesh has so many corners that its outline is cut up.
     let rim =
         (0..1500).map(|k| f64::from(k) * std::f64::consts::TAU / 1500.0).map(|t| (500.0 * t.cos(), 60.0 * t.sin()));
     let rim: String = rim.map(|(x, y)| format!("v {x} {y} 0\n")).collect();
@@ -369,11 +373,11 @@ fn meshes_and_what_stands_in_for_them() {
     }
 }
 
-/// The description of a picture of 3 pixels by 3, of which one is dark.
+/// Description of a picture of 3 by 3 pixels with one dark pixel.
 const MAP: &str =
     "image: map.pgm\nresolution: 0.1\norigin: [0.6, -0.65, 0.0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.2\n";
 
-/// A PNG of one pixel in four of one colour, without compression.
+/// Returns a PNG of four equal pixels, without compression.
 fn png(color: [u8; 4]) -> Vec<u8> {
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, 2, 2);
@@ -399,7 +403,7 @@ fn maps_as_tools_write_them() {
     ] {
         Case { what, world: map, files: &[("map.yaml", yaml.as_bytes()), picture], ..Case::default() }.is_certified();
     }
-    // Of 255 shades 51 are the fifth from which on a pixel is not free: exactly that is unknown, and solid.
+    // The shade 51 is a fifth of 255, the limit of free pixels. Exactly that shade is unknown, and solid.
     let place = Place::new();
     Case { files: &[("map.yaml", MAP.as_bytes()), ("map.pgm", b"P2 1 1 255 204")], ..Case::default() }.written(&place);
     let on_it = "[start]\njoints = [-0.75, 0.0]\n[goal]\njoints = [0.0, 0.0]\n[[obstacle]]\nimage = \"map.yaml\"\n";
@@ -408,7 +412,7 @@ fn maps_as_tools_write_them() {
     assert!(done.code == 1 && done.stderr.contains("the start"), "{}{}", done.stdout, done.stderr);
 }
 
-/// A start that is a place of the tip, and numbers in other bases.
+/// The world has a start at a place of the tip, and numbers in other bases.
 #[test]
 fn worlds_as_people_write_them() {
     let tip = WORLD.replace("joints = [0.0, 0.0]", "tip = [1.8, 0.0]");

@@ -1,4 +1,4 @@
-//! Certificates of tasks, and what the checker, which shares no code with the program, says of them.
+//! Certificates of tasks, and the verdict of the checker, which shares no code with the program.
 
 use super::certificates::without_digests;
 use super::{Place, shipped};
@@ -6,7 +6,7 @@ use cplan_check_files::{CheckError, check, check_files};
 use serde_json::{Value, json};
 use std::path::Path;
 
-/// Shipped tasks that are expected to end so, by name, and their robots.
+/// Returns shipped tasks with this expected outcome by name, and their robots.
 fn tasks(expected: &str) -> Vec<(String, String)> {
     let folder = std::fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("workspaces/tasks")).unwrap();
     let mut found = Vec::new();
@@ -25,14 +25,14 @@ pub fn read(path: &str) -> String {
     std::fs::read_to_string(path).unwrap()
 }
 
-/// The certificate with something else in it.
+/// Returns the certificate with a change.
 fn altered(certificate: &Value, alter: impl FnOnce(&mut Value)) -> String {
     let mut whole = certificate.clone();
     alter(&mut whole);
     whole.to_string()
 }
 
-/// The first joint's value in some knots, made another.
+/// Changes the first joint's value in some knots.
 fn moved(certificate: &mut Value, knots: std::ops::RangeInclusive<usize>, to: impl Fn(f64) -> f64) {
     for knot in &mut certificate["motion"]["knots"].as_array_mut().unwrap()[knots] {
         knot[1] = json!(to(knot[1].as_f64().unwrap()));
@@ -60,7 +60,7 @@ fn every_shipped_task_that_can_be_done_has_a_certificate_that_holds() {
             let judged = check(&urdf, world, certificate);
             assert!(matches!(judged, Err(CheckError::Fails(_))), "{what}, {world}: {judged:?}");
         };
-        // Where the first step ends the arm stands, and there something is taken.
+        // At the end of the first step the arm stands still, and an object is picked there.
         let first = &steps[0];
         assert!(["pick", "move"].contains(&first["action"].as_str().unwrap()));
         let last = first["last_sample"].as_u64().unwrap() as usize;
@@ -86,13 +86,13 @@ fn every_shipped_task_that_can_be_done_has_a_certificate_that_holds() {
         if !text.contains("wrist = ") {
             fails(&text, "there is no wrist", &altered(&whole, |c| c["steps"][1]["turn"] = json!(3.0)));
         }
-        // All values by a unit in the last place, as another compiler would have them.
+        // All values change by a unit in the last place, as another compiler may compute them.
         let shifted = altered(&whole, |c| {
             let all = 0..=c["motion"]["knots"].as_array().unwrap().len() - 1;
             moved(c, all, f64::next_up);
         });
         check(&urdf, &text, &shifted).unwrap_or_else(|why| panic!("{world}, by a unit: {why}"));
-        // Something stands where the first object is taken.
+        // A post stands where the first object is picked.
         let grasp = plan["events"].as_array().unwrap()[0]["tip"].clone();
         let post = format!("{text}\n[[obstacle]]\ncircle = {{ center = {grasp}, radius = 0.01 }}\n");
         let anywhere = without_digests(&certificate);
@@ -106,7 +106,7 @@ fn every_shipped_task_that_can_be_done_has_a_certificate_that_holds() {
 /// The warning of a task that is infeasible.
 const NONE: &str = "is not written: an infeasible task has no certificate";
 
-/// Except for the warning, all is as without `--certificate`.
+/// Except for the warning, all output is as without `--certificate`.
 #[test]
 fn infeasible_tasks_have_no_certificate() {
     let tasks = tasks("infeasible");
@@ -129,12 +129,12 @@ fn infeasible_tasks_have_no_certificate() {
     }
 }
 
-/// A task by its world: the exit code, the errors, and what the checker says of its certificate.
+/// Plans a task for the SCARA. Returns the exit code, the errors, and the checker's report on the certificate.
 fn certified(world: &str) -> (i32, String, Option<String>) {
     certified_of(&read(&shipped("robots/scara.urdf")), world)
 }
 
-/// The same of a robot by its URDF.
+/// Plans a task for the robot of this URDF.
 fn certified_of(urdf: &str, world: &str) -> (i32, String, Option<String>) {
     let place = Place::new();
     place.write("arm.urdf", urdf);
@@ -146,14 +146,14 @@ fn certified_of(urdf: &str, world: &str) -> (i32, String, Option<String>) {
     (done.code, done.stderr, said)
 }
 
-/// Asserts that a task of the shipped SCARA is infeasible.
+/// Checks that a task of the shipped SCARA is infeasible.
 #[track_caller]
 fn is_infeasible(world: &str) {
     let (code, stderr, said) = certified(world);
     assert!(code == 3 && said.is_none(), "{code} {stderr}");
 }
 
-/// What is impossible among others of a group is so in all their orders.
+/// If a group is infeasible among other pairs, it is so in all orders.
 #[test]
 fn proofs_are_about_all_orders() {
     let rigid = read(&shipped("workspaces/tasks/slot_rigid.toml"));
@@ -168,7 +168,7 @@ fn proofs_are_about_all_orders() {
     for count in [0, 2, 5] {
         is_infeasible(&(free.clone() + &(0..count).map(pin).collect::<String>()));
     }
-    // Two that change places are in each other's way; with a third one that is in nobody's, too.
+    // Two objects that change places block each other, also with a third one that blocks neither.
     let swap = read(&shipped("workspaces/tasks/swap.toml"));
     for count in [0, 1] {
         is_infeasible(&(swap.clone() + &(0..count).map(pin).collect::<String>()));
@@ -177,7 +177,7 @@ fn proofs_are_about_all_orders() {
     assert_eq!(code, 0);
 }
 
-/// What the tool would hit while it is lowered, though nothing is in the way of what travels above.
+/// The tool would hit the stub while it is lowered, though nothing blocks the arm above.
 #[test]
 fn proofs_are_about_strokes() {
     let world = |robot: &str, stub: [f64; 2]| {
@@ -207,14 +207,15 @@ place = {{ at = [0.35, -0.17] }}
         )
     };
     let stroke = "stroke = { joint = \"axis_3\", velocity = 1.0, acceleration = 5.0 }";
-    // Beside where it is picked, and beside where it is placed; and where only what is carried comes down on it, with a stroke or not.
+    // The stub is beside the pick, beside the target, or where only the payload comes down on it, with a stroke or
+    // without.
     for (stub, without) in [([0.14, 0.375], 0), ([0.35, -0.155], 0), ([0.336, -0.17], 3)] {
         assert_eq!(certified(&world("", stub)).0, without, "{stub:?}");
         is_infeasible(&world(stroke, stub));
     }
 }
 
-/// A bar that stands in for the tool's meshes ends at the tip, and goes down with it.
+/// A bar that replaces the tool's meshes ends at the tip, and is lowered with it.
 #[test]
 fn bars_are_lowered_with_the_tool() {
     let place = Place::new();
@@ -262,7 +263,7 @@ pick = "part"
     }
 }
 
-/// What is to go into what it rests on, as deep as it may press, and deeper: convex, and of several parts.
+/// The object is placed into its support, as deep as it may press, and deeper. It is convex, or has several parts.
 #[test]
 fn what_presses_into_its_supports_has_certificates() {
     let into = |depth: f64| {
@@ -270,7 +271,7 @@ fn what_presses_into_its_supports_has_certificates() {
             .replace("payload = \"rigid\"", "payload = \"level\"")
             .replace("at = [0.26, 0.35]", &format!("at = [0.26, {}], supports = [\"near jaw\"]", 0.345 - depth))
     };
-    // It may press 5.5e-5 m into it, with its sides by 0.7 of that.
+    // It may press 5.5e-5 m into the support, with its sides by 0.7 of that.
     assert_eq!(certified(&into(2e-5)).0, 0);
     for depth in [2e-4, 1e-2] {
         is_infeasible(&into(depth));
@@ -285,7 +286,7 @@ fn what_presses_into_its_supports_has_certificates() {
     assert!(code == 0 && said.is_some_and(|said| said.contains("does all")), "{code} {stderr}");
 }
 
-/// Rings about pegs, sides of whose holes go on as sides of their convex pieces.
+/// Rings around pegs have convex pieces some of whose sides extend sides of the hole.
 #[test]
 fn rings_on_pegs_have_certificates() {
     let square = |x: f64, y: f64, half: f64| {
@@ -307,7 +308,7 @@ fn rings_on_pegs_have_certificates() {
     );
     let wedged = "[[[-0.1, -0.1], [0.1, -0.1], [0.1, -0.0346], [0.15000000000000002, -0.0346], [0.15000000000000002, 0.0278], [0.13, 0.0278], [0.13, 0.1], [0.0447, 0.1], [0.0447, 0.13], [-0.0438, 0.13], [-0.0438, 0.07], [-0.1, 0.07]], [[-0.0438, -0.0346], [0.0447, -0.0346], [-0.0438, 0.0278]]]";
     let wedge = "[[0.9559263156877668, 0.7651263156877668], [1.045563099894364, 0.7651263156877668], [0.9559263156877668, 0.8283278448910624]]";
-    // The allowance is 1.6e-4 m, with sides beside right angles 0.7 of that.
+    // The allowance is 1.6e-4 m, and for sides beside right angles 0.7 of that.
     let on_a_peg = |grown: f64| (stepped.clone(), square(1.0, 0.8, 0.04 + grown));
     for ((ring, peg), code) in
         [(on_a_peg(1e-6), 0), (on_a_peg(1.1e-4), 0), (on_a_peg(2e-4), 3), ((wedged.to_owned(), wedge.to_owned()), 3)]
@@ -323,7 +324,7 @@ fn rings_on_pegs_have_certificates() {
     }
 }
 
-/// What has just been let go of may be touched, and a new one in its stead may not: the arm goes round it.
+/// A released object may be touched, but not the new one that replaces it: the arm avoids it.
 #[test]
 fn a_new_object_is_an_obstacle() {
     let walls = |low: f64, high: f64| {
@@ -349,7 +350,7 @@ fn a_new_object_is_an_obstacle() {
     place.write("w.toml", world.concat());
     let urdf = shipped("robots/gantry.urdf");
     let done = place.run(&[&urdf, "w.toml"], "--quiet --certificate c.json --output plan.json");
-    // Between the walls there is no other way than through the new one.
+    // Between the walls, the only path leads through the new object.
     assert_eq!(done.code, 3, "{}", done.stderr);
     // Where it is not renewed there is.
     place.write("w.toml", world.concat().replace("renew = true\n", ""));
@@ -357,8 +358,8 @@ fn a_new_object_is_an_obstacle() {
     assert_eq!(done.code, 0, "{}", done.stderr);
 }
 
-/// What has just been let go of may be touched until the next step has ended. Then the arm stands free of it, also if there is a new one from
-/// there on, and also where something else moves.
+/// A released object may be touched until the next step has ended. Then the arm must be free of it. This also holds if
+/// a new object replaces it from then on, and if an obstacle moves.
 #[test]
 fn what_is_renewed_is_there_until_the_arm_goes_on() {
     let place = Place::new();
@@ -372,7 +373,7 @@ fn what_is_renewed_is_there_until_the_arm_goes_on() {
                  [[step.steps]]\nplace = {{ at = [1.5, 0.8] }}\n[[step.steps]]\nmove = {{ joints = [{x}, 0.81] }}\ndwell = 1\n"
             )
         };
-        // Onto it, beside it, and high above it.
+        // The move ends on the object, beside it, or high above it.
         let asked = [(0.1, 1.5, 3), (0.1, 1.3, 0), (0.01, 1.5, 0)];
         for (number, (high, x, code)) in asked.into_iter().enumerate() {
             place.write("w.toml", world(high, x));
@@ -384,7 +385,7 @@ fn what_is_renewed_is_there_until_the_arm_goes_on() {
                 assert!(said.contains("does all 6 steps"), "{said}");
             }
         }
-        // The motion high above it is none onto it.
+        // The motion high above the object does not touch it.
         let verified =
             |number: usize| place.run(&["verify", &urdf, "w.toml", &format!("plan{number}.json")], "--quiet").code;
         assert_eq!(verified(2), 0);
@@ -393,7 +394,7 @@ fn what_is_renewed_is_there_until_the_arm_goes_on() {
     }
 }
 
-/// An IK solution at half a turn of a joint that goes round is in the way on both sides of it.
+/// An IK solution at half a turn of a continuous joint is blocked on both sides of that value.
 #[test]
 fn boxes_reach_across_half_a_turn() {
     let urdf = read(&shipped("robots/planar_2r_continuous.urdf"));
@@ -410,7 +411,7 @@ fn boxes_reach_across_half_a_turn() {
     }
 }
 
-/// A piece that has no area but for rounding: a hole touches a side between its corners, in decimals.
+/// A piece has no area except for rounding: a hole touches a side between its corners, in decimal numbers.
 #[test]
 fn slivers_are_no_evidence() {
     let urdf = read(&shipped("robots/gantry.urdf"));
@@ -421,7 +422,7 @@ fn slivers_are_no_evidence() {
     assert_eq!(code, 3, "{stderr}");
 }
 
-/// A crane turns a thin object of 100 m: how that is turned is known as well as the joints are, however large all is.
+/// A crane turns a thin object of 100 m. Its orientation is as exact as the joint values, however large the crane is.
 #[test]
 fn needles_on_cranes_are_in_the_way() {
     let link = "<link name=\"boom\"><collision><origin xyz=\"300 0 20\"/><geometry><box size=\"600 1 1\"/></geometry></collision></link>";
@@ -463,7 +464,7 @@ fn what_is_asked_in_place_of_the_world_is_in_the_certificate() {
     assert_eq!(done.code, 0, "{}", done.stderr);
     let said = judged(&place.read("v.json")).unwrap();
     assert!(said.contains("does all 5 steps") && said.contains("read as quartic"), "{said}");
-    // One motion of it, with all objects where they lie at first.
+    // Uses one of its motions, with all objects at their initial places.
     place.write("rise.csv", "shoulder,elbow\n0.6,0.8\n0.5,0.8\n");
     let done = place.run(&["verify", &files[0], &files[1], "rise.csv"], "--quiet --certificate r.json");
     assert_eq!(done.code, 0, "{}", done.stderr);
@@ -471,7 +472,8 @@ fn what_is_asked_in_place_of_the_world_is_in_the_certificate() {
     assert!(said.contains("to the goal (0.5, 0.8)"), "{said}");
 }
 
-/// As those of motions are: by digests, in the result, and with values at limits a hair inside of them.
+/// The certificates are bound like those of motions: by digests, in the result, and with joint values slightly inside
+/// the limits.
 #[test]
 fn certificates_of_tasks_are_bound_to_their_files_and_can_be_a_part_of_the_result() {
     let place = Place::new();

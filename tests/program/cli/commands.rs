@@ -47,7 +47,7 @@ fn wrong_command_lines_end_with_2() {
         ("--frobnicate", "unexpected argument"),
     ];
     for (options, part) in cases {
-        // The files are not there: the command line is judged first.
+        // The files do not exist: the command line is checked first.
         let files: &[&str] = if options.is_empty() { &[] } else { &["no.urdf", "no.toml"] };
         place.run(files, options).refused(2, &[part]);
     }
@@ -137,7 +137,7 @@ fn limits_of_the_jerk_are_kept_in_every_format() {
         let verified = verify(file);
         assert_eq!(verified.code, 0, "{file}: {}", verified.stdout);
     }
-    // The command line over the world, either way round.
+    // The command line overrides the world, in either direction.
     let option = place.run(&shelf(), "--jerk 200,300 --json --quiet");
     assert_eq!(option.json(), result);
     assert_eq!(place.run(&smooth, "--jerk none,none --blend none --output jumps.yaml").code, 0);
@@ -173,7 +173,7 @@ fn the_least_time_has_a_bound_and_another_shape() {
         assert_eq!(duration, number(&time, "/duration"));
         assert!(duration < 0.95 * number(&length, "/duration") && bound < duration && bound > 0.8 * duration);
         assert!((number(&time, "/fastest/gap") - (duration / bound - 1.0)).abs() < 1e-12);
-        // What is told of the path is told of the one that is driven.
+        // The reported values are those of the driven path.
         assert!(number(&time, "/length") > number(&length, "/length"));
         assert!(number(&time, "/optimum/lower_bound") < number(&time, "/optimum/length"));
     }
@@ -196,7 +196,7 @@ fn check_says_why() {
     }
     let json = place.run(&files, "--at 0.14,0.35 --json").json();
     assert_eq!((&json["free"], &json["within_limits"]), (&Value::Bool(false), &serde_json::json!([true, true])));
-    // The shortest way out is along the link's normal, past the shelf's upper left corner.
+    // The shortest escape is along the link's normal, past the shelf's upper left corner.
     let angle = 0.49_f64;
     let elbow = [0.14_f64.cos(), 0.14_f64.sin()];
     let corner = [1.15 - elbow[0], 0.3 - elbow[1]];
@@ -245,7 +245,7 @@ fn recheck_accepts_true_bounds_and_no_others() {
         let recheck = [&["recheck".to_owned()], &files[..]].concat();
         let holds = place.run(&recheck, "--proof made.json");
         assert_eq!((holds.code, holds.stdout.starts_with("the bound holds")), (0, true), "{world}: {}", holds.stderr);
-        // More than is true; no length at all; not of this world.
+        // One bound is too high, one belongs to no length, and one to another world.
         let lower = made["optimum"]["lower_bound"].as_f64().unwrap();
         for (wrong, said) in [(lower * (1.0 + 2e-4), "are no bounds"), (lower * 1.01, "not confirmed")] {
             made["optimum"]["lower_bound"] = wrong.into();
@@ -273,7 +273,7 @@ fn recheck_accepts_true_proofs_and_no_others() {
     let judge = |world: &str, options: &str| place.run(&["recheck", &urdf, world], &format!("--proof {options}"));
     let holds = judge(&closed, "proof.json");
     assert_eq!((holds.code, holds.stdout.contains(&format!("every goal ({boxes} box"))), (0, true), "{}", holds.stderr);
-    // Another problem, another goal on the start's side, a proof with a hole, no proof.
+    // The proof belongs to another problem, the goal is on the start's side, the proof has a hole, or it is missing.
     judge(&open, "proof.json").refused(1, &["proof.json", "does not hold"]);
     judge(&closed, "proof.json --goal 0.4,0").refused(1, &["do not separate"]);
     let mut lesser = made.json();
@@ -286,7 +286,7 @@ fn recheck_accepts_true_proofs_and_no_others() {
     place.run(&["recheck", &urdf, &closed], "").refused(2, &["--proof"]);
 }
 
-/// What doubles do not tell apart is not looked at more closely.
+/// Gaps below the resolution of doubles cause no further search.
 #[test]
 fn gaps_below_the_rounding_of_doubles_end() {
     let place = Place::new();
@@ -298,7 +298,7 @@ fn gaps_below_the_rounding_of_doubles_end() {
     }
 }
 
-/// Of more than two words the first, misspelled, is no file.
+/// The first of more than two words is a misspelled command, not a file.
 #[test]
 fn a_command_that_is_none_is_told() {
     let place = Place::new();

@@ -4,11 +4,11 @@ use super::{FREE, Place, shelf, shipped};
 use cplan::input::{Overrides, load};
 use serde_json::Value;
 
-/// A pocket that nothing leaves, for `planar_2r` with these limits of its own.
+/// A closed pocket for `planar_2r`, with these limits.
 const CLOSED: &str = "[robot]\nlimits = { shoulder = [-1.0, 1.0], elbow = [-1.0, 1.0] }\n[start]\njoints = [-0.9, 0.0]\n\
                       [goal]\njoints = [0.9, 0.0]\n[[obstacle]]\nname = \"wall\"\npolyline = [[0.3, 0.0], [1.5, 0.0]]\n";
 
-/// A suite of two worlds.
+/// Writes a suite of two worlds.
 fn suite(place: &Place) {
     let robot = shipped("robots/planar_2r.urdf");
     std::fs::create_dir(place.path("worlds")).unwrap();
@@ -21,7 +21,7 @@ fn suite(place: &Place) {
     );
 }
 
-/// The result without times and memory.
+/// Returns the result without times and memory.
 fn without_costs(mut json: Value) -> Value {
     fn clean(value: &mut Value) {
         match value {
@@ -62,7 +62,7 @@ fn suites_list_every_problem_with_every_planner() {
         assert_eq!(planner["distributions"]["total"]["n"], 2);
         assert_eq!(planner["distributions"]["over_optimum"]["n"], 1);
     }
-    // The robot goes with all worlds of the folder just as well; the manifest is none of them.
+    // The robot suits all worlds of the folder. The manifest is not one of them.
     let folder =
         place.run(&["compare", &shipped("robots/planar_2r.urdf"), "--suite", "worlds"], &format!("{QUICK} --json"));
     assert_eq!(folder.code, 0, "{}", folder.stderr);
@@ -70,7 +70,7 @@ fn suites_list_every_problem_with_every_planner() {
     let names: Vec<&str> =
         folder["problems"].as_array().unwrap().iter().map(|p| p["problem"].as_str().unwrap()).collect();
     assert_eq!((names, folder["title"].as_str()), (vec!["closed", "open"], Some("worlds")));
-    // A manifest by its own name, and the tables.
+    // Reads a manifest by its own name, and writes the tables.
     let text = place.run(&["compare", "--suite", "worlds/suite.toml"], QUICK);
     assert_eq!(text.code, 0);
     for part in
@@ -97,7 +97,7 @@ fn what_is_wrong_with_a_suite_is_told_at_once() {
         "[[problem]]\nrobot = \"absent.urdf\"\nworld = \"open.toml\"\n[[problem]]\nrobot = \"a.urdf\"\nworld = \"b.toml\"\n",
         &["line 2", "no file worlds/absent.urdf", "worlds/a.urdf", "worlds/b.toml", "relative to the manifest"],
     );
-    // All worlds' diagnostics together, each with its file and place.
+    // Reports the diagnostics of all worlds together, each with its file and place.
     place.write("worlds/open.toml", "[start]\njoints = [9.0, 0.0]\n[goal]\njoints = [0.0, 0.0]\n");
     place.write("worlds/closed.toml", "[start]\njoints = [0.0, 0.0]\n");
     let two = format!(
@@ -113,7 +113,7 @@ fn what_is_wrong_with_a_suite_is_told_at_once() {
     place.run(&["compare", &robot, "--suite", "empty"], "").refused(1, &["empty: there is no world in it", "cure:"]);
 }
 
-/// Worlds that cannot be run do not keep the others from it: they are counted everywhere, and in the exit code.
+/// Worlds that cannot be run do not prevent the others: all tables and the exit code count them.
 #[test]
 fn a_suite_goes_on_without_the_worlds_that_cannot_be_run() {
     let place = Place::new();
@@ -147,7 +147,7 @@ fn a_suite_goes_on_without_the_worlds_that_cannot_be_run() {
     let kinds: Vec<&str> = json["refused"].as_array().unwrap().iter().map(|r| r["kind"].as_str().unwrap()).collect();
     assert_eq!((json["problems"].as_array().unwrap().len(), kinds.len()), (1, 3));
     assert!(kinds.contains(&"start") && kinds.contains(&"input"), "{kinds:?}");
-    // Random queries need no start, but room.
+    // Random queries need no start, but free space.
     place.write("worlds/blocked.toml", "clearance = 50\n[[obstacle]]\ncircle = { center = [9, 9], radius = 1 }\n");
     let drawn = place.run(&["compare", "--suite", "worlds"], &format!("{QUICK} --json --queries 2"));
     let drawn = drawn.json();
@@ -214,7 +214,7 @@ fn random_queries_are_free_and_follow_from_the_seed() {
     let four = run("--queries 4 --seed 5");
     assert_eq!(four["problems"][3]["start"], six["problems"][3]["start"]);
     assert_ne!(run("--queries 1 --seed 6")["problems"][0]["start"], six["problems"][0]["start"]);
-    // The world's own start and goal are not looked at; without room there are no queries.
+    // The world's own start and goal are ignored; without free space there are no queries.
     place.write("bare.toml", "[[obstacle]]\ncircle = { center = [1.2, 0.9], radius = 0.1 }\n");
     assert_eq!(place.run(&["compare", &urdf, "bare.toml"], "--queries 2 --planner trapezoid --quiet").code, 0);
     place
@@ -257,14 +257,14 @@ fn every_file_is_written_or_none() {
     assert!(!place.path("new.md").exists());
 }
 
-/// HTML that is XML, too, as our pages are.
+/// Checks that HTML is also XML, as our pages must be, and counts its figures.
 fn well_formed(html: &str) -> usize {
     let body = html.strip_prefix("<!DOCTYPE html>\n").expect("a page");
     let document = roxmltree::Document::parse(body).unwrap_or_else(|e| panic!("{e}: {html}"));
     for node in document.descendants() {
         assert_ne!(node.tag_name().name(), "script");
         for attribute in node.attributes() {
-            // Pictures are data, in which a name space is a name.
+            // Pictures are data, in which a name space is only a name.
             let is_data = attribute.value().starts_with("data:image/svg+xml,");
             assert!(is_data || !attribute.value().contains("//"), "{attribute:?}: no page but this one");
         }
@@ -348,7 +348,7 @@ fn a_planner_with_a_gap_is_run_until_it_is_within() {
     assert!(close <= 1e-6, "{close}");
 }
 
-/// Names of variants are long; what they share is left out where there is no room, and what tells them apart stays.
+/// Names of variants are long. Where room is scarce, the output omits their common part and keeps the differences.
 #[test]
 fn pictures_and_charts_keep_what_tells_variants_apart() {
     let place = Place::new();
@@ -373,7 +373,7 @@ fn pictures_and_charts_keep_what_tells_variants_apart() {
     for [_, variant] in &variants {
         let short = variant.replace("--search astar --space sampled ", "");
         let key = texts.iter().find(|text| text.starts_with(&format!("{short}: ")));
-        // With the length, and nothing cut off.
+        // The text has the length, and nothing is cut off.
         assert!(key.is_some_and(|key| key.ends_with(|c: char| c.is_ascii_digit())), "{short}: {texts:?}");
         assert!(csv.contains(variant.as_str()), "tables have all words: {csv}");
     }

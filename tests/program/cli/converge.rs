@@ -4,7 +4,7 @@ use super::{FREE, Place, shelf, shipped};
 use serde_json::Value;
 use std::collections::BTreeMap;
 
-/// Coarse, so that debug builds answer soon.
+/// Returns files with a coarse grid, so that debug builds answer soon.
 fn files() -> Vec<String> {
     let mut words = vec!["converge".to_owned()];
     words.extend(shelf());
@@ -52,7 +52,7 @@ fn files_hold_one_measurement_the_same_each_time() {
         assert!(place.read(file) == *content, "{file} differs");
     }
     let json: Value = serde_json::from_str(&kept[1].1).unwrap();
-    // CSV: as many cells a line as columns, and the samples of the JSON.
+    // CSV: each line has as many cells as columns, with the samples of the JSON.
     let mut lines = csv_lines(&kept[0].1);
     let header = lines.remove(0);
     let mut sweeps: BTreeMap<[String; 4], Vec<(u64, String)>> = BTreeMap::new();
@@ -80,7 +80,7 @@ fn files_hold_one_measurement_the_same_each_time() {
     let svg = roxmltree::Document::parse(&kept[2].1).unwrap();
     let titles = svg.descendants().filter(|n| n.attribute("font-size") == Some("14")).count();
     assert_eq!(titles, 6, "three equations, two factors and epsilon");
-    // Weighted Jacobi's factors rise to the first that does not converge.
+    // The factors of weighted Jacobi increase to the first that does not converge.
     for scan in json["weights"].as_array().unwrap() {
         let points = scan["points"].as_array().unwrap();
         let (last, before) = points.split_last().unwrap();
@@ -92,7 +92,7 @@ fn files_hold_one_measurement_the_same_each_time() {
     assert!(kept[3].1.contains("<svg") || kept[3].1.contains("data:image/svg+xml"));
 }
 
-/// The cells of each line; names may hold a comma within quotes.
+/// Splits each line into cells; names may hold a comma within quotes.
 fn csv_lines(text: &str) -> Vec<Vec<String>> {
     let cells = |line: &str| {
         let mut cells = vec![String::new()];
@@ -144,7 +144,7 @@ fn regions_of_the_world_are_relaxed_too() {
     let two_stages = of(&["bvp", "bvp2"]);
     assert_eq!(two_stages.len(), 16);
     for entry in two_stages {
-        // The last sweep of the harmonic field, and the next one: its changes leap.
+        // Compares the last sweep of the harmonic field with the next one, whose changes are much larger.
         let (leap, samples) = (&entry["leap"], &entry["samples"]);
         let at = samples["sweep"].as_array().unwrap().iter().position(|sweep| *sweep == leap["sweep"]).unwrap();
         assert_eq!(samples["sweep"][at + 1], leap["sweep"].as_u64().unwrap() + 1);
@@ -159,7 +159,7 @@ fn regions_of_the_world_are_relaxed_too() {
         assert!(stages.is_sorted() && stages.contains(&0) && stages.contains(&1), "{stages:?}");
         assert!(entry["samples"]["error"].as_array().unwrap().iter().all(Value::is_null));
     }
-    // Locally oriented fields have one stage, a solution to measure by, and the direction asked for.
+    // Locally oriented fields have one stage, an exact solution for comparison, and the requested direction.
     let local = of(&["local, central", "local, upwind"]);
     assert_eq!(local.len(), 16);
     assert!(local.iter().all(|entry| entry["leap"].is_null() && entry["samples"]["error"][0].is_number()));
@@ -197,7 +197,7 @@ fn bad_input_gives_one_error() {
     place.run(&["converge", "no.urdf", "no.toml"], "").refused(1, &["no.toml: cannot be read"]);
     let coarse = place.run(&["converge", &urdf, &shipped("workspaces/scara_cell.toml")], "--cells 16 --quiet");
     coarse.refused(1, &["16 x 16 cells", "cure: more --cells"]);
-    // One file that cannot be written: none is.
+    // If one file cannot be written, the program writes none.
     let mut words = files();
     words.extend(["--output", "b.csv", "--picture", "nowhere/b.svg"].map(str::to_owned));
     place.run(&words, "").refused(1, &["nowhere"]);

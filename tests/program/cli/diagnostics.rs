@@ -1,4 +1,4 @@
-//! Every diagnostic has help: files with slips of the pen, by the hundred, through the program.
+//! Every diagnostic has help: hundreds of files with a typing error, through the program.
 
 use super::{Done, FREE, Place, shipped};
 use crate::common::dice;
@@ -6,15 +6,16 @@ use crate::common::random::times;
 use cplan_cases::slips::slipped;
 use serde_json::Value;
 
-/// What has no line because it is not there.
+/// Messages about missing things, which have no line.
 const MISSING: [&str; 6] =
     ["there is no ", "there are no ", "holds no ", "holds neither ", "is missing", "has no link"];
 
-/// Where something is in a document of nested members, which has lines for how it is written, not for what it says.
+/// Names of members in documents with nested members. Errors of syntax have lines there, errors of content do not.
 const MEMBERS: [&str; 7] =
     ["points", "steps", "path", "trajectory", "joint_names", "\"joints\"", "too large to be meant"];
 
-/// Done (0, 3, 4), or told what is wrong: one object with file, place, message and help. Whether it is an error.
+/// Checks that the program succeeds (0, 3, 4), or reports the error in one object with file, place, message and help.
+/// Returns true if it is an error.
 fn is_answered(done: &Done, text: &str) -> bool {
     let what = || format!("{}{}\n{text}", done.stdout, done.stderr);
     assert!(!done.stderr.contains("panicked"), "{}", what());
@@ -42,7 +43,7 @@ fn is_answered(done: &Done, text: &str) -> bool {
     true
 }
 
-/// So many slips in a text, each answered by `run`; both answers must have come up.
+/// Runs many texts with one slip each, and checks that `run` answers each. Both kinds of answers must occur.
 fn every_slip_is_answered(stream: u64, usual: u64, text: &str, run: impl Fn(&str) -> Done) {
     assert_eq!(run(text).code, 0, "{}", run(text).stdout);
     let mut dice = dice(stream);
@@ -86,7 +87,7 @@ fn slips_in_a_task() {
     every_slip_is_answered(23, 60, task, |task| place.plan(task, "--json"));
 }
 
-/// A motion in a format, for [`FREE`].
+/// Tests slips in a motion of a format, for [`FREE`].
 fn slips_in_a_motion(stream: u64, file: &str) {
     let place = Place::new();
     assert_eq!(place.plan(FREE, &format!("--quiet --path taut --period 0.4 --output {file}")).code, 0);

@@ -1,9 +1,9 @@
-//! Errors as scripts see them: with `--json` one JSON object on stdout, whatever is wrong.
+//! Errors for scripts: with `--json`, any error gives one JSON object on stdout.
 
 use super::{Done, FREE, Place, shelf, shipped};
 
 impl Done {
-    /// An error object of a kind, with these parts in its message; the object.
+    /// Checks the kind of an error object and the parts of its message, and returns it.
     fn error(&self, code: i32, kind: &str, parts: &[&str]) -> serde_json::Value {
         assert_eq!(self.code, code, "{}{}", self.stdout, self.stderr);
         let json = self.json();
@@ -35,7 +35,7 @@ fn kinds_tell_what_is_wrong() {
     assert_eq!((&json["file"], &json["line"]), (&"world.toml".into(), &1.into()));
     place.write("world.toml", FREE);
     place.run(&["none.urdf", "world.toml"], "--json").error(1, "input", &["cannot be read"]);
-    // All that is wrong, where it is more than one thing.
+    // All errors, if there are several.
     let two = format!("{FREE}[robot]\nvelocity = {{ a = 1, b = 2 }}\n");
     let json = place.plan(two, "--json").error(1, "input", &["no joint \"a\""]);
     assert_eq!(json["defects"].as_array().unwrap().len(), 2);
@@ -49,7 +49,7 @@ fn a_wrong_command_line_is_json_too() {
     place.run(&shelf(), "--json --planner best").error(2, "usage", &["invalid value 'best'"]);
     place.run::<&str>(&[], "--json").error(2, "usage", &["required"]);
     place.run(&shelf(), "--json --picture plan.bmp").error(2, "usage", &[".svg, .png, .gif or .html"]);
-    // Without the flag nothing is on stdout; help is no error.
+    // Without the flag, stdout is empty; help is no error.
     place.run(&shelf(), "--planner best").refused(2, &["invalid value"]);
     let help = place.run::<&str>(&[], "--json --help");
     assert_eq!(help.code, 0);
@@ -70,7 +70,7 @@ fn every_command_with_json_answers_in_json() {
     for words in cases {
         place.run(words, "--json").error(1, "input", &[]);
     }
-    // The report of a robot that cannot be planned with is the answer, and has its diagnostics.
+    // For a robot that one cannot plan with, the report is the answer, and contains the diagnostics.
     let json = place.run(&["inspect", "none.urdf"], "--json");
     assert_eq!(json.code, 1);
     assert_eq!(json.json()["plannable"], false);

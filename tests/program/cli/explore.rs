@@ -1,4 +1,4 @@
-//! `cplan explore`, from outside: how it ends, what it writes, what it refuses.
+//! `cplan explore` from outside: exit codes, output files, refused input.
 
 use super::{Done, FREE, Place, shelf, shipped};
 use serde_json::Value;
@@ -30,7 +30,7 @@ fn the_goal_is_reached_and_what_is_played_is_free() {
     assert_eq!(positions[positions.len() - 1], serde_json::json!([1.55, -0.35]));
     let legs = result["legs"].as_array().unwrap();
     assert!(legs.len() > 2 && legs.windows(2).all(|w| w[0]["path"].as_array().unwrap().last() == w[1]["path"].get(0)));
-    // The judge sees the world itself, and what is played by whoever reads the file.
+    // The judge has the true world. It checks the motion that readers of the file play.
     for file in ["a.csv", "a.yaml"] {
         let [urdf, world] = shelf();
         let verified = place.run(&["verify", &urdf, &world, file], "");
@@ -59,7 +59,7 @@ fn rooms_are_explored_and_the_map_is_a_world() {
     let data = json(data.split("</script>").next().unwrap());
     assert!(data["frames"].as_array().unwrap().len() > 10 && data["opened"].as_array().unwrap().len() > 10);
     assert!(place.read("rooms.svg").contains("explored after"));
-    // In what was seen one can plan, from room to room.
+    // The recorded map is a world in which one can plan, from room to room.
     place.write(
         "seen.toml",
         "[start]\njoints = [0.2, 0.2]\n[goal]\njoints = [1.5, 0.2]\n[[obstacle]]\nimage = \"rooms.yaml\"\nheight = [0.0, 0.3]\n",
@@ -68,7 +68,7 @@ fn rooms_are_explored_and_the_map_is_a_world() {
     assert_eq!(planned.code, 0, "{}{}", planned.stdout, planned.stderr);
 }
 
-/// What is known of a world needs no second look; what is said of another world is not believed.
+/// The program explores no known area again, and refuses the map of another world.
 #[test]
 fn a_known_map_is_taken_up() {
     let place = Place::new();
@@ -91,7 +91,8 @@ fn a_known_map_is_taken_up() {
     finer.refused(1, &["rooms.yaml", "has other cells"]);
 }
 
-/// The head goes above all that may stand there, so that its sensor stands above what it has not seen, and one leg is longer than it sees.
+/// The head moves above all obstacles, so its sensor can stand above unknown places. One leg is longer than the
+/// sensor's range.
 #[test]
 fn nothing_is_left_by_a_head_that_stands_above_the_unknown() {
     let place = Place::new();
@@ -113,7 +114,7 @@ fn nothing_is_left_by_a_head_that_stands_above_the_unknown() {
     }
 }
 
-/// All that stands there is lower than the arm, which goes above it with its tool beside.
+/// All obstacles are lower than the arm, which passes above them with its tool beside them.
 #[test]
 fn heights_that_are_known_let_a_scara_pass() {
     let place = Place::new();
@@ -127,7 +128,7 @@ fn heights_that_are_known_let_a_scara_pass() {
     assert_eq!(verified.code, 0, "{}{}", verified.stdout, verified.stderr);
 }
 
-/// What is between start and goal is seen from a way off.
+/// World in which the sensor sees the obstacles between start and goal from some distance.
 const RING: &str = "start.joints = [-2.0, 0.3]\ngoal.joints = [1.6, -0.6]\nsensor = { range = 0.7, on = \"tip\", rays = 200 }\n\
                     [[obstacle]]\npolygon = [[1.0, -0.1], [1.6, -0.1], [1.6, 0.1], [1.0, 0.1]]\n\
                     [[obstacle]]\ncircle = { center = [-0.7, 0.9], radius = 0.2 }\n";
@@ -139,7 +140,7 @@ fn what_cannot_be_reached_is_proven() {
     let done = explore(&place, &files, "");
     assert_eq!(done.code, 3, "{}{}", done.stdout, done.stderr);
     assert!(done.stdout.contains("unreachable: proven"), "{}", done.stdout);
-    // What it did before is a motion, and what its file says of it is true.
+    // The earlier motion is valid, and the claims in its file are true.
     place.write("ring.toml", RING);
     let robot = files[0].as_str();
     let done = explore(&place, &[robot, "ring.toml"].map(str::to_owned), "--output ring.json");
@@ -155,7 +156,7 @@ fn what_cannot_be_reached_is_proven() {
     assert_eq!(verified.code, 0, "{}{}", verified.stdout, verified.stderr);
 }
 
-/// Steps between middles of so few cells lead through walls.
+/// With so few cells, steps between their middles lead through walls.
 #[test]
 fn on_a_coarse_grid_it_ends() {
     let place = Place::new();
@@ -167,7 +168,7 @@ fn on_a_coarse_grid_it_ends() {
     }
 }
 
-/// Obstacles that nothing but the clearance reaches are seen, too.
+/// The sensor also detects obstacles that only the clearance reaches.
 #[test]
 fn the_clearance_is_kept_from_what_lies_beyond_reach() {
     let place = Place::new();
@@ -210,7 +211,7 @@ fn what_makes_no_exploration_is_refused() {
     }
 }
 
-/// No steps of the grid join the cells that the arm comes to with those about its start; the way that it came does.
+/// No steps of the grid join the cells around the arm with those around its start, but the arm's own path does.
 #[test]
 fn what_the_arm_can_go_back_to_is_explored_too() {
     let place = Place::new();

@@ -40,7 +40,7 @@ fn options_that_do_not_go_together_end_with_2() {
         ("--planner harmonic --field khatib --attraction linear:-1", "positive"),
         ("--planner harmonic --field khatib --repulsion ranged:1", "ranged:K,P0"),
     ] {
-        // The files are not there: the command line is judged first.
+        // The files do not exist: the command line is checked first.
         place.run(&["no.urdf", "no.toml"], options).refused(2, &[part]);
     }
     for (field, part) in [
@@ -138,7 +138,8 @@ fn a_local_minimum_and_a_divergence_are_unknown_with_their_reasons() {
     assert!(diverged.json()["reason"].as_str().unwrap().contains("the relaxation diverged: after "));
 }
 
-/// The figure of a trap, its cure and its price; and two ways out without another sum.
+/// The figure shows a trap, its remedy by stronger repulsion, and the cost of that. Both kinds of escape need no other
+/// charge.
 #[test]
 fn the_cup_traps_until_all_repel_more_and_then_the_goal_is_blocked() {
     let place = Place::new();
@@ -150,7 +151,7 @@ fn the_cup_traps_until_all_repel_more_and_then_the_goal_is_blocked() {
         assert_eq!(done.code, 4, "{}", done.stderr);
         done.json()["reason"].as_str().unwrap().to_owned()
     };
-    // Within the cup; and, with four times as much, beside the goal at (0, -12).
+    // The trap is within the cup; with four times the charge, it is beside the goal at (0, -12).
     assert!(trapped("1").contains("local minimum at (0.2500, 3.7500)"), "{}", trapped("1"));
     assert_eq!(run("--repulsion sum:3").code, 0);
     assert!(trapped("4").contains("local minimum at (0.2500, -12.7500)"), "{}", trapped("4"));
@@ -215,7 +216,7 @@ fn compare_takes_rows_with_options() {
         ["wavefront", oriented, "harmonic --field khatib", "wavefront --search astar", sampled, "wavefront --cells 64"]
     );
     assert_eq!(table["planners"][4]["outcome"], "found");
-    // What a row says of itself goes before what is said of all: more than 48 x 48 cells were looked at.
+    // Settings of a row override those for all rows: that row has more than 48 x 48 cells.
     let cells = |row: usize| table["planners"][row]["size"]["cells"].as_u64().unwrap();
     assert!(cells(0) <= 48 * 48 && cells(5) > 48 * 48, "{} {}", cells(0), cells(5));
     for (with, part) in [
@@ -246,7 +247,7 @@ fn a_field_that_does_not_converge_is_not_looked_for_on_finer_grids() {
     assert!(reason.contains("at the resolution that its sweeps allow (256 x 256 cells: "), "{reason}");
 }
 
-/// Sweeps until the measure is met, and in all, of a field on one of the published maps.
+/// Returns the number of sweeps until the measure is met, and in total, of a field on one of the published maps.
 fn on_map(map: &str, options: &str) -> (u64, u64) {
     let place = Place::new();
     let files = [shipped("robots/room_gantry.urdf"), shipped(&format!("workspaces/maps/{map}.toml"))];
@@ -263,7 +264,7 @@ fn on_map(map: &str, options: &str) -> (u64, u64) {
 
 #[test]
 fn over_relaxation_ends_where_published_counts_do_and_finds_the_way() {
-    // Tables 17 and 18 of Deicu 2012 have 124 and 194, 166 and 189 sweeps, from free cells that start at the goals' value.
+    // Tables 17 and 18 of Deicu 2012 have 124 and 194, 166 and 189 sweeps, if free cells start at the goals' value.
     for (map, order, published) in
         [("leon", "rows", 124), ("leon", "corners", 194), ("rings", "rows", 166), ("rings", "corners", 189)]
     {

@@ -13,7 +13,7 @@ fn drawn(place: &Place, files: &[String; 2], options: &str) -> String {
     place.read("picture.svg")
 }
 
-/// What is written in a picture.
+/// Returns the texts in a picture.
 fn texts(picture: &str) -> Vec<&str> {
     let texts = picture.split("<text").skip(1).filter_map(|text| text.split_once('>')?.1.split_once("</text>"));
     texts.map(|(text, _)| text.trim()).collect()
@@ -28,7 +28,7 @@ fn values(list: &Value) -> Vec<[f64; 2]> {
     serde_json::from_value(list.clone()).unwrap()
 }
 
-/// Figures 6.11 and 6.12 of the course: before, only cells wider than five pixels had sides.
+/// Compares with figures 6.11 and 6.12 of the course. Previously, only cells wider than five pixels had sides.
 #[test]
 fn all_trapezoids_are_outlined_and_the_channels_points_are_marked() {
     let place = Place::new();
@@ -51,7 +51,8 @@ fn all_trapezoids_are_outlined_and_the_channels_points_are_marked() {
     );
 }
 
-/// The simpler path of the course, section 6.3.2: all middles of doors, and the centre of a cell only between doors on one line.
+/// The simpler path of the course, section 6.3.2: all midpoints of portals, and the centre of a cell only between
+/// portals on one line.
 #[test]
 fn the_path_of_middles_has_a_centre_only_between_collinear_doors() {
     let place = Place::new();
@@ -76,7 +77,7 @@ fn the_path_of_middles_has_a_centre_only_between_collinear_doors() {
     place.run(&maze(), "--planner triangles --path middles").refused(2, &["--path middles needs --planner trapezoid"]);
 }
 
-/// A recess below the start of two walls: the channel enters a cell and leaves it by the same vertical.
+/// The path leads around the end of a bar: the channel enters a cell and leaves it by the same vertical.
 #[test]
 fn doors_on_one_vertical_have_the_centre_of_their_cell_between_them() {
     let place = Place::new();
@@ -90,7 +91,7 @@ fn doors_on_one_vertical_have_the_centre_of_their_cell_between_them() {
     assert!(waypoints[1][0] == waypoints[3][0] && waypoints[2][0] > waypoints[1][0], "{waypoints:?}");
 }
 
-/// Figure 6.14 of the course.
+/// Compares with figure 6.14 of the course.
 #[test]
 fn cells_of_a_coarse_grid_have_the_numbers_of_the_wave() {
     let place = Place::new();
@@ -107,7 +108,7 @@ fn cells_of_a_coarse_grid_have_the_numbers_of_the_wave() {
     assert!(!texts(&fine).contains(&"37"));
 }
 
-/// The grid of so many cells is the one that was asked for, or there is none, and the reason says so.
+/// The program uses the requested number of cells, or finds no path and states that as the reason.
 #[test]
 fn coarse_grids_are_kept_or_refused_with_the_reason() {
     let place = Place::new();
@@ -119,7 +120,7 @@ fn coarse_grids_are_kept_or_refused_with_the_reason() {
     let more = place.run(&shelf(), "--planner wavefront --cells 16 --levels 6");
     assert_eq!(more.code, 0, "{}", more.stderr);
     assert!(more.stdout.contains("32 x 32: 16 x 16 show no certified path"), "{}", more.stdout);
-    // Planners without cells go on as they were.
+    // The option does not affect planners without cells.
     assert_eq!(place.run(&shelf(), "--planner visibility --cells 16 --quiet").code, 0);
 }
 
@@ -133,7 +134,7 @@ fn flow_lines_are_drawn_where_they_are_asked_for() {
     let [flow, both] = ["flow", "both"].map(|lines| of(&format!("--field-lines {lines}")));
     let has = |picture: &str| ["equipotentials", "flow lines"].map(|text| texts(picture).contains(&text));
     assert_eq!([has(&usual), has(&flow), has(&both)], [[true, false], [false, true], [true, true]]);
-    // Lines from 16 x 16 places, but for those within obstacles, each with its head.
+    // Lines begin at 16 x 16 places, except for those within obstacles. Each has an arrowhead.
     let heads = flow
         .split("<path")
         .filter(|path| path.contains("fill=\"#0072b2\""))

@@ -31,7 +31,7 @@ fn the_demo_needs_no_files() {
     let result: serde_json::Value = serde_json::from_str(&place.read("plan.json")).unwrap();
     assert_eq!((&result["status"], &result["certified"]), (&"found".into(), &true.into()));
     assert!(place.read("plan.html").contains("SCARA cell"));
-    // The cell that is built in is the one that `init` writes: what is true of one is true of the other.
+    // The built-in cell is the one that `init` writes, so the plan of one must also hold for the other.
     assert_eq!(init(&place, "scara").code, 0);
     let verified = place.run(&["verify", "scara/arm.urdf", "scara/world.toml", "plan.json"], "");
     assert_eq!(verified.code, 0, "{}", verified.stdout);
@@ -95,7 +95,8 @@ fn what_init_writes_can_be_planned_at_once() {
     }
 }
 
-/// Lines of a starter world that are keys behind a `#`: it stands right before them, before words there is a blank.
+/// Returns true for lines of a starter world that are commented keys. A `#` is directly before a key, but followed by a
+/// blank before words.
 fn is_key(line: &str) -> bool {
     line.strip_prefix('#').is_some_and(|rest| rest.starts_with(|c: char| c.is_alphabetic() || c == '['))
 }
@@ -114,7 +115,7 @@ fn keys_that_are_commented_out_are_valid() {
                 i += 1;
                 continue;
             }
-            // A table goes with the keys below it, other keys stand alone.
+            // A table includes the keys below it; other keys are separate.
             let is_table = lines[i].starts_with("#[");
             let end =
                 if is_table { (i..lines.len()).find(|&j| !is_key(lines[j])).unwrap_or(lines.len()) } else { i + 1 };
@@ -158,7 +159,7 @@ fn init_spares_what_is_there() {
     assert!(done.stdout.contains("cplan inspect \"a b/arm.urdf\" \"a b/world.toml\""), "{}", done.stdout);
 }
 
-/// A folder in which nothing can be made gives one error, and none of its contents changes.
+/// A folder in which nothing can be created gives one error, and its contents do not change.
 #[cfg(unix)]
 #[test]
 fn places_that_cannot_be_written_give_one_error() {
@@ -168,7 +169,8 @@ fn places_that_cannot_be_written_give_one_error() {
     place.run(&["demo"], "").refused(1, &["plan.json exists already"]);
     fs::create_dir(place.path("locked")).unwrap();
     fs::set_permissions(place.path("locked"), fs::Permissions::from_mode(0o555)).unwrap();
-    // Whoever may write everywhere (root) finds no place locked; /proc is so for everybody, where there is one.
+    // For users who may write everywhere (root), no folder is locked. They cannot write to /proc either, where it
+    // exists.
     let locked = if fs::write(place.path("locked/probe"), "").is_ok() { "/proc" } else { "locked" };
     if fs::metadata(locked).is_ok() || locked == "locked" {
         for command in ["demo --dir", "init", "man"] {
@@ -182,7 +184,7 @@ fn places_that_cannot_be_written_give_one_error() {
     fs::set_permissions(place.path("locked"), fs::Permissions::from_mode(0o755)).unwrap();
 }
 
-/// Every key of a wrong kind is refused with its place and what to write instead.
+/// Every value of a wrong kind is refused with its place and the right form.
 #[test]
 fn every_wrong_kind_of_value_has_help() {
     let place = Place::new();

@@ -20,7 +20,7 @@ const ABOVE: &str = "[[obstacle]]\npolyline = [[0.692982, 0.788844], [1.979949, 
 
 const PLANNERS: [&str; 5] = ["visibility", "trapezoid", "wavefront", "harmonic", "subdivision"];
 
-/// A folder with an arm and a world.
+/// Returns a folder with an arm and a world.
 fn place(arm: &str, world: &str) -> Place {
     let place = Place::new();
     place.write("arm.urdf", arm);
@@ -106,14 +106,14 @@ fn without_obstacles_only_the_joint_that_matters_moves() {
 
 #[test]
 fn a_goal_is_refused_only_if_no_value_of_the_free_joint_is_free() {
-    // The start's elbow would hit this at the goal; others do not.
+    // The start's elbow value would hit this at the goal; others do not.
     let one = "[[obstacle]]\ncircle = { center = [0.8644, 1.3463], radius = 0.1 }\n";
     let some = place(ELBOW, &format!("{ENDS}{one}"));
     run(&some, "--goal 1,0").refused(1, &["the goal", "not free"]);
     let done = run(&some, "--json");
     assert_eq!(done.code, 0, "{}", done.stderr);
     assert!(last(&done.json())[1].abs() > 0.1);
-    // Most of a ring around the goal's elbow stops link 2 wherever it points; link 1 comes in through the rest.
+    // Most of a ring around the goal's elbow blocks link 2 in every direction. Link 1 enters through the rest.
     let ring: Vec<String> = (-9..=9)
         .map(|k| {
             let (sin, cos) = (1.0 + f64::from(k) * std::f64::consts::TAU / 24.0).sin_cos();
@@ -128,7 +128,7 @@ fn a_goal_is_refused_only_if_no_value_of_the_free_joint_is_free() {
     run(&none, "").refused(1, &["no IK solution that puts the tip at", "elbow from -2.5 ", "hits obstacle", " more"]);
 }
 
-/// A part of the segment is out of reach behind walls, and all of the rest is blocked: then it is proven.
+/// Walls close off one part of the segment, and all of the rest is blocked. The program proves that.
 #[test]
 fn a_proof_for_all_values_of_the_free_joint_holds() {
     let across = "[[obstacle]]\npolyline = [[0.6, 0.05], [1.9, 0.05]]\n";
@@ -142,7 +142,7 @@ fn a_proof_for_all_values_of_the_free_joint_holds() {
     }
 }
 
-/// Links of equal lengths fold onto their base: then joint 1 is free.
+/// Links of equal lengths fold onto their base, which leaves joint 1 free.
 #[test]
 fn a_folded_arm_may_stand_at_any_angle() {
     let arm = ELBOW.replace("0.4 0 0", "0.5 0 0").replace("0.8 0.05", "1 0.05").replace("2.5", "3.3").replace(

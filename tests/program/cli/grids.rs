@@ -1,16 +1,16 @@
-//! Searches of a grid on the command line: where they begin, ties, iterative deepening, and the matrix of their labels.
+//! Searches of a grid on the command line: start points, ties, iterative deepening, and the matrix of their labels.
 
 use super::*;
 use crate::common::reference::published;
 
-/// The map, its 12 x 20 cells by their centres, one attempt.
+/// The map with its 12 x 20 cells, tested at their centres, and one attempt.
 const MAP: &str = "--planner wavefront --cells 12x20 --space centers --levels 1 --path own --quiet";
 
 fn map() -> [String; 2] {
     [shipped("robots/stage_robot.urdf"), shipped("workspaces/published/obstacle_map.toml")]
 }
 
-/// The matrix that a search leaves.
+/// Returns the matrix of labels of a search.
 fn matrix(place: &Place, options: &str) -> Vec<Vec<f64>> {
     let done = place.run(&map(), &format!("{MAP} {options} --output cspace.csv"));
     assert_eq!(done.code, 0, "{options}: {}", done.stderr);
@@ -22,7 +22,7 @@ fn labelled(matrix: &[Vec<f64>]) -> usize {
     matrix.iter().flatten().filter(|value| value.is_finite()).count()
 }
 
-/// R. F. Goncalves da Silva, figures 2 and 3, whose labels begin at 2 and at 1.
+/// Compares with R. F. Goncalves da Silva, figures 2 and 3, whose labels begin at 2 and at 1.
 #[test]
 fn a_search_from_the_start_with_ties_first_labels_the_published_50_cells() {
     let place = Place::new();
@@ -32,15 +32,15 @@ fn a_search_from_the_start_with_ties_first_labels_the_published_50_cells() {
     assert_eq!((wave[4][2], wave[18][10], wave[0][0]), (22.0, 0.0, f64::INFINITY));
     let costs = matrix(&place, "--search astar --forward --ties first");
     assert_eq!((costs[4][2], costs[18][10], labelled(&costs)), (0.0, 22.0, 50));
-    // The dead end beside the start, and cells that it does not reach.
+    // The dead end beside the start has labels, other cells do not.
     assert_eq!((costs[3][2], costs[3][3], costs[5][1]), (1.0, 2.0, 2.0));
     assert!(costs[1][1].is_nan() && costs[19][11].is_infinite());
-    // The other rule, and the other end, label fewer and other cells.
+    // The other rule for ties, and a search from the other end, label fewer and different cells.
     assert_eq!(labelled(&matrix(&place, "--search astar --forward")), 41);
     assert_eq!(labelled(&matrix(&place, "--search astar")), 40);
 }
 
-/// All of both matrices, cell by cell.
+/// Compares all of both matrices, cell by cell.
 #[test]
 #[ignore = "needs the published data that CPLAN_REFERENCE names"]
 fn the_published_matrices_come_from_the_command_line() {

@@ -1,8 +1,9 @@
-//! Robots as files have them: limits in degrees, lengths in millimetres, placeholders for speeds, limits that nobody gives.
+//! Robots as real files describe them: limits in degrees, lengths in millimetres, placeholders for speeds, missing
+//! limits.
 
 use super::{FREE, Place, shipped};
 
-/// `planar_2r` with pieces of its text replaced, wherever they are.
+/// Returns `planar_2r` with pieces of its text replaced, wherever they are.
 fn arm(changes: &[(&str, &str)]) -> String {
     let urdf = std::fs::read_to_string(shipped("robots/planar_2r.urdf")).unwrap();
     changes.iter().fold(urdf, |urdf, (from, to)| {
@@ -13,7 +14,7 @@ fn arm(changes: &[(&str, &str)]) -> String {
 
 const TO_A_TIP: &str = "[start]\njoints = [0.0, 1.0]\n[goal]\ntip = [0.5, 0.5]\n";
 
-/// The hint that the main job and `inspect` give about a robot.
+/// Checks the hint that the main job and `inspect` give about a robot.
 fn hinted(changes: &[(&str, &str)], world: &str, parts: &[&str]) {
     let place = Place::new();
     place.write("arm.urdf", arm(changes));
@@ -42,10 +43,10 @@ fn limits_that_look_like_degrees_are_refused_with_both_readings() {
         place.write("world.toml", format!("[robot]\nlimits = {{ shoulder = {range}, elbow = {range} }}\n{TO_A_TIP}"));
         let done = place.run(&["arm.urdf", "world.toml"], "");
         assert_eq!(done.code, 0, "{range}: {}", done.stderr);
-        // The tip is there in thousands of ways if the joints turn 48 times.
+        // If the joints turn 48 times, thousands of IK solutions reach the tip.
         assert!(done.stdout.lines().count() < 40, "{}", done.stdout);
     }
-    // Whole turns are meant in radians, and so is what a wrist with a cable turns.
+    // Limits of whole turns are in radians, and so are those of a wrist with a cable.
     for range in ["lower=\"-31.416\" upper=\"31.416\"", "lower=\"-6.98\" upper=\"6.98\""] {
         place.write("arm.urdf", arm(&[("lower=\"-2.9\" upper=\"2.9\"", range)]));
         place.write("world.toml", FREE);
@@ -98,7 +99,7 @@ fn joints_without_an_axis_are_noticed() {
     place.run(&["arm.urdf", "world.toml"], "").refused(1, &parts);
 }
 
-/// What nobody gives, in words.
+/// Message about a missing acceleration limit.
 const ASSUMED: &str =
     "joint \"elbow\": no acceleration limit given; assumed 12 rad/s2, top speed in 0.25 s, for the timing alone";
 
@@ -119,7 +120,7 @@ fn verify_judges_limits_that_are_given_and_reports_the_others() {
     let json = verify("--anywhere --json").json();
     assert_eq!((&json["verdict"], json["limits_broken"].as_array().unwrap().len()), (&"free".into(), 0));
     assert_eq!(json["assumed_exceeded"][1]["limit"], "acceleration");
-    // Given ones decide, be they of the world or of the URDF.
+    // Given limits decide, whether the world or the URDF states them.
     place.write("world.toml", format!("[robot]\nacceleration = {{ elbow = 12 }}\n{FREE}"));
     let given = verify("--anywhere --json");
     let json = given.json();

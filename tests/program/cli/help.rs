@@ -1,12 +1,12 @@
-//! Help, completions, manual pages: every example is a command that runs.
+//! Help, completions, manual pages: every example is a valid command.
 
 use super::Place;
 use std::path::Path;
 
-/// Examples that are only read: they run without end, or longer than a test should.
+/// Examples that the test does not run: they run without end, or too long for a test.
 const ONLY_READ: [&str; 3] = ["cplan serve", "--suite", "--queries"];
 
-/// The commands, as the help lists them.
+/// Returns the commands that the help lists.
 pub fn commands(place: &Place) -> Vec<String> {
     let help = place.run(&["--help"], "").stdout;
     let listed = help.split("Commands:\n").nth(1).expect("a list of commands").split("\n\n").next().unwrap();
@@ -20,7 +20,7 @@ pub fn commands(place: &Place) -> Vec<String> {
     names.into_iter().filter(|name| name != "help").collect()
 }
 
-/// The words of a command line, quotes taken off, without what the shell does with its output.
+/// Returns the words of a command line without quotes, and without redirections or pipes.
 pub fn words(line: &str) -> Vec<String> {
     let mut words = Vec::new();
     for (i, part) in line.split('"').enumerate() {
@@ -35,7 +35,7 @@ pub fn words(line: &str) -> Vec<String> {
     words
 }
 
-/// Copies the files of a shipped folder, its own folders included.
+/// Copies the files of a shipped folder, with its subfolders.
 pub fn copy(from: &Path, to: &Path) {
     std::fs::create_dir_all(to).unwrap();
     for entry in std::fs::read_dir(from).unwrap() {
@@ -75,7 +75,7 @@ fn every_command_has_examples_and_they_run() {
             let done = place.run(&words(example), "");
             assert!([0, 3].contains(&done.code), "{name}: {example}: {} {}", done.code, done.stderr);
             assert!(!done.stderr.contains("error"), "{name}: {example}: {}", done.stderr);
-            // Files that one example writes are not in the way of the next command's.
+            // Removes the files of one example, so that they do not affect the next command.
             for file in ["plan.json", "plan.html"] {
                 let _ = std::fs::remove_file(place.path(file));
             }
@@ -96,7 +96,7 @@ fn completions_know_commands_options_and_values() {
         for part in ["planner", "goal-tip", "recheck", "completions"] {
             assert!(done.stdout.contains(part), "{shell}: no {part}");
         }
-        // The generators for the other two list no values.
+        // The generators for the other two shells list no values.
         for part in ["visibility", "subdivision", "astar", "scara", "gauss-seidel"] {
             let has_values = ["bash", "zsh", "fish"].contains(&shell);
             assert!(!has_values || done.stdout.contains(part), "{shell}: no {part}");
@@ -117,7 +117,7 @@ fn completions_know_commands_options_and_values() {
     assert!(dir.contains("compgen -d") || dir.contains("-o plusdirs"), "{dir}");
 }
 
-/// What fish offers for a command line that begins so; none where there is no fish.
+/// Returns fish's completions of a command line; `None` if fish is not installed.
 fn offered_by_fish(place: &Place, line: &str) -> Option<Vec<String>> {
     let script = format!("source cplan.fish; complete -C '{line}'");
     let mut fish = std::process::Command::new("fish");
@@ -130,7 +130,8 @@ fn offered_by_fish(place: &Place, line: &str) -> Option<Vec<String>> {
 fn fish_completes_whatever_stands_before() {
     let place = Place::new();
     let script = place.run(&["completions", "fish"], "").stdout;
-    // The main job's options are there behind its files, too: nothing asks whether a word is the first but for subcommands.
+    // The options of the main job are also offered behind its files: only subcommands require that the word is the
+    // first.
     assert!(!script.contains("needs_command\" -l") && !script.contains("needs_command\" -s"), "{script}");
     for rule in [
         "$__fish_cplan_commands\" -l planner",
@@ -179,12 +180,12 @@ fn manual_pages_say_what_the_help_says() {
         for section in ["NAME", "SYNOPSIS", "DESCRIPTION", "OPTIONS", "EXIT STATUS", "EXAMPLES"] {
             assert!(text.lines().any(|l| l.replace('"', "") == format!(".SH {section}")), "{page}: no {section}");
         }
-        // An example stays on a line of its own, between the requests that switch filling off and on.
+        // An example is on a separate line, between the requests that switch filling off and on.
         let examples = text.split(".SH \"EXAMPLES\"\n").nth(1).unwrap();
         assert!(examples.contains(".EX\ncplan "), "{page}: {examples}");
         assert_eq!(text.matches("\n.EX\n").count(), text.matches("\n.EE\n").count(), "{page}");
     }
-    // Written again over what is there.
+    // Existing pages are overwritten.
     assert_eq!(place.run(&["man", "pages/man1"], "").code, 0);
     place.write("file", "");
     place.run(&["man", "file"], "").refused(1, &["cannot make the folder file"]);

@@ -1,4 +1,4 @@
-//! Drawings become worlds that can be planned in.
+//! Drawings become worlds in which one can plan.
 
 use super::{Place, shipped};
 use serde_json::Value;
@@ -7,7 +7,7 @@ fn cell() -> String {
     shipped("workspaces/drawings/cell.dxf")
 }
 
-/// A DXF in millimetres of these entities: words in turn are codes and values.
+/// Returns a DXF in millimetres with these entities: words are codes and values in turn.
 fn dxf(entities: &str) -> String {
     let all = format!("0 SECTION 2 HEADER 9 $INSUNITS 70 4 0 ENDSEC 0 SECTION 2 ENTITIES {entities} 0 ENDSEC 0 EOF");
     all.split_whitespace().map(|word| format!("{word}\n")).collect()
@@ -42,7 +42,7 @@ fn a_cell_by_cad_is_planned_in() {
     for part in ["6 obstacles", "extent     x -1.500 to 2.400 m, y -1.500 to 1.500 m", "cell.toml"] {
         assert!(done.stdout.contains(part), "{part} is not in {}", done.stdout);
     }
-    // What lies on other layers was not asked for.
+    // Objects on other layers were not requested.
     assert!(!done.stdout.contains("left out"), "{}", done.stdout);
     let planned = place.run(&[shipped("robots/planar_2r.urdf"), "cell.toml".into()], "--json").json();
     assert_eq!(planned["status"], "found");
@@ -77,7 +77,7 @@ fn scaled_then_turned_then_moved() {
     let made = world(&place, "w.toml");
     assert_eq!(made["obstacle"][0]["polyline"].to_string(), "[[1.0, -0.05], [0.9, -0.05]]");
     assert_eq!(made["obstacle"][1]["circle"].to_string(), "{ center = [0.8, 0.35], radius = 0.04 }");
-    // A height that is said is meant as it is; one of the drawing grows with it.
+    // A specified height is used unchanged; a height of the drawing is scaled with it.
     assert_eq!(made["obstacle"][0]["height"].to_string(), "[0.0, 1.0]");
     place.run(&["import", "two.dxf"], "--scale 2 --unit cm --output w.toml");
     let made = world(&place, "w.toml");
@@ -141,7 +141,7 @@ fn what_a_frozen_layer_brings_in_is_left_out_by_its_name() {
 #[test]
 fn outlines_that_are_none_are_taken_as_what_they_surround() {
     let place = Place::new();
-    // A bow tie, a loop that retraces itself, and a room around both.
+    // The drawing has a bow tie, a loop that retraces itself, and a room around both.
     place.write(
         "odd.dxf",
         dxf("0 LWPOLYLINE 8 tie 70 1 10 0 20 0 10 100 20 100 10 100 20 0 10 0 20 100 \
@@ -164,7 +164,7 @@ fn outlines_that_are_none_are_taken_as_what_they_surround() {
     assert_eq!(made["obstacle"][3]["polyline"].as_array().unwrap().len(), 5);
 }
 
-/// Two layers: three squares and a ring of two polygons would be WALLS, a disc FEEDER.
+/// Returns two layers: three squares and a ring of two polygons would be WALLS, a disc FEEDER.
 fn hall() -> String {
     let square = |x: f64| {
         let [a, b] = [x, x + 100.0];
@@ -188,14 +188,14 @@ fn options_take_the_names_that_the_world_gives() {
         made["obstacle"].as_array().unwrap().iter().map(|o| kind(o).unwrap().to_owned()).collect()
     };
     assert_eq!(names(&made(&[])), ["WALLS 1", "WALLS 2", "WALLS 3", "FEEDER"]);
-    // One is a wall, the others are solid; so is a circle, whose chords are as near as they must be.
+    // One obstacle is a wall, the others are solid. The circle is also a wall, with sufficiently accurate chords.
     let walls = made(&["--walls", "WALLS 2", "--walls", "feeder"]);
     assert_eq!(kinds(&walls), ["polygon", "polyline", "polygon", "polyline"]);
     for p in walls["obstacle"][3]["polyline"].as_array().unwrap() {
         let [x, y] = [0, 1].map(|k| p[k].as_float().unwrap());
         assert!(((x - 0.5).hypot(y) - 0.05).abs() < 1e-8, "{p}");
     }
-    // Whatever is left out, the others keep their names.
+    // The remaining obstacles keep their names if others are omitted.
     assert_eq!(names(&made(&["--without", "walls"])), ["FEEDER"]);
     let some = made(&["--without", "WALLS 1", "--height", "WALLS 3=0:2"]);
     assert_eq!(names(&some), ["WALLS 2", "WALLS 3", "FEEDER"]);
@@ -223,7 +223,8 @@ fn notes_are_of_what_is_taken() {
 #[test]
 fn what_comes_in_with_a_block_has_its_place() {
     let place = Place::new();
-    // A triangle and a disc about the base point (1, 1), within a block that is mirrored, scaled by 2 and turned by 90 degrees.
+    // The drawing has a triangle and a disc around the base point (1, 1), in a block that is mirrored, scaled by 2 and
+    // turned by 90 degrees.
     let block = "0 SECTION 2 BLOCKS 0 BLOCK 2 unit 10 1 20 1 0 LWPOLYLINE 8 0 70 1 10 1 20 1 10 101 20 1 10 1 20 51 \
                  0 CIRCLE 8 0 10 201 20 1 40 10 0 ENDBLK \
                  0 BLOCK 2 pair 10 0 20 0 0 INSERT 8 0 2 unit 10 0 20 0 0 INSERT 8 0 2 unit 10 0 20 100 50 90 0 ENDBLK 0 ENDSEC";
@@ -275,7 +276,7 @@ fn what_is_hardly_meant_is_told_with_its_cure() {
     let two = format!("{post}0 CIRCLE 8 post 10 900 20 0 40 20 ");
     assert_eq!(told(&two, "--unit m"), [wide("440 m")]);
     assert_eq!(told(&two, "--unit um"), [wide("0.440 mm")]);
-    // The main job and `inspect` say so, too.
+    // The main job and `inspect` report it, too.
     assert_eq!(place.run(&["import", "w.dxf"], "--unit m --start 0,1 --goal 1,0.5 --output far.toml").code, 0);
     let robot = shipped("robots/planar_2r.urdf");
     let planned = place.run(&[robot.as_str(), "far.toml"], "");
@@ -291,7 +292,7 @@ fn what_is_hardly_meant_is_told_with_its_cure() {
 #[test]
 fn a_picture_names_what_it_has_room_for_and_hides_nothing() {
     let place = Place::new();
-    // Small ones first, then one that lies under them all; two layers.
+    // Small obstacles come first, then one below all of them; two layers.
     let disc = |i: usize| format!("0 CIRCLE 8 pins 10 {} 20 {} 40 20 ", 100 * (i % 5), 100 * (i / 5));
     let plate = "0 LWPOLYLINE 8 plate 70 1 10 -60 20 -60 10 460 20 -60 10 460 20 460 10 -60 20 460";
     place.write("tray.dxf", dxf(&((0..24).map(disc).collect::<String>() + plate)));
@@ -303,9 +304,9 @@ fn a_picture_names_what_it_has_room_for_and_hides_nothing() {
     for i in 1..=24 {
         assert!(texts.contains(&format!("pins {i}").as_str()), "pins {i} is not in {texts:?}");
     }
-    // A swatch for each layer, and the plate's own name.
+    // The legend has a sample for each layer, and the plate's own name.
     assert_eq!(["pins", "plate"].map(|name| texts.iter().filter(|text| **text == name).count()), [1, 2]);
-    // The plate in the second colour comes before any disc, and these share the first.
+    // The plate, in the second colour, is drawn before all discs, which share the first.
     let filled = |node: &roxmltree::Node| node.attribute("fill").map(str::to_owned);
     let drawn: Vec<_> = xml.descendants().filter(|node| ["circle", "path"].contains(&node.tag_name().name())).collect();
     let first = drawn.iter().position(|node| node.tag_name().name() == "circle").unwrap();
@@ -369,7 +370,7 @@ fn what_is_wrong_is_said_with_its_place_and_cure() {
     place.run(&["import", "broken.svg"], "--picture broken.svg").refused(1, &["the output broken.svg is the input"]);
 }
 
-/// A map in projected coordinates, as surveys and GIS have them: the hint is followed, and the world can be planned in.
+/// A map has projected coordinates, as from surveys and GIS. With the options of the hint, one can plan in its world.
 #[test]
 fn projected_coordinates_are_moved_as_the_hint_says() {
     let place = Place::new();
@@ -388,7 +389,7 @@ fn projected_coordinates_are_moved_as_the_hint_says() {
         assert!(corner.iter().all(|x| x.as_float().unwrap().abs() < 2.0), "{corner:?}");
         std::fs::remove_file(place.path("w.toml")).unwrap();
     }
-    // What is too large altogether cannot be moved near.
+    // No move helps if the drawing itself is too large.
     place.write("site.geojson", r#"{"type": "LineString", "coordinates": [[0, 0], [5e6, 0]]}"#);
     let cure = place.run(&["import", "site.geojson"], "--json").json()["cure"].to_string();
     assert!(cure.contains("--unit") && !cure.contains("--move"), "{cure}");

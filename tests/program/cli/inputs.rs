@@ -1,4 +1,4 @@
-//! Every kind of bad input once through the binary; `input_errors` has the details.
+//! Every kind of invalid input once through the program; `input_errors` has the details.
 
 use super::{FREE, Place, shipped};
 
@@ -54,7 +54,7 @@ fn starts_and_goals_that_collide_name_link_obstacle_and_depth() {
     place.plan(FREE, "--goal-tip 9,9").refused(1, &["--goal-tip", "out of reach", "cure"]);
     let far = format!("{FREE}[[obstacle]]\nname = \"far\"\ncircle = {{ center = [3, 0], radius = 0.1 }}\n");
     place.plan(format!("clearance = 3\n{far}"), "").refused(1, &["nearer than the clearance of 3 m", "cure"]);
-    // What makes the world look like another one may be why, and is said first.
+    // A warning that the world may be in another unit comes first, because it may be the cause.
     let done = place.plan(&far, "--clearance 3");
     let is_said = |words: &str| done.stderr.contains(words);
     assert!(

@@ -1,4 +1,4 @@
-//! Joints on circles, many turns from zero: a proof there is held to where the start really is.
+//! Joints on circles, many turns from zero: a proof there is checked against the true start.
 
 use super::*;
 use crate::common::{random, recheck};
@@ -20,7 +20,7 @@ fn scene(place: &Place) -> LoadedScene {
 /// The second link out of the way.
 const FOLDED: f64 = -2.0;
 
-/// The greatest angle at which the first link is free, to the last bit.
+/// Returns the greatest angle at which the first link is free, to the last bit.
 fn last_free(scene: &LoadedScene) -> f64 {
     let is_free = |q1: f64| scene.scene.clearance(Configuration::new(q1, FOLDED)) > 0.0;
     let (mut free, mut hit) = (0.0, PI / 4.0);
@@ -32,8 +32,8 @@ fn last_free(scene: &LoadedScene) -> f64 {
     free
 }
 
-/// Starts that are free by some picoradians, many turns from zero, and where a wrapping by a double 2 pi takes them to: into
-/// what collides.
+/// Returns starts, many turns from zero, that are free by some picoradians. Each comes with its value after wrapping by
+/// a double 2 pi, which collides.
 fn starts(last_free: f64) -> impl Iterator<Item = (f64, f64)> {
     (70_000..159_000_u32).filter_map(move |turns| {
         let start = last_free - 2e-11 + f64::from(turns) * TAU;
@@ -42,7 +42,7 @@ fn starts(last_free: f64) -> impl Iterator<Item = (f64, f64)> {
     })
 }
 
-/// A tiny box about a configuration, in which the first link is in the wall.
+/// Returns a tiny box around a configuration in which the first link is in the wall.
 fn stuck(q1: f64) -> StuckBox {
     let cell = Cell { lower: [q1 - 1e-14, FOLDED - 1e-14], upper: [q1 + 1e-14, FOLDED + 1e-14] };
     StuckBox { cell, pair: Pair { link: 0, part: 0, obstacle: 0, piece: 0 } }
@@ -100,7 +100,7 @@ fn plans_and_proofs_many_turns_from_zero_are_those_at_zero() {
         let verified = place.run(&["verify", &robot, "world.toml", "plan.json", "--start", &start], "");
         assert_eq!(verified.code, 0, "{}", verified.stdout);
     }
-    // Beyond a million radians doubles say too little.
+    // Beyond a million radians, doubles are too coarse.
     let done = place.run(&[&robot, "world.toml", "--start", "1e7,0"], "");
     assert_ne!(done.code, 0);
     assert!(done.stderr.contains("too large"), "{}", done.stderr);

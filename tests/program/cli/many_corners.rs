@@ -1,5 +1,5 @@
-//! Input with a hundred or a thousand times as many corners, links or pixels as anybody draws: answered in the memory of a
-//! small machine, and as the same shapes are when they are given in a few numbers.
+//! Input with a hundred or a thousand times as many corners, links or pixels as anybody draws. It is answered in the
+//! memory of a small machine, with the same results as for the same shapes given by a few numbers.
 
 use super::{FREE, Place, shipped};
 use serde_json::Value;
@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 use std::fmt::Write;
 use std::process::Command;
 
-/// Memory that a run may take, with all that is set aside and not used, KiB.
+/// Memory of a run, including reserved memory that is not used, KiB.
 const MEMORY: u32 = 1 << 20;
 
 fn listed(points: impl IntoIterator<Item = [f64; 2]>) -> String {
@@ -33,7 +33,7 @@ fn polyline(points: Vec<[f64; 2]>) -> String {
     format!("[[obstacle]]\npolyline = [{}]\n", listed(points))
 }
 
-/// What the program says of `planar_2r`, or another arm, among obstacles, within [`MEMORY`].
+/// Returns the program's result for `planar_2r`, or another arm, among obstacles, within [`MEMORY`].
 fn planned(urdf: &str, obstacles: &str, options: &str) -> Value {
     let place = Place::new();
     place.write("world.toml", format!("{FREE}{obstacles}"));
@@ -60,7 +60,7 @@ fn number(answer: &Value, key: &str) -> f64 {
     answer[key].as_f64().unwrap_or_else(|| panic!("{key}: {}", answer[key]))
 }
 
-/// A found path is certified, and its length lies between what is proven of any and `most`.
+/// Checks that a found path is certified, and that its length lies between its proven lower bound and `most`.
 fn is_found_within(answer: &Value, most: f64) {
     assert_eq!((&answer["status"], &answer["certified"]), (&"found".into(), &true.into()));
     let (length, least) = (number(answer, "length"), number(&answer["optimum"], "lower_bound"));
@@ -80,7 +80,7 @@ fn a_polygon_of_5000_corners_around_a_circle_is_passed_like_the_circle() {
     let disc = planned(&arm(), "[[obstacle]]\ncircle = { center = [1.2, 0.3], radius = 0.15 }\n", "");
     let answer = planned(&arm(), &polygon(ring(5000, center, |_| radius)), "");
     is_found_within(&answer, number(&disc, "length") * 1.01);
-    // The circle holds the polygon: no path around it is shorter than what is proven of the polygon.
+    // The circle contains the polygon, so no path around it is shorter than the polygon's lower bound.
     assert!(number(&answer["optimum"], "lower_bound") <= number(&disc, "length"));
     assert!(number(&disc["optimum"], "lower_bound") <= number(&answer, "length") * (1.0 + 1e-4));
     let other = planned(&arm(), &polygon(ring(5000, center, |_| radius)), "--planner subdivision");
@@ -114,7 +114,7 @@ fn noise(k: usize) -> f64 {
     (k as f64 * 0.618_033_988_749 + (k as f64 * 0.013).sin() * 17.0).rem_euclid(1.0) * 2.0 - 1.0
 }
 
-/// The outline of something that was scanned: each corner is off by its own noise.
+/// The polygon is like the outline of a scanned object: each corner has its own noise.
 #[test]
 fn a_scanned_outline_of_6000_corners_is_passed_between_its_least_and_its_greatest_circle() {
     let center = [1.2, 0.3];
@@ -123,7 +123,7 @@ fn a_scanned_outline_of_6000_corners_is_passed_between_its_least_and_its_greates
     is_found_within(&planned(&arm(), &scan, ""), number(&around, "length") * 1.06);
 }
 
-/// A wall that crosses itself thousands of times: exact C-obstacles of all its pieces cross each other by the million.
+/// The wall crosses itself thousands of times. Exact C-obstacles of all its pieces cross each other by the million.
 #[test]
 fn a_noisy_zigzag_of_5000_points_is_passed_like_the_band_that_it_fills() {
     let point = |k: usize| [1.0 + 0.3 * k as f64 / 5000.0, 0.25 + 0.05 * (k % 2) as f64 + 0.02 * noise(k)];
@@ -133,7 +133,7 @@ fn a_noisy_zigzag_of_5000_points_is_passed_like_the_band_that_it_fills() {
     is_found_within(&planned(&arm(), &zigzag, ""), number(&around, "length") * 1.06);
 }
 
-/// The arm with a forearm that is a mesh: a prism over a polygon of so many corners around that of the file.
+/// Returns the arm with a mesh as its forearm: a prism over a polygon of `corners` corners around that of the file.
 fn with_mesh(place: &Place, corners: usize) -> String {
     let mut stl = vec![0; 80];
     let rim = ring(corners, [0.0, 0.0], |_| 1.0);
@@ -173,7 +173,7 @@ fn a_mesh_with_an_outline_of_720_corners_is_a_link_like_others() {
     assert!(number(&rough["optimum"], "lower_bound") <= number(&fine, "length") * 1.001);
 }
 
-/// A robot whose arm carries a chain of so many links more.
+/// Returns a robot whose arm carries a chain of further links.
 fn long_chain(links: usize) -> String {
     let mut urdf = r#"<robot name="chain"><link name="base"/><link name="l0"/><link name="l1"><collision><geometry>
 <box size="0.1 0.1 0.1"/></geometry></collision></link>
@@ -209,7 +209,8 @@ fn a_robot_with_20_000_broken_joints_is_refused_with_the_first_of_them() {
     assert!(done.stderr.len() < 40_000, "{} bytes", done.stderr.len());
 }
 
-/// Ten thousand obstacles out of reach: the optimum is that without them, to the same gap, and what is proven is, in the numbering of all.
+/// With ten thousand obstacles out of reach, the optimum is that without them, to the same gap. Proofs keep the numbers
+/// of all obstacles.
 #[test]
 fn what_is_out_of_reach_changes_nothing() {
     let place = Place::new();

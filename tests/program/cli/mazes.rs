@@ -4,16 +4,16 @@ use super::Place;
 use cplan_cases::mazes;
 use std::fmt::Write;
 
-/// Side of a cell along the second slide, metres; along the first it is less, since an outer grid grows walls by half of
-/// that in all directions.
+/// Side of a cell along the second slide, metres. It is less along the first, since an outer grid grows walls by half
+/// of that in all directions.
 const SIDE: [f64; 2] = [0.006, 0.01];
 
-/// The middle of a row or column, in millimetres' tenths: exact.
+/// Returns the middle of a row or column, rounded to tenths of a millimetre, which is exact.
 fn middle(axis: usize, at: usize) -> String {
     format!("{:.4}", (at as f64 + 0.5) * SIDE[axis])
 }
 
-/// Walls through the middles of the blocked cells, from end to end of each run of two or more.
+/// Returns walls through the middles of the blocked cells, from end to end of each run of two or more.
 fn world(n: usize, blocked: &[bool], goal: usize) -> String {
     let joints = |cell: usize| format!("[{}, {}]", middle(0, cell / n), middle(1, cell % n));
     let mut text = format!("[start]\njoints = {}\n[goal]\njoints = {}\n", joints(0), joints(goal));
@@ -56,7 +56,7 @@ fn pen(n: usize) -> String {
     )
 }
 
-/// The planner finds the way at once, with a certificate, and has seen all cells of the corridors.
+/// Checks that the planner finds the path at once, with a certificate, and visits all cells of the corridors.
 fn is_solved(n: usize, blocked: &[bool], goal: usize) {
     let place = Place::new();
     place.write("pen.urdf", pen(n));
@@ -83,7 +83,7 @@ fn a_maze_of_201_x_201_cells() {
     is_solved(201, &mazes::maze(201, 0), 201 * 201 - 1);
 }
 
-/// More than a hundred thousand walls.
+/// The maze has more than a hundred thousand walls.
 #[test]
 fn a_maze_of_501_x_501_cells() {
     is_solved(501, &mazes::maze(501, 0), 501 * 501 - 1);

@@ -50,7 +50,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 use tempfile::TempDir;
 
-/// A file of the repository.
+/// Returns the path of a file of the repository.
 fn shipped(file: &str) -> String {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(file).display().to_string()
 }
@@ -65,7 +65,7 @@ const FREE: &str = "[start]\njoints = [-0.9, 0.4]\n[goal]\njoints = [1.55, -0.35
 /// A folder to run the program in.
 pub struct Place(TempDir);
 
-/// What came of a run.
+/// Result of a run.
 pub struct Done {
     pub code: i32,
     pub stdout: String,
@@ -103,7 +103,7 @@ impl Place {
         Done { code: status.code().expect("no signal"), stdout: text(stdout), stderr: text(stderr) }
     }
 
-    /// The main job on `planar_2r` with a world of its own.
+    /// Plans for `planar_2r` in the given world.
     fn plan(&self, world: impl AsRef<[u8]>, options: &str) -> Done {
         self.write("world.toml", world);
         self.run(&[shipped("robots/planar_2r.urdf"), "world.toml".into()], options)
@@ -111,7 +111,7 @@ impl Place {
 }
 
 impl Done {
-    /// Exit code, and nothing on stdout; the message has all `parts`.
+    /// Checks the exit code, an empty stdout, and that the message has all `parts`.
     fn refused(&self, code: i32, parts: &[&str]) {
         assert_eq!((self.code, self.stdout.as_str()), (code, ""), "{}", self.stderr);
         assert!(self.stderr.starts_with("error: ") && !self.stderr.contains("panicked"), "{}", self.stderr);

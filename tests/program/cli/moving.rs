@@ -1,4 +1,4 @@
-//! Obstacles that move, through the program: planned, played, judged, refused.
+//! Moving obstacles, through the program: planned, played, judged, refused.
 
 use super::{FREE, Place, shipped};
 use serde_json::Value;
@@ -7,7 +7,7 @@ fn moving(name: &str) -> [String; 2] {
     [shipped("robots/planar_2r.urdf"), shipped(&format!("workspaces/moving/{name}.toml"))]
 }
 
-/// A world with one obstacle of this motion, far from the arm.
+/// Returns a world with one obstacle of this motion, far from the arm.
 fn world(motion: &str) -> String {
     format!("{FREE}[[obstacle]]\nname = \"cart\"\ncircle = {{ center = [0, 0], radius = 0.1 }}\nmotion = {motion}\n")
 }
@@ -28,18 +28,18 @@ fn the_arm_waits_until_the_cart_has_gone() {
     assert_eq!((&told["obstacles"], &told["free_until"]), (&1.into(), &Value::Null));
     assert_eq!(result["closest"], "link \"forearm\" and obstacle \"cart\"");
     assert!(number(&result["clearance"]) <= number(&told["clearance"]) && number(&result["clearance"]) > 0.0);
-    // The cart is out of the way at 2.9 s at the soonest, and the arm takes 1.15 s without it.
+    // The cart leaves the path at 2.9 s at the earliest, and the arm takes 1.15 s without it.
     let [from, to] = ["from", "to"].map(|end| number(&told["waits"][0][end]));
     assert!(from < 1.0 && 1.0 < to && to < 3.0, "{told}");
     assert!((2.9..3.7).contains(&number(&result["duration"])), "{}", result["duration"]);
-    // Every consumer plays what is certified.
+    // Every consumer plays the certified motion.
     for file in ["m.json", "m.csv", "m.yaml"] {
         let verified = place.run(&["verify", &urdf, &world, file], "");
         assert_eq!(verified.code, 0, "{file}: {}", verified.stdout);
     }
     let page = place.read("m.html");
     assert!(page.contains("\"movers\":[{") && page.contains("\"moments\":[{"));
-    // The same motion, but for its waiting: into the cart.
+    // The same motion without its wait hits the cart.
     let table = place.read("m.csv");
     let mut lines = table.lines();
     let header = lines.next().unwrap();
@@ -60,7 +60,8 @@ fn the_arm_waits_until_the_cart_has_gone() {
     assert!(judged.stdout.contains("no times"), "{}", judged.stdout);
 }
 
-/// To a place of the tip the fastest motion may take another path than the shortest, to another IK solution: when that is free counts.
+/// To a place of the tip, the fastest motion may take another path than the shortest, to another IK solution. The time
+/// at which that solution is free counts.
 #[test]
 fn the_fastest_motion_is_timed_along_its_own_path() {
     let place = Place::new();
@@ -74,7 +75,7 @@ fn the_fastest_motion_is_timed_along_its_own_path() {
         place.write("w.toml", world(stops));
         place.run(&[&shipped("robots/planar_2r.urdf"), "w.toml"], "--optimize time --json").json()
     };
-    // The disc comes to where the upper arm stands then.
+    // The disc arrives at the position of the upper arm.
     let told = plan("{ time = 4, at = [0, 3] }, { time = 6, at = [0.638, 0.77] }");
     let until = told["moving"]["free_until"].as_f64().expect("a time");
     let goal = told["path"].as_array().unwrap().last().unwrap().to_string();
@@ -83,7 +84,7 @@ fn the_fastest_motion_is_timed_along_its_own_path() {
         let checked = place.run(&["check", &shipped("robots/planar_2r.urdf"), "w.toml"], &at);
         assert!(checked.stdout.contains(result), "{at}: {}{}", checked.stdout, checked.stderr);
     }
-    // It is in the way of the other solution alone.
+    // The disc blocks only the other solution.
     let told = plan(
         "{ time = 0, at = [3, 0.2] }, { time = 3, at = [1.25, 0.25] }, { time = 6, at = [1.25, 0.25] }, { time = 9, at = [3, 0.2] }",
     );
@@ -156,7 +157,7 @@ fn what_knows_no_time_refuses_what_moves() {
     }
 }
 
-/// Bottles are picked where they are then; everything that is written says so.
+/// The bottles are picked at their positions at that time, in all written files.
 #[test]
 fn bottles_are_picked_from_a_belt() {
     let place = Place::new();
@@ -184,11 +185,11 @@ fn bottles_are_picked_from_a_belt() {
     let page = place.read("m.html");
     assert!(page.contains("\"movers\":[{") && page.contains("\"until\":1.01"), "what moves is not on the page");
     assert!(place.read("m.svg").contains("bottle 1, moving"));
-    // Without its steps the motion is judged empty-handed among bottles that go on: the third is still on its way.
+    // Without its steps, the motion is judged empty-handed while the bottles move on: the third is still on the belt.
     assert_eq!(place.run(&["verify", &urdf, &world, "m.csv"], "").code, 3);
 }
 
-/// A recording that is a little late picks beside the bottles, and one that is hurried does not stand long enough.
+/// A recording that is a little late picks beside the bottles. One that is too fast does not pause long enough.
 #[test]
 fn a_falsified_recording_of_a_task_is_found_out() {
     let place = Place::new();
@@ -199,7 +200,7 @@ fn a_falsified_recording_of_a_task_is_found_out() {
         place.run(&["verify", &urdf, &world, name], "")
     };
     assert_eq!(judge("as_it_is.json", &result).code, 0);
-    // The first sample alone stays where it was in time.
+    // Only the first sample keeps its time.
     let mut late = result.clone();
     for time in late["trajectory"]["time"].as_array_mut().unwrap().iter_mut().skip(1) {
         *time = (time.as_f64().unwrap() + 0.1).into();
@@ -234,7 +235,7 @@ fn a_pick_keeps_to_its_place_and_its_window() {
     }
 }
 
-/// A task that picks something of this motion.
+/// Returns a task that picks an object with this motion.
 fn belt(object: &str, step: &str) -> String {
     format!(
         "[start]\njoints = [0.9, 1.2]\n[[object]]\nname = \"bottle\"\ncircle = {{ center = [0, 0], radius = 0.04 }}\n{object}\n\

@@ -1,8 +1,9 @@
-//! Passages of a few cells, and walls that strips of joint 1 are seldom fine enough for.
+//! Passages of a few cells, and walls for which strips of joint 1 are seldom fine enough.
 
 use super::{Place, shipped};
 
-/// Problem A: a passage of 0.070 rad among cells of 0.025 rad. Grids of wholly free cells show it at 1024 x 1024 only.
+/// Problem A has a passage of 0.070 rad among cells of 0.025 rad. Grids of entirely free cells show it only at 1024 x
+/// 1024.
 #[test]
 fn fields_find_a_passage_of_three_cells_without_a_finer_grid() {
     let problem = ["arm.urdf", "a.toml"].map(|file| shipped(&format!("benches/peers/problems/{file}")));
@@ -16,8 +17,8 @@ fn fields_find_a_passage_of_three_cells_without_a_finer_grid() {
     }
 }
 
-/// A slide of hundreds of metres beside a star: a way pulled taut leads through its side however fine strips are. It is searched for anew,
-/// and not left to a visibility graph after millions of strips.
+/// A slide of hundreds of metres is beside a star. A taut path leads through a side of the star however fine the strips
+/// are. The planner must search again, and not build a visibility graph after millions of strips.
 #[test]
 fn ways_through_walls_are_searched_for_anew() {
     let place = Place::new();

@@ -1,8 +1,8 @@
-//! Numbers in messages: those that differ look different, and zero has no sign.
+//! Numbers in messages: different numbers look different, and zero has no sign.
 
 use super::{FREE, Place, shipped};
 
-/// A wall just beyond the stretched arm.
+/// Returns a world with a wall just beyond the stretched arm.
 fn wall(x: f64) -> String {
     format!(
         "[start]\njoints = [0.0, 0.0]\n[goal]\njoints = [0.0, 0.5]\n[[obstacle]]\npolyline = [[{x}, -0.02], [{x}, 0.0]]\n"

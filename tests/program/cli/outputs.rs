@@ -1,8 +1,8 @@
-//! No output overwrites an input or another output, whatever their paths look like.
+//! No output overwrites an input or another output, in any notation of their paths.
 
 use super::*;
 
-/// A folder with a robot and a world that can be planned in.
+/// Returns a folder with a robot and a world in which one can plan.
 fn place() -> Place {
     let place = Place::new();
     place.write("arm.urdf", std::fs::read(shipped("robots/planar_2r.urdf")).unwrap());
@@ -23,7 +23,7 @@ fn refused(place: &Place, arguments: &[&str], names: &[&str]) {
     assert_eq!(files.map(|file| place.read(file)), before, "{arguments:?}");
 }
 
-/// A symbolic link stays one, whether what is behind it is there or not.
+/// A symbolic link stays a link, whether its target exists or not.
 #[cfg(unix)]
 #[test]
 fn outputs_are_written_behind_links() {
@@ -37,7 +37,7 @@ fn outputs_are_written_behind_links() {
     }
     std::os::unix::fs::symlink("none/plan.json", place.path("dangling.json")).unwrap();
     place.run(&["arm.urdf", "world.json", "--output", "dangling.json"], "").refused(1, &["there is no folder none"]);
-    // Of two outputs one may be behind the other.
+    // One of two outputs may be the target of the other.
     std::os::unix::fs::symlink("late.json", place.path("late.svg")).unwrap();
     let both = ["arm.urdf", "world.json", "--output", "late.json", "--picture", "late.svg"];
     place.run(&both, "").refused(1, &["late.json and late.svg are one file", "nothing was written"]);

@@ -1,10 +1,10 @@
-//! The robot's own body is in its way: links that stand still, and link 1 for what link 2 carries.
+//! The robot's own body as an obstacle: static links for both links, and link 1 for the parts that link 2 carries.
 
 use super::{Done, Place};
 use cplan_check_files::check_files;
 
-/// A SCARA of 1.05 m reach on a pedestal 272 mm high, arms of 560 and 490 mm above it, and a quill that reaches down to `{quill}` m. What differs is in
-/// the places of the words in braces.
+/// A SCARA of 1.05 m reach on a pedestal 272 mm high, with arms of 560 and 490 mm above it, and a quill that reaches
+/// down to `{quill}` m. The words in braces are placeholders for the differences.
 const SCARA: &str = r#"<robot name="scara">
 <link name="base_link"> <collision> <origin xyz="-0.0185 0 0.136"/> <geometry> <box size="0.297 0.21 0.272"/> </geometry> </collision> </link>
 <joint name="j1" type="revolute">
@@ -25,7 +25,7 @@ const SCARA: &str = r#"<robot name="scara">
 {more}
 </robot>"#;
 
-/// The robot with a quill from a height up to 0.5 m, and more links.
+/// Returns the robot with a quill from this height up to 0.5 m, and with more links.
 fn scara(quill: f64, more: &str) -> String {
     let (middle, length) = (f64::midpoint(quill, 0.5) - 0.4, 0.5 - quill);
     SCARA.replace("{middle}", &middle.to_string()).replace("{length}", &length.to_string()).replace("{more}", more)
@@ -42,7 +42,7 @@ fn run(urdf: &str, world: &str, options: &str) -> (Place, Done) {
 const WORLD: &str =
     "[robot]\njoints = [\"j1\", \"j2\"]\n{robot}\n[start]\njoints = [0.0, 1.0]\n[goal]\njoints = {goal}\n";
 
-/// A world without obstacles, with more in its `[robot]` table.
+/// Returns a world without obstacles, with more entries in its `[robot]` table.
 fn world(robot: &str, goal: [f64; 2]) -> String {
     WORLD.replace("{robot}", robot).replace("{goal}", &format!("{goal:?}"))
 }
@@ -80,7 +80,8 @@ fn link_1_is_in_the_way_of_the_quill() {
     }
 }
 
-/// From one side of the fold to the other joint 2 would have to pass where the quill is within link 1; without a limit it goes round.
+/// From one side of the fold to the other, joint 2 would have to pass through angles where the quill is in link 1.
+/// Without a limit it turns the other way round.
 #[test]
 fn joint_2_does_not_pass_the_fold() {
     let urdf = scara(0.29, "").replace(r#"<limit lower="-3.1" upper="3.1" velocity="5" effort="1"/>"#, "");
@@ -104,7 +105,8 @@ fn joint_2_does_not_pass_the_fold() {
     assert!(blocking.as_array().unwrap().contains(&"inner".into()), "{}", explained.stdout);
 }
 
-/// A hand without collision geometry is where its visual geometry is, though the link it hangs on has collision geometry.
+/// A hand without collision geometry is where its visual geometry is, though the link that it is attached to has
+/// collision geometry.
 #[test]
 fn a_hand_that_has_only_a_visual_is_not_left_out() {
     let hand = r#"<joint name="mount" type="fixed"> <parent link="outer"/> <child link="hand"/> <origin xyz="0.49 0 0"/> </joint>
@@ -121,7 +123,7 @@ fn a_hand_that_has_only_a_visual_is_not_left_out() {
 
 #[test]
 fn links_that_meet_in_every_configuration_are_named() {
-    // A collar round the quill, at the height of the pedestal it is built on.
+    // A plate fixed to the base surrounds the quill in every configuration.
     let plate = r#"<joint name="floor" type="fixed"> <parent link="base_link"/> <child link="plate"/> </joint>
         <link name="plate"> <collision> <origin xyz="0 0 0.42"/> <geometry> <cylinder radius="3" length="0.01"/> </geometry> </collision> </link>"#;
     let (_, done) = run(&scara(0.39, plate), &world("", [0.0, -1.0]), "");

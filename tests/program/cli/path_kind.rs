@@ -1,4 +1,4 @@
-//! `--path own|taut`, and answers where a planner's space does not show the path that there is.
+//! `--path own|taut`, and answers if a planner's space does not show the existing path.
 
 use super::{FREE, Place, shelf, shipped};
 use serde_json::{Value, json};
@@ -32,7 +32,7 @@ fn planners_with_two_paths_give_the_one_that_is_asked_for() {
     let path = staircase["path"].as_array().unwrap();
     let straight =
         |pair: &[Value]| (0..2).any(|k| (pair[0][k].as_f64().unwrap() - pair[1][k].as_f64().unwrap()).abs() < 1e-9);
-    // All but the pieces from the start to the first cell, and from the last one to the goal.
+    // All pieces except those from the start to the first cell, and from the last cell to the goal.
     assert!(path[1..path.len() - 1].windows(2).all(straight), "a step that is not along a joint");
     for planner in ["shortest", "visibility", "first"] {
         let [plain, taut] = ["", "--path taut"].map(|path| run(&format!("--planner {planner} {path}")));
@@ -59,7 +59,7 @@ fn a_trapezoids_own_path_has_the_centres_of_its_cells_between_the_middles_of_por
     let done = place.plan(world, "--planner trapezoid --path own --json");
     assert_eq!(done.code, 0, "{}", done.stderr);
     let path = done.json()["path"].as_array().unwrap().len();
-    // Start, then a portal and a centre in turn, a portal, goal.
+    // Start, then portals and centres in turn, a portal, goal.
     assert!(path >= 3 && path % 2 == 1, "{path} waypoints");
 }
 
@@ -111,7 +111,7 @@ fn compare_lists_both_paths_of_each_planner() {
     assert_eq!((two["planners"].as_array().unwrap().len(), &two["planners"][1]["path_kind"]), (2, &json!("own")));
 }
 
-/// Cells too coarse for a slot that an arm passes: the answer tells that there is a path, and is still no path.
+/// The cells are too coarse for a slot that the arm passes. The answer states that there is a path, but has none.
 #[test]
 fn where_cells_are_too_coarse_the_answer_says_whether_there_is_a_path() {
     let place = Place::new();

@@ -1,9 +1,9 @@
-//! How deep what is placed presses into what it rests on.
+//! Depth to which a placed object presses into its support.
 
 use super::{Place, shipped};
 use std::f64::consts::FRAC_1_SQRT_2;
 
-/// A level object whose tip points at a table's edge at y = 1.2.
+/// Returns a world with a level object whose tip points at a table's edge at y = 1.2.
 fn cell(polygon: &str, table: &str, [tip, deep, clearance]: [f64; 3]) -> String {
     let at = 1.2 - tip + deep;
     format!(
@@ -36,7 +36,7 @@ const CROSS: &str = "[[-0.02, 0.04], [0.02, 0.04], [0.02, 0.1], [0.06, 0.1], [0.
 const CLEFT: &str = "[[-0.05, -0.02], [0.0, 0.05], [0.05, -0.02], [0.05, 0.1], [0.0, 0.12], [-0.05, 0.1]]";
 const BOX: &str = "[[-0.05, -0.02], [0.05, -0.02], [0.05, 0.1], [-0.05, 0.1]]";
 
-/// The arm reaches 1.8 m, so 0.18 mm are allowed.
+/// The arm reaches 1.8 m, so it may press in by 0.18 mm.
 #[test]
 fn no_corner_is_pressed_into_a_support() {
     for (what, polygon, table, numbers) in [
@@ -69,8 +69,8 @@ fn what_rests_on_a_support_may_touch_it() {
     }
 }
 
-/// Objects of pieces, and a wall on the line of a side that they share: one that ends in the tip, and one that goes on from
-/// a side of a cross, to which the wall comes after 8 cm beside it.
+/// The objects have pieces, and a wall is on the line of a side that two pieces share. One such side ends in the tip.
+/// Another extends a side of a cross, which the wall reaches after 8 cm beside it.
 #[test]
 fn no_wall_gets_between_the_pieces_of_an_object() {
     for (x, polygon, tip, free, deep) in [
@@ -87,7 +87,7 @@ fn no_wall_gets_between_the_pieces_of_an_object() {
     }
 }
 
-/// The judge of recordings says the same: a plan is judged in a world where the table lies 1 mm nearer.
+/// The judge of recordings agrees: a plan is judged in a world where the table is 1 mm nearer.
 #[test]
 fn a_recording_that_presses_a_corner_into_a_support_is_refuted() {
     for (polygon, numbers @ [.., clearance]) in [(NEEDLE, [0.18, 0.0, 0.0]), (GABLE, [0.15, 0.0, 0.005])] {
@@ -103,21 +103,23 @@ fn a_recording_that_presses_a_corner_into_a_support_is_refuted() {
     }
 }
 
-/// Share of the arm's reach of 1.8 m, metres.
+/// Fraction of the arm's reach of 1.8 m, metres.
 const PENETRATION_ALLOWANCE: f64 = 1.8e-4;
 
-/// An object that ends in a tip on its axis: its outline and how it is held, how far from its origin the tip is, and the share of [`PENETRATION_ALLOWANCE`] by
-/// which the tip is given way: corners are moved inwards by all of it, and sides by the sine of half the angle beside them.
+/// Objects that end in a tip on their axis: outline and kind of holding, distance of the tip from the origin, and the
+/// share of [`PENETRATION_ALLOWANCE`] for the tip. Corners are moved inwards by all of the allowance, and sides by the
+/// sine of half the angle beside them.
 const TIPPED: [([&str; 2], f64, f64); 5] = [
     (["polygon = [[-0.05, -0.02], [0.05, -0.02], [0.05, 0.1], [-0.05, 0.1]]", "level"], 0.1, FRAC_1_SQRT_2),
     (["polygon = [[-0.05, -0.02], [0.05, -0.02], [0.05, 0.1], [0, 0.15], [-0.05, 0.1]]", "level"], 0.15, 1.0),
     (["polygon = [[-0.02, -0.02], [0.02, -0.02], [0.0, 0.18]]", "level"], 0.18, 1.0),
     (["circle = { center = [0.0, 0.06], radius = 0.05 }", "level"], 0.11, 1.0),
-    // Turned as it may be, it ends where it does.
+    // In any orientation, it ends at the same distance.
     (["circle = { center = [0.0, 0.0], radius = 0.11 }", "rigid"], 0.11, 1.0),
 ];
 
-/// What is rested on: whatever its shape, the tip is the first that it meets, at the height `y` on the object's axis.
+/// Returns supports of many shapes. On each, the object's tip is the first to touch, at the height `y` on the object's
+/// axis.
 fn on_the_axis(y: f64) -> [(&'static str, String); 7] {
     let at = |above: f64| y + above;
     [
@@ -131,13 +133,13 @@ fn on_the_axis(y: f64) -> [(&'static str, String); 7] {
     ]
 }
 
-/// An object, a support and a clearance of each, so deep in it.
+/// Returns a world with an object, a support, the depth of the tip, and a clearance.
 fn tipped([outline, held]: [&str; 2], support: &str, numbers: [f64; 3]) -> String {
     cell("[]", support, numbers).replace("polygon = []", outline).replace("\"level\"", &format!("\"{held}\""))
 }
 
-/// Nothing is allowed for a clearance: with any, on thick and thin supports, and corner on corner, a place is free where the
-/// tip is less deep than it is given way, and not where it is deeper; by a hundredth.
+/// A clearance allows no deeper pressing. On thick and thin supports, and corner on corner, a place is free if the tip
+/// is less deep than its allowance. It is not free if the tip is deeper by a hundredth.
 #[test]
 fn with_a_clearance_nothing_is_pressed_deeper_than_without() {
     let mut wrong = Vec::new();
@@ -159,7 +161,7 @@ fn with_a_clearance_nothing_is_pressed_deeper_than_without() {
     assert!(wrong.is_empty(), "{} wrong:\n{}", wrong.len(), wrong.join("\n"));
 }
 
-/// A result that does not say how near anything comes, which would be false where a support lies nearer.
+/// Removes the clearances from a result, because they would be false in a world with a nearer support.
 fn without_clearances(result: &str) -> String {
     let mut result: serde_json::Value = serde_json::from_str(result).unwrap();
     assert!(result.as_object_mut().unwrap().remove("clearance").is_some());
@@ -169,7 +171,7 @@ fn without_clearances(result: &str) -> String {
     result.to_string()
 }
 
-/// The judge of recordings: plans are judged in worlds where the support lies nearer than it did.
+/// The judge of recordings agrees: plans are judged in worlds where the support is nearer than planned.
 #[test]
 fn with_a_clearance_nothing_recorded_may_press_deeper_than_without() {
     let mut wrong = Vec::new();
@@ -196,7 +198,7 @@ fn with_a_clearance_nothing_recorded_may_press_deeper_than_without() {
     assert!(wrong.is_empty(), "{} wrong:\n{}", wrong.len(), wrong.join("\n"));
 }
 
-/// On a table that is 5e-5 m higher than where the object lies; a gantry may press in by 1.6e-4 m.
+/// Returns a world with a table 5e-5 m higher than the place of the object. A gantry may press in by 1.6e-4 m.
 fn on_a_table(polygon: &str) -> String {
     format!(
         "robot.payload = \"level\"\nstart.tip = [0.3, 0.3]\n[[obstacle]]\nname = \"table\"\n\
@@ -206,8 +208,8 @@ fn on_a_table(polygon: &str) -> String {
     )
 }
 
-/// Corners on straight sides say nothing, nor does a rib that is too fine say anything of the sides beside it. What the checker would refuse to
-/// move the corners of has no certificate.
+/// Corners on straight sides have no effect, and a rib that is too fine does not affect the sides beside it. If the
+/// checker would refuse to move an object's corners, there is no certificate.
 #[test]
 fn outlines_say_the_same_however_they_are_written() {
     let urdf = shipped("robots/gantry.urdf");
@@ -253,7 +255,7 @@ fn outlines_say_the_same_however_they_are_written() {
     }
 }
 
-/// Three corners on a line but for rounding are no corner that could be moved farther than the side that it is on.
+/// Three corners on a line, up to rounding, are not a corner. So the middle one may not be moved farther than its side.
 #[test]
 fn corners_that_bend_by_rounding_are_none() {
     let world = |x: f64, deep: f64| {
@@ -277,7 +279,7 @@ fn corners_that_bend_by_rounding_are_none() {
     }
 }
 
-/// Sides of C-obstacles that all but lie on each other, of which a union was not found for minutes and gigabytes.
+/// Some sides of C-obstacles lie almost on each other. Their union used to take minutes and gigabytes.
 #[test]
 fn rings_beside_what_they_rest_on_are_planned() {
     let world = r#"clearance=0

@@ -1,4 +1,4 @@
-//! How many boxes a proof takes in random worlds, through the program's own result.
+//! The number of boxes of a proof in random worlds, from the program's own result.
 
 use super::{Place, shipped};
 use crate::common::dice::Dice;
@@ -9,8 +9,8 @@ use std::fmt::Write;
 /// Boxes of a proof at most.
 const MOST: usize = 10_000;
 
-/// A world of discs, triangles and thin walls around the arm, start and goal far apart. Walls and slim triangles are what
-/// proofs by slabs take the most boxes for.
+/// Returns a world of discs, triangles and thin walls around the arm, with start and goal far apart. Walls and slim
+/// triangles need the most boxes in proofs by slabs.
 fn world(seed: u64) -> String {
     let mut dice = Dice::new(seed);
     let goal = dice.within(1.2, 2.6);
@@ -33,14 +33,14 @@ fn world(seed: u64) -> String {
     world
 }
 
-/// Random worlds, of which `CPLAN_TIMES` asks for more: all proofs have at most [`MOST`] boxes, and hold.
+/// Tries random worlds, more of them with `CPLAN_TIMES`: all proofs have at most [`MOST`] boxes, and hold.
 #[test]
 fn proofs_in_random_worlds_are_small() {
     let place = Place::new();
     let mut sizes = Vec::new();
     for seed in seeds(60) {
         let done = place.plan(world(seed), "--planner wavefront --output result.json --quiet");
-        // A start or goal that collides is no problem to solve.
+        // A world whose start or goal collides is not a problem.
         if done.code == 1 {
             continue;
         }
@@ -61,8 +61,8 @@ fn proofs_in_random_worlds_are_small() {
     assert!(large * 1000 <= count, "{:?}", &sizes[count - large..]);
 }
 
-/// Of 20 000 random worlds the one whose proof by slabs takes the most boxes, 130 596: obstacles that overlap by little close the way
-/// along a slanted line. Boxes that are halved close it with some hundreds.
+/// Among 20 000 random worlds, this one needs the most boxes in a proof by slabs, 130 596: obstacles that overlap
+/// slightly close the space along a slanted line. A proof by halved boxes needs some hundreds.
 #[test]
 fn the_world_whose_slabs_take_the_most_boxes_has_a_small_proof() {
     let place = Place::new();

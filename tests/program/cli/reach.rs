@@ -1,4 +1,4 @@
-//! `cplan reach`, from outside: cells and solutions against kinematics of the tests' own, and against plans to them.
+//! `cplan reach` from outside: cells and solutions against the tests' own kinematics, and against plans to them.
 
 use super::{Done, Place, shelf, shipped};
 use serde_json::Value;
@@ -38,7 +38,7 @@ fn all_solutions_are_there_and_put_the_tip_at_the_centres() {
         let [at_x, at_y] = tip(*joints);
         assert!((x - at_x).hypot(y - at_y) < 1e-9, "{joints:?}");
     }
-    // Each cell's centre between the least and the greatest reach has two elbows, as far as the joints' limits allow.
+    // Each cell centre between the least and the greatest reach has two elbow solutions, within the joints' limits.
     let result: Value = serde_json::from_str(&place.read("r.json")).unwrap();
     let within = |value: f64| value.abs() <= 2.9;
     let number = |value: &Value| value.as_f64().unwrap();
@@ -90,7 +90,7 @@ fn what_is_said_of_a_solution_is_what_planning_to_it_says() {
                 let codes: &[i32] = match access {
                     "reachable" => &[0],
                     "unreachable" => &[3],
-                    // Where a goal is no more than touched it is not free.
+                    // A goal that is in contact is not free.
                     "blocked" => &[1],
                     _ => &[4],
                 };
@@ -121,7 +121,8 @@ fn what_is_wrong_with_the_home_is_said_of_the_home() {
     assert!(!far.stderr.contains("--start"), "{}", far.stderr);
 }
 
-/// With the tip at the first joint any value of that will do: the one that is nearest to home is barred by the pole, others are not.
+/// With the tip at the first joint, that joint may have any value. The pole blocks the value nearest to home, but not
+/// others.
 #[test]
 fn a_place_that_leaves_a_joint_free_is_reached_with_another_value_of_it() {
     let place = Place::new();
@@ -155,7 +156,7 @@ fn a_place_that_leaves_a_joint_free_is_reached_with_another_value_of_it() {
     assert!(!folded.is_empty());
     for Solution { joints: [a, b], access, .. } in folded {
         assert_eq!(access, "reachable", "{a} {b}");
-        // Where it says that the arm gets, it does; where nearest to home, it does not.
+        // At the reported value, the arm reaches the place. At the value nearest to home, it does not.
         let goal = format!("--goal={a:?},{b:?}");
         assert_eq!(place.run(&["arm.urdf", "world.toml", &goal], "--quiet").code, 0, "{goal}");
         place.run(&["arm.urdf", "world.toml", &format!("--goal=0,{b:?}")], "").refused(1, &["goal"]);

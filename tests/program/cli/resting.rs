@@ -1,18 +1,18 @@
-//! What an object rests on: bottom and top that touch are no contact, whoever judges.
+//! Supports of objects: a bottom that touches a top is no collision, for planner, judge and checker.
 
 use super::{Done, Place, shipped};
 use cplan_check_files::check;
 
-/// How the tool gets down, and how the part is held.
+/// Method of lowering the tool, and of holding the part.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Hand {
     Lifting,
     Stroke,
-    /// Kept level by a wrist that turns it over the table.
+    /// The part is kept level by a wrist that turns it over the table.
     Wrist,
 }
 
-/// A part that lies from a height on, a table that ends at one, and steps.
+/// A part with a lower height, a table with an upper height, and steps.
 struct Cell {
     hand: Hand,
     top: f64,
@@ -48,7 +48,7 @@ impl Cell {
     }
 }
 
-/// The main job with a certificate, which holds if the task is done.
+/// Plans with a certificate, and checks it if the task is done.
 fn planned(place: &Place, world: &str) -> Done {
     place.write("world.toml", world);
     let urdf = shipped("robots/scara.urdf");
@@ -67,7 +67,7 @@ fn a_part_is_set_on_a_table_that_its_bottom_touches() {
     let place = Place::new();
     for hand in [Hand::Lifting, Hand::Stroke, Hand::Wrist] {
         for supports in ["", "supports = [\"table\"]"] {
-            // To a micrometre, too, as stacks add up; and it may slide where nothing lifts it.
+            // A difference of a micrometre is allowed, because stacks add up. Without a lift, the part may slide.
             for (bottom, lift) in [(0.05, 0.1), (0.049_999_5, 0.1), (0.05, 0.0)] {
                 let cell = Cell { bottom, lift, supports, ..Cell::new(hand) };
                 let done = planned(&place, &cell.set_down());
@@ -118,12 +118,12 @@ fn parts_are_stacked_and_taken_off_again() {
                      [[step]]\npick = \"part\"\n[[step]]\nplace = { at = [0.1, 0.4] }\n";
         let done = planned(&place, &Cell::new(hand).world(&format!("{upper}{steps}")));
         assert_eq!(done.code, 0, "{hand:?}: {}{}", done.stdout, done.stderr);
-        // What another one lies on is neither lifted nor pulled out from under it.
+        // An object with another one on it can be neither lifted nor pulled out from under it.
         let (first, _) = steps.split_at(steps.find("[[step]]\npick = \"lid\"\n[[step]]\nplace = { at = [0.0").unwrap());
         let taken = format!("{upper}{first}[[step]]\npick = \"part\"\n[[step]]\nplace = {{ at = [0.1, 0.4] }}\n");
         let lift = if hand == Hand::Stroke { 0.1 } else { 0.0 };
         let done = planned(&place, &Cell { lift, ..Cell::new(hand) }.world(&taken));
-        // Where top and bottom just touch nothing is proven either way.
+        // If top and bottom just touch, neither is proven.
         let code = if hand == Hand::Stroke { 3 } else { 4 };
         assert_eq!(done.code, code, "{hand:?}: {}{}", done.stdout, done.stderr);
         assert!(done.stdout.contains("hits obstacle \"lid\""), "{}", done.stdout);

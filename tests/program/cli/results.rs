@@ -1,10 +1,10 @@
-//! What is written: streams, files, formats, exit codes.
+//! Output: streams, files, formats, exit codes.
 
 use super::{Done, FREE, Place, shelf, shipped};
 use serde_json::{Value, json};
 use std::process::Stdio;
 
-/// The fields that scripts rely on, in every result.
+/// Checks the fields that scripts rely on, in every result.
 fn contract(done: &Done) -> Value {
     let result = done.json();
     let found = result["status"] == "found";
@@ -146,7 +146,7 @@ fn recordings_hold_every_sample_and_are_the_same_each_time() {
         let (number, _) = summary.channels.iter().find(|(_, channel)| channel.topic == topic).unwrap();
         statistics.channel_message_counts[number]
     };
-    // A state and the links' frames each, and the message that holds them all.
+    // There is one message per state and per set of link frames, and one that holds them all.
     assert_eq!(["/joint_states", "/tf", "/joint_trajectory"].map(count), [samples, samples, 1]);
     let end = result["duration"].as_f64().unwrap();
     assert!((statistics.message_end_time as f64 * 1e-9 - end).abs() <= 0.6e-9);
@@ -177,10 +177,10 @@ fn a_picture_that_moves_is_written_beside_others() {
     let bytes = std::fs::read(place.path("plan.gif")).unwrap();
     let (count, pixels) = crate::draw::moving::last_picture(&bytes, 960);
     assert!(count > 40 && pixels.len() == 960 * 494, "{count} pictures");
-    // What plays has the replay, what stands still is drawn without it.
+    // Formats that play motions contain the replay; still pictures do not.
     let page = std::fs::read_to_string(place.path("plan.html")).unwrap();
     assert!(page.contains("\"replay\":[{\"caption\":") && done.stdout.contains("plan.gif"));
-    // From a start that is the goal nothing moves.
+    // If the start is the goal, nothing moves.
     let still = place.run(&shelf(), "--goal=-0.9,0.4 --picture still.gif");
     assert_eq!(still.code, 0, "{}", still.stderr);
     assert!(place.path("still.gif").exists());
@@ -202,7 +202,7 @@ fn a_program_without_gpu_says_so_before_any_work() {
     let done = place.run(&shelf(), "--output a.json --planner harmonic --on gpu");
     done.refused(1, &["--on gpu", "built without GPU", "--features gpu"]);
     assert!(!place.path("a.json").exists());
-    // What contradicts itself is a wrong command line, with or without it.
+    // Contradictory options are a wrong command line, with or without it.
     let done = place.run(&shelf(), "--planner harmonic --on gpu --relaxation sor --order rows");
     done.refused(2, &["--on gpu", "red-black"]);
 }
@@ -247,7 +247,7 @@ fn paths_come_with_a_bound_on_the_optimum() {
     assert!(tight["gap"].as_f64().unwrap() <= 1e-5 && shorter < length, "{tight}");
     let (graph, longer) = optimum("--planner visibility --gap 0.001");
     assert!(graph["gap"].as_f64().unwrap() <= 1e-3 && longer > shorter, "{graph}");
-    // Speeds of the shoulder and the elbow are 2 and 3 rad/s: the slower joint alone has 2.45 rad to go.
+    // The shoulder and the elbow have speeds of 2 and 3 rad/s: the slower joint alone must turn by 2.45 rad.
     let (time, _) = optimum("--metric time --gap 0.01");
     assert!(time["metric"] == "time" && time["length"].as_f64().unwrap() >= 2.45 / 2.0, "{time}");
     let (weighted, euclidean) = optimum("--metric weighted --weights 2,2");

@@ -1,4 +1,4 @@
-//! `cplan study`, from outside: rows, how they come about again, what is refused.
+//! `cplan study` from outside: rows, how to reproduce them, refused input.
 
 use super::{Done, FREE, Place, shelf, shipped};
 use serde_json::Value;
@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 use std::process::Stdio;
 use std::time::{Duration, Instant};
 
-/// A world whose second obstacle is moved about, into the start and away.
+/// A world whose second obstacle is moved to several places, some in the start.
 const WORLD: &str = "[[obstacle]]\nname = \"shelf\"\npolygon = [[1.15, 0.18], [1.6, 0.18], [1.6, 0.3], [1.15, 0.3]]\n\
                      [[obstacle]]\nname = \"crate\"\nat = [0.65, -1.45]\npolygon = [[-0.15, -0.15], [0.15, -0.15], [0.15, 0.15], [-0.15, 0.15]]\n";
 
@@ -26,7 +26,7 @@ fn run(place: &Place, options: &str) -> Done {
     place.run(&["study", "study.toml"], options)
 }
 
-/// The rows of a table, by column.
+/// Returns the rows of a table, by column.
 fn rows(csv: &str) -> Vec<Vec<(String, String)>> {
     let mut lines = csv.lines();
     let names: Vec<&str> = lines.next().unwrap().split(',').collect();
@@ -35,11 +35,11 @@ fn rows(csv: &str) -> Vec<Vec<(String, String)>> {
         .collect()
 }
 
-/// The fields of a line, some of which are in quotation marks.
+/// Returns the fields of a line; some are in quotation marks.
 fn fields(line: &str) -> Vec<String> {
     let (mut fields, mut is_quoted, mut before) = (vec![String::new()], false, ',');
     for c in line.chars() {
-        // Two in a row inside quotation marks are one.
+        // Two quotation marks in a row inside quotation marks are one.
         let is_second = c == '"' && before == '"' && !is_quoted && !line.starts_with("\"\"");
         before = c;
         match c {
@@ -62,7 +62,7 @@ fn field<'a>(row: &'a [(String, String)], name: &str) -> &'a str {
 #[test]
 fn each_row_is_what_the_program_says_of_the_layouts_own_files() {
     let place = Place::new();
-    // Alone a layout may be planned in that the study would refuse.
+    // Layouts that the study would refuse can be planned separately.
     study(&place, "draws = 5\nseed = 3\noverlap = true", CRATE);
     let done = run(&place, "--output t.csv --jobs 2 --json");
     assert_eq!(done.code, 0, "{}", done.stderr);
@@ -115,7 +115,7 @@ fn rows_are_the_same_for_any_number_of_jobs_and_without_what_is_not_measured() {
     for part in ["Maps", "Trade-offs", "Best layouts", "y by x", "best: layout"] {
         assert!(page.contains(part), "{part}");
     }
-    // Lengths alone need no motion along the path, and are the same.
+    // Lengths alone need no trajectory, and are the same.
     study(&place, "draws = 6\nmeasure = [\"length\", \"over_bound\"]", CRATE);
     assert_eq!(run(&place, "--output u.csv --quiet").code, 0);
     let [with, without] = ["t.csv", "u.csv"].map(|file| rows(&place.read(file)));
@@ -158,7 +158,7 @@ fn a_study_that_is_killed_goes_on_and_ends_with_the_same_bytes() {
     killed.wait().unwrap();
     let kept = lines();
     assert!(kept >= 20 && !place.path("t.csv").exists(), "{kept} lines");
-    // A line that was not written to its end.
+    // The last line is incomplete.
     let mut text = std::fs::read_to_string(&part).unwrap();
     text.truncate(text.len() - 7);
     std::fs::write(&part, &text).unwrap();
@@ -167,14 +167,14 @@ fn a_study_that_is_killed_goes_on_and_ends_with_the_same_bytes() {
     assert!(done.stderr.contains("layouts that are known already"), "{}", done.stderr);
     assert_eq!(place.read("t.csv"), place.read("whole.csv"));
     assert!(!part.exists());
-    // Rows of another study are not taken, and not lost either.
+    // Rows of another study are neither used nor lost.
     std::fs::write(&part, &text).unwrap();
     study(&place, "draws = 61", CRATE);
     run(&place, "--output t.csv").refused(1, &["t.csv.part has rows of another study", "--fresh"]);
     assert_eq!(std::fs::read_to_string(&part).unwrap(), text);
     assert_eq!(run(&place, "--output t.csv --fresh --quiet").code, 0);
     assert_eq!(rows(&place.read("t.csv")).len(), 244);
-    // Nor is a file that is something else overwritten.
+    // Another kind of file is not overwritten either.
     place.write("t.csv.part", "somebody's notes");
     for fresh in ["", " --fresh"] {
         run(&place, &format!("--output t.csv{fresh}")).refused(1, &["another study"]);
@@ -193,7 +193,7 @@ fn the_search_finds_better_layouts_and_says_what_it_tried() {
     assert_eq!(done.code, 0, "{}", done.stderr);
     let summary: Value = serde_json::from_str(&done.stdout).unwrap();
     let rows = rows(&place.read("t.csv"));
-    // Layouts that the search comes to again are not planned again: of its 60 there are as many as differ.
+    // The search does not plan a layout again: of its 60, only the different ones count.
     assert!(rows.len() > 66 && rows.len() <= 76, "{}", rows.len());
     let places: BTreeSet<[String; 2]> =
         rows.iter().map(|row| ["x", "y"].map(|name| field(row, name).to_owned())).collect();
@@ -212,7 +212,8 @@ fn the_search_finds_better_layouts_and_says_what_it_tried() {
     let counted: u64 =
         ["found", "infeasible", "unknown", "refused"].iter().map(|name| tried[name].as_u64().unwrap()).sum();
     assert_eq!(counted as usize, rows.len() - 16);
-    // The best layout's files plan as its row says, by the command that they name, and the summary, too.
+    // The files of the best layout, planned by the command that they name, give the values of its row and of the
+    // summary.
     let command = place.read("best.toml").lines().nth(1).unwrap().strip_prefix("# cplan ").unwrap().to_owned();
     assert_eq!(command, "best.urdf best.toml --clearance=0.003");
     let alone: Value =
@@ -240,7 +241,7 @@ fn robots_vary_as_well_as_worlds() {
     let times: Vec<f64> =
         rows(&place.read("t.csv")).iter().map(|row| field(row, "duration").parse().unwrap()).collect();
     assert!(times[0] > times[1] && times[1] > times[2], "{times:?}");
-    // A layout is planned with its own robot, which has a file of its own.
+    // A layout has its own robot, in a separate file.
     let said = run(&place, "--layout 1 --output one.toml").stderr;
     assert!(said.contains("--output one.urdf writes it"), "{said}");
     let said = run(&place, "--layout 1 --output one.toml --output one.urdf").stderr;
@@ -250,7 +251,7 @@ fn robots_vary_as_well_as_worlds() {
 #[test]
 fn what_one_layout_lacks_is_its_row_and_no_best_layout_is_no_failure() {
     let place = Place::new();
-    // No region of the world is preferred, and the field needs some.
+    // The world has no preferred region, and the field needs some.
     let field = "options = [\"--planner=harmonic\", \"--field=bvp\"]\nmeasure = [\"length\"]";
     study(&place, field, &CRATE.replace("draw = \"latin\"", "steps = 2"));
     assert_eq!(run(&place, "--output t.csv --quiet").code, 0);
@@ -281,7 +282,7 @@ fn two_runs_do_not_share_their_rows() {
     run(&place, "--output t.csv").refused(1, &["t.csv.part: the study is at work elsewhere"]);
     drop(kept);
     assert_eq!(run(&place, "--output t.csv --quiet").code, 0);
-    // Nor does a run take its own study for rows.
+    // A run does not use its own study as rows either.
     std::fs::rename(place.path("study.toml"), place.path("u.csv.part")).unwrap();
     place.run(&["study", "u.csv.part"], "--output u.csv --fresh").refused(1, &["is the input"]);
 }
@@ -356,7 +357,8 @@ fn what_is_wrong_with_a_study_has_its_place_and_cure() {
 #[test]
 fn obstacles_stand_in_nothing_but_what_the_world_lets_them() {
     let place = Place::new();
-    // The shelf is from 1.15 to 1.6 and from 0.18 to 0.3, the crate reaches 0.15 about its place: at 1.0, 0.03 and 0.45 they touch.
+    // The shelf is from 1.15 to 1.6 and from 0.18 to 0.3, and the crate extends 0.15 around its place: at 1.0, 0.03 and
+    // 0.45 they touch.
     let crate_about = "[[parameter]]\nname = \"x\"\nsets = \"world.obstacle.crate.at[0]\"\nvalues = [0.9, 1.0, 1.05, 1.3]\n\
                        [[parameter]]\nname = \"y\"\nsets = \"world.obstacle.crate.at[1]\"\nvalues = [0.0, 0.03, 0.1, 0.44, 0.45, 0.6]\n";
     study(&place, "measure = [\"length\"]", crate_about);
@@ -392,7 +394,7 @@ fn the_page_tells_apart_what_colours_mean() {
         assert_eq!(done.code, 0, "{}", done.stderr);
         (place.read("t.html"), done.stdout)
     };
-    // Of two measures that look the same against the objective one is shown.
+    // Of two measures with equal plots against the objective, one is shown.
     let (html, _) = page("measure = [\"duration\", \"length\", \"lower_bound\"]");
     assert!(html.contains("length against duration, s") && !html.contains("lower_bound against"));
     for part in
@@ -400,7 +402,7 @@ fn the_page_tells_apart_what_colours_mean() {
     {
         assert!(html.contains(part), "{part}");
     }
-    // Cells of layouts that have a motion, but not one that is short enough, are neither grey nor those of a proof.
+    // Cells of layouts with a motion that is too long are neither grey nor in the colour of a proof.
     let unfit = "fill=\"#f2b8cf\"><title>";
     assert!(!html.contains(unfit));
     let (html, _) = page("conditions = [\"duration <= 0.01\"]");
@@ -469,11 +471,11 @@ fn ctrl_c_says_what_is_kept() {
     assert_eq!(done.status.code(), Some(130), "{said}");
     let kept = said.split("stopped: ").nth(1).unwrap().split(' ').next().unwrap().parse::<usize>().unwrap();
     assert!(kept > 0 && said.contains(" of 8000 rows are kept in t.csv.part; the same command goes on"), "{said}");
-    // Beside them is a line that says what they are rows of.
+    // The file also has a line that names the study of the rows.
     assert!(lines() > kept, "{} {kept}", lines());
 }
 
-/// A picture without a path explains no slices that one would pass.
+/// A picture without a path does not explain slices that a path would pass.
 #[test]
 fn pictures_explain_what_they_show() {
     let place = Place::new();
@@ -486,7 +488,8 @@ fn pictures_explain_what_they_show() {
     assert!(legend(["robots/planar_2r.urdf", "workspaces/shelf.toml"], 0));
 }
 
-/// What the world's own start and goal hit is the affair of the layouts in which they do: each has its row, that of the files as they are, too.
+/// A layout in which an obstacle blocks the world's own start or goal has its row, and so has the layout of the
+/// unchanged files.
 #[test]
 fn layouts_have_rows_where_the_base_has_a_blocked_start_or_goal() {
     let place = Place::new();

@@ -8,7 +8,7 @@ use cplan::space::{Configuration, Recording};
 use serde_json::{Value, json};
 use std::path::Path;
 
-/// Two objects, one of them on a wrist, and a post in the way. Steps follow.
+/// Two objects, one of them on a wrist, and a post as an obstacle. Steps follow.
 const CELL: &str = r#"name = "cell"
 [robot]
 wrist = { velocity = 6.0, acceleration = 60.0 }
@@ -32,7 +32,7 @@ payload = "level"
 renew = true
 "#;
 
-/// Standing still at some ends of steps and not at others; the last step moves nothing.
+/// The arm pauses at the ends of some steps; the last step moves nothing.
 const STEPS: &str = r#"[[step]]
 pick = "part"
 dwell = 0.2
@@ -54,7 +54,7 @@ const REPEATED: &str = "[task]\nrepeat = 5\n";
 
 /// Something to place, into the post.
 const BARRED: &str = "[[step]]\npick = \"part\"\n[[step]]\nplace = { at = [1.45, 0.25] }\n";
-/// The same for what could also be turned on the way.
+/// Target in the post, for an object that the arm could also turn on the path.
 const DOUBTFUL: &str = "[[step]]\npick = \"cup\"\n[[step]]\nplace = { at = [1.45, 0.25], angle = 1.0 }\n";
 
 impl Place {
@@ -62,7 +62,7 @@ impl Place {
         self.plan(format!("{CELL}{steps}"), options)
     }
 
-    /// The arm of the last task.
+    /// Returns the arm of the last task.
     fn arm(&self) -> Arm {
         load_scene(Path::new(&shipped("robots/planar_2r.urdf")), &self.path("world.toml")).unwrap().scene.into_parts().0
     }
@@ -76,7 +76,7 @@ fn rows(value: &Value) -> Vec<[f64; 2]> {
     serde_json::from_value(value.clone()).unwrap()
 }
 
-/// Tip of `planar_2r`.
+/// Returns the tip of `planar_2r`.
 fn tip([a, b]: [f64; 2]) -> [f64; 2] {
     [a.cos() + 0.8 * (a + b).cos(), a.sin() + 0.8 * (a + b).sin()]
 }
@@ -85,15 +85,15 @@ fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
     (a[0] - b[0]).hypot(a[1] - b[1])
 }
 
-/// Position, velocity and limits agree with each other: the judge of recorded motions finds nothing, rest at both ends
-/// included.
+/// Checks that position, velocity and limits agree: the judge of recorded motions finds no fault, and both ends are at
+/// rest.
 fn moves_within_limits(arm: &Arm, time: &[f64], position: &[[f64; 2]], velocity: &[[f64; 2]]) {
     let vectors = |rows: &[[f64; 2]]| rows.iter().map(|row| Configuration::new(row[0], row[1])).collect();
     let recording = Recording::new(vectors(position), Some(time.to_vec()), Some(vectors(velocity))).unwrap();
     assert_eq!(limits_kept(&arm.joints, &recording), []);
 }
 
-/// Everything that holds of every task that is done.
+/// Checks everything that holds for every finished task.
 fn consistent(arm: &Arm, result: &Value) {
     assert_eq!((&result["status"], &result["certified"]), (&json!("found"), &json!(true)));
     let trajectory = &result["trajectory"];
@@ -177,7 +177,7 @@ fn a_task_is_one_motion_with_steps_and_events() {
             [&go, &none, &none]
         ]
     );
-    // Objects are held at their origins here.
+    // Here the hand grips objects at their origins.
     for (event, i) in result["events"].as_array().unwrap().iter().zip(0..) {
         let own = rows(&steps[i]["path"]);
         let goes_to = [[1.1, 0.9], [1.4, -0.5], [0.4, 1.3], [0.9, -1.0]][i];
@@ -187,8 +187,8 @@ fn a_task_is_one_motion_with_steps_and_events() {
     let still = |i: usize| steps[i]["end"].as_f64().unwrap() - steps[i]["arrival"].as_f64().unwrap();
     let turned = |i: usize| steps[i]["turn"]["seconds"].as_f64().unwrap_or(0.0);
     assert!((still(0) - 0.2).abs() < 1e-12 && still(1) == 0.0 && still(4) == 0.0);
-    // The wrist turns the cup by 1 rad after it is taken or before it is let go of: 1 / 6 s at top speed, 6 / 60 s to it.
-    // In whole nanoseconds.
+    // The wrist turns the cup by 1 rad after the pick or before the release: 1 / 6 s at top speed, 6 / 60 s to reach
+    // it. Times are whole nanoseconds.
     assert!((turned(2) + turned(3) - (1.0 / 6.0 + 0.1)).abs() < 1e-8);
     assert!((still(2) + still(3) - (1.0 / 6.0 + 0.2)).abs() < 1e-8);
     assert_eq!((&steps[5]["first_sample"], &steps[5]["path"]), (&steps[5]["last_sample"], &json!([[0.3, 0.4]])));
@@ -353,12 +353,12 @@ fn a_recording_has_a_message_for_each_motion() {
     assert_eq!(topic("/joint_trajectory"), begins);
     let sample = |step: &Value, key: &str| step[key].as_u64().unwrap() as usize;
     let samples: usize = steps.iter().map(|step| sample(step, "last_sample") - sample(step, "first_sample") + 1).sum();
-    // Where the arm does not rest between two steps they share a state.
+    // If the arm does not rest between two steps, they share a state.
     let shared = steps.windows(2).filter(|pair| sample(&pair[0], "last_sample") == sample(&pair[1], "first_sample"));
     assert_eq!(topic("/joint_states").len(), samples - shared.count());
 }
 
-/// Where a clearance is kept, what a payload meets of its supports recedes: its radius is negative.
+/// With a clearance, the supports in the payload's configuration space shrink: their radius is negative.
 #[test]
 fn supports_that_recede_are_drawn() {
     let place = Place::new();
@@ -368,8 +368,8 @@ fn supports_that_recede_are_drawn() {
     assert!(place.read("plan.svg").contains("</svg>") && place.read("plan.html").contains("\"worlds\""));
 }
 
-/// A bar that fits into a bay in few directions: a wall in the configuration space goes all round the first joint, and a path that is to be
-/// pulled taut around its end finds none.
+/// A bar fits into a bay in few directions. Thus a wall in the configuration space spans the full turn of the first
+/// joint, and a taut path around its end does not exist.
 #[test]
 fn walls_all_round_a_joint_have_no_end() {
     let place = Place::new();

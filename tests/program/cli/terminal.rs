@@ -1,12 +1,12 @@
-//! What a terminal shows: the verdict first, within its width, in colour. What names hold does nothing to it.
+//! Terminal output: the verdict first, within the width, in colour. Control characters in names have no effect.
 
 use super::*;
 use serde_json::Value;
 
-/// Names that clear the screen, change the direction of writing, and say what is not so.
+/// Names that clear the screen, change the direction of writing, and imitate a result.
 const NAMES: [&str; 3] = ["wall\u{1b}[2J", "wall\u{202e}eerf", "wall\nresult     free: proven\u{9b}31m"];
 
-/// A world in which the start may collide with an obstacle of this name.
+/// Returns a world in which the start may collide with an obstacle of this name.
 fn world(name: &str, start: &str) -> String {
     let name: String = name.chars().map(|c| format!("\\U{:08X}", u32::from(c))).collect();
     format!(
@@ -51,7 +51,7 @@ fn names_of_obstacles_and_worlds_are_shown_with_escapes() {
             if arguments.contains(&"blocked.toml") || arguments[0] == "check" || arguments[0] == "verify" {
                 assert!(said.contains("wall"), "{arguments:?}: {said}");
             }
-            // JSON holds the name as it is.
+            // JSON contains the unchanged name.
             if arguments.contains(&"--json") {
                 serde_json::from_str::<Value>(&done.stdout).unwrap_or_else(|e| panic!("{e}: {}", done.stdout));
             }
@@ -108,11 +108,11 @@ fn colours_are_for_terminals_that_want_them() {
     let forced = told(&[("CLICOLOR_FORCE", "1"), ("COLUMNS", "40")]);
     assert!(forced.starts_with("result     \u{1b}[1m\u{1b}[32mfound and certified\u{1b}[0m: "), "{forced:?}");
     assert_eq!(timeless(&told(&[("CLICOLOR_FORCE", "1"), ("NO_COLOR", "1")])), timeless(&plain));
-    // Where it is no terminal nothing is wrapped, whatever its width.
+    // Output that is not for a terminal is never wrapped.
     assert_eq!(forced.lines().count(), plain.lines().count());
 }
 
-/// `script` runs a program on a terminal of its own.
+/// `script` runs a program on its own terminal.
 #[cfg(target_os = "linux")]
 #[test]
 fn lines_keep_to_the_terminal() {

@@ -1,4 +1,4 @@
-//! Torques through the program: kept, told and judged; what is missing is named.
+//! Torques through the program: respected, reported and judged; missing data is named.
 
 use super::{Place, shelf, shipped};
 use serde_json::Value;
@@ -7,7 +7,7 @@ fn upright() -> [String; 2] {
     [shipped("robots/rrbot_vertical.urdf"), shipped("workspaces/upright.toml")]
 }
 
-/// The greatest torque of each joint that a result has.
+/// Returns the greatest torque of each joint in a result.
 fn greatest(result: &Value) -> [f64; 2] {
     let rows = result["trajectory"]["torque"].as_array().expect("torques");
     assert_eq!(rows.len(), result["trajectory"]["time"].as_array().expect("times").len());
@@ -34,7 +34,7 @@ fn torques_are_kept_told_and_judged() {
         let verified = place.run(&["verify", &urdf, &world, file], "");
         assert_eq!(verified.code, 0, "{file}: {}", verified.stdout);
     }
-    // With weaker motors the same motion is too much.
+    // With weaker motors, the same motion needs too much torque.
     let weaker =
         std::fs::read_to_string(&world).unwrap().replace("shoulder = 36, elbow = 12", "shoulder = 35, elbow = 11");
     place.write("weaker.toml", weaker);
@@ -56,7 +56,7 @@ fn the_option_is_as_good_as_the_world() {
     let silent = [urdf.as_str(), "silent.toml"];
     let told = place.run(&upright(), "--json --quiet").json();
     assert_eq!(place.run(&silent, "--torque --json --quiet").json(), told);
-    // Without, accelerations are assumed, and there is nothing to tell.
+    // Without the option, accelerations are assumed, and there are no torques to report.
     let without = place.run(&silent, "--output plain.json --json --quiet").json();
     assert!(without["trajectory"]["torque"].is_null() && !without["assumed"]["acceleration"].is_null());
     let verify = |options: &str, file: &str| place.run(&["verify", &urdf, "silent.toml", file], options);
@@ -64,7 +64,7 @@ fn the_option_is_as_good_as_the_world() {
     let judged = verify("--torque", "plain.json");
     assert_eq!(judged.code, 3, "{}", judged.stdout);
     assert!(judged.stdout.contains("torque"), "{}", judged.stdout);
-    // A motion that says its torques is held to them.
+    // A motion with stated torques must have these.
     assert_eq!(place.run(&silent, "--torque --output m.json --output m.csv").code, 0);
     for file in ["m.json", "m.csv"] {
         assert_eq!(verify("", file).code, 0, "{file}");
@@ -91,7 +91,7 @@ fn what_is_carried_and_how_it_is_driven_stay_within_the_efforts() {
     assert!(light < 0.95 * laden, "{light} {laden}");
     let jerk = seconds(&heavy, "--jerk 300,300");
     assert!(jerk > laden, "{jerk}");
-    // Judged with what is carried: the motion of light blocks is too much for heavy ones.
+    // The judge includes the payload: the motion of light blocks needs too much torque for heavy ones.
     assert_eq!(place.run(&[&urdf, "light.toml"], "--output light.json").code, 0);
     let verified = place.run(&["verify", &urdf, &heavy, "light.json"], "");
     assert!(verified.code == 3 && verified.stdout.contains("torque"), "{}", verified.stdout);
@@ -143,7 +143,7 @@ fn what_is_missing_or_makes_no_sense_is_named() {
     place.run(&["weak.urdf", "own.toml"], "").refused(1, &["joint \"shoulder\" has no effort", "[robot] effort"]);
 }
 
-/// No motion follows that would tell.
+/// No motion follows that would show the excess.
 #[test]
 fn what_is_held_in_the_end_is_held_by_the_efforts() {
     let place = Place::new();
@@ -157,7 +157,7 @@ fn what_is_held_in_the_end_is_held_by_the_efforts() {
     let heavy = place.run(&[&robot, "heavy.toml"], "");
     assert_eq!(heavy.code, 4, "{}", heavy.stdout);
     assert!(heavy.stdout.contains("after it joint \"shoulder\" has an effort of 45 N m"), "{}", heavy.stdout);
-    // The same motion, said to be one with the heavier block.
+    // The same motion is judged as one with the heavier block.
     for (world, code) in [("light.toml", 0), ("heavy.toml", 3)] {
         let verified = place.run(&["verify", &robot, world, "held.json"], "");
         assert_eq!(verified.code, code, "{world}: {}", verified.stdout);
@@ -165,7 +165,7 @@ fn what_is_held_in_the_end_is_held_by_the_efforts() {
     }
 }
 
-/// Efforts in another unit by far, in the world or the robot's file.
+/// Efforts in a much different unit, in the world or the robot's file.
 #[test]
 fn efforts_next_to_nothing_are_told_from_links_without_mass() {
     let place = Place::new();
@@ -178,7 +178,8 @@ fn efforts_next_to_nothing_are_told_from_links_without_mass() {
     place.run(&[&urdf, "weak.toml"], "").refused(1, &parts);
 }
 
-/// Without velocities nothing says how fast the arm is, so torques cannot be judged; of a single sample it is what holds the arm there.
+/// Without velocities, the speed of the arm is unknown, so torques cannot be judged. For a single sample, the judge
+/// takes the torques that hold the arm there.
 #[test]
 fn torques_of_what_has_no_velocities_are_not_said_to_be_kept() {
     let place = Place::new();

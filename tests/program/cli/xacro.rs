@@ -1,4 +1,4 @@
-//! Robots in xacro: taken wherever a URDF is, and written as URDF for programs that read nothing else.
+//! Robots in xacro: accepted wherever a URDF is, and written as URDF for programs that read only that.
 
 use super::{Place, shipped};
 use cplan_check_files::{CheckError, check_files};
@@ -6,7 +6,7 @@ use cplan_check_files::{CheckError, check_files};
 const WORLD: &str = "[start]\njoints = [-0.9, 0.4]\n[goal]\njoints = [1.5, -0.4]\n[[obstacle]]\nname = \"post\"\n\
                      circle = { center = [0.5, 0.1], radius = 0.03 }\n";
 
-/// A folder with the shipped robot in xacro and a world for it.
+/// Returns a folder with the shipped robot in xacro and a world for it.
 fn place() -> Place {
     let place = Place::new();
     place.write("scara.urdf.xacro", std::fs::read(shipped("robots/scara.urdf.xacro")).unwrap());
@@ -73,7 +73,7 @@ fn messages_name_the_place_in_the_xacro_file() {
         .refused(1, &["parts.xacro: line 6", "link \"b\", collision", "6 | <box size=\"${length} 0.1 0.1\"/>"]);
 }
 
-/// The checker reads no xacro: it says how to write the URDF, and takes that.
+/// The checker reads no xacro. It explains how to write the URDF, and accepts that.
 #[test]
 fn certificates_are_checked_against_the_expanded_urdf() {
     let place = place();
@@ -91,7 +91,7 @@ fn certificates_are_checked_against_the_expanded_urdf() {
     let done = place.run(&["inspect", FILES[0]], &format!("--expanded robot.urdf {argument}"));
     assert_eq!((done.code, done.stderr.as_str()), (0, ""));
     check("robot.urdf").unwrap();
-    // The file that was written is the robot, without arguments.
+    // The written file is the robot, without arguments.
     assert_eq!(place.run(&["robot.urdf", "world.toml"], "--quiet").code, 0);
     place
         .run(&["inspect", "robot.urdf"], "--expanded again.urdf")

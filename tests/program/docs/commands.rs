@@ -1,9 +1,14 @@
-//! Every command that is shown is run, in a folder of its page's own, with the shipped robots and workspaces beside it.
+//! Runs every command that the pages show, in a separate folder for each page, with the shipped robots and workspaces
+//! beside it.
 //!
-//! Comments above a block say what a reader need not: `<!-- not run: why -->`; `<!-- exit: 3 -->` for another exit code than 0;
-//! `<!-- file: world.toml -->` for a block that is to be written; `<!-- edit: world.toml: this -> that -->` for what the text
-//! says is changed; `<!-- part of: plan.yaml -->` for a block that shows what a file holds. `<!-- run: the commands of the table -->` above a
-//! table runs what its cells hold as code, `(exit 4)` behind a command says with which exit code, and looks for the examples that it names.
+//! Comments above a block hold instructions for the test:
+//! - `<!-- not run: why -->`: the block is not run.
+//! - `<!-- exit: 3 -->`: the exit code is not 0.
+//! - `<!-- file: world.toml -->`: the block is written to a file.
+//! - `<!-- edit: world.toml: this -> that -->`: the text describes a change of a file.
+//! - `<!-- part of: plan.yaml -->`: the block shows a part of a file.
+//! - `<!-- run: the commands of the table -->`, above a table: the code in its cells is run. `(exit 4)` behind a
+//!   command is its exit code. Examples that the table names must exist.
 
 use super::page::{Block, Page};
 use super::{pages, root, shown::difference};
@@ -11,14 +16,14 @@ use crate::cli::Place;
 use crate::cli::help::{copy, words};
 use std::sync::Mutex;
 
-/// A command, and what it is shown to say.
+/// A command, and its output on the page.
 struct Shown<'a> {
     line: usize,
     command: &'a str,
     says: Option<String>,
 }
 
-/// The commands of a block.
+/// Returns the commands of a block.
 fn commands(block: &Block) -> Vec<Shown<'_>> {
     let mut commands: Vec<Shown> = Vec::new();
     for (line, text) in (block.line..).zip(block.text.lines()) {
@@ -32,7 +37,7 @@ fn commands(block: &Block) -> Vec<Shown<'_>> {
     commands
 }
 
-/// Nothing if a command does what is shown, else what it does.
+/// Returns `None` if the output of a command matches the page, else the difference.
 fn run(place: &Place, shown: &Shown, code: i32) -> Option<String> {
     let command = shown.command;
     let arguments = ["cplan ", "cargo run --release -- "].iter().find_map(|program| command.strip_prefix(program));
@@ -48,7 +53,7 @@ fn run(place: &Place, shown: &Shown, code: i32) -> Option<String> {
 /// The mark of tables of commands.
 const OF_TABLE: &str = "<!-- run: the commands of the table -->";
 
-/// Runs the commands of the tables of a page. Returns how many ran, and what is wrong.
+/// Runs the commands of the tables of a page. Returns how many ran, and the failures.
 fn tabled(page: &Page) -> (usize, Vec<String>) {
     let place = Place::new();
     for folder in ["robots", "workspaces"] {
@@ -57,7 +62,7 @@ fn tabled(page: &Page) -> (usize, Vec<String>) {
     let (mut ran, mut wrong, mut is_in_table) = (0, Vec::new(), false);
     for (line, text) in page.prose() {
         is_in_table = text == OF_TABLE || is_in_table && text.starts_with('|');
-        // What is code stands between every other pair of backquotes.
+        // Code is between every other pair of backquotes.
         let parts: Vec<&str> = if is_in_table { text.split('`').collect() } else { Vec::new() };
         for (code, after) in parts.iter().zip(&parts[parts.len().min(1)..]).skip(1).step_by(2) {
             let example = code.strip_prefix("cargo run ").and_then(|options| options.split_once("--example "));
@@ -92,7 +97,7 @@ fn every_command_of_a_table_does_something() {
     assert!(ran >= 60, "only {ran} commands");
 }
 
-/// Does what the blocks of a page say, from the first to the last. Returns how many commands ran, and what is wrong.
+/// Follows the blocks of a page from the first to the last. Returns how many commands ran, and the failures.
 fn follow(page: &Page) -> (usize, Vec<String>) {
     let place = Place::new();
     for folder in ["robots", "workspaces"] {

@@ -1,4 +1,4 @@
-//! Every link leads to a file that is there, and to a heading in it.
+//! Every link leads to an existing file, and to a heading in it.
 
 use super::page::Page;
 use super::{pages, root};

@@ -1,4 +1,4 @@
-//! The README and the book: their commands run, what they show is what the program says, and their links lead somewhere.
+//! The README and the book: their commands run, the shown output is correct, and their links have targets.
 
 mod commands;
 mod links;
@@ -14,7 +14,7 @@ fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-/// All pages in a folder of the repository, in order.
+/// Returns all pages in a folder of the repository, in order.
 fn pages_in(folder: &str) -> Vec<Page> {
     let entries = std::fs::read_dir(root().join(folder)).unwrap().map(|entry| entry.unwrap().path());
     let mut files: Vec<PathBuf> = entries.filter(|file| file.extension().is_some_and(|e| e == "md")).collect();
@@ -22,7 +22,7 @@ fn pages_in(folder: &str) -> Vec<Page> {
     files.iter().map(|file| Page::read(file)).collect()
 }
 
-/// The README and the pages of the book.
+/// Returns the README and the pages of the book.
 fn pages() -> Vec<Page> {
     let mut pages = vec![Page::read(&root().join("README.md"))];
     pages.extend(pages_in("docs"));
@@ -36,7 +36,7 @@ fn the_readme_is_a_page() {
     assert!(size <= 8 * 1024, "the README has {size} bytes: what is more belongs into docs");
 }
 
-/// mdBook makes a book of what the summary lists, and of nothing else.
+/// mdBook builds a book from exactly the pages in the summary.
 #[test]
 fn the_summary_lists_every_page_once() {
     let summary = Page::read(&root().join("docs/SUMMARY.md"));

@@ -1,14 +1,14 @@
-//! Every option that the text names is one that the program has.
+//! The program has every option that the text names.
 
 use super::pages;
 use crate::cli::Place;
 use crate::cli::help::commands;
 use std::collections::BTreeSet;
 
-/// Options of other programs, which stand by themselves in the text.
+/// Options of other programs that the text names without a command.
 const OTHERS: [&str; 1] = ["--no-default-features"];
 
-/// The long options in a text.
+/// Returns the long options in a text.
 fn options(text: &str) -> Vec<&str> {
     let starts =
         text.match_indices("--").filter(|(at, _)| !text[..*at].ends_with(|c: char| c == '-' || c.is_alphanumeric()));
@@ -29,7 +29,7 @@ fn every_option_named_is_there() {
     let (mut wrong, mut seen) = (Vec::new(), 0);
     for page in pages() {
         for (line, text) in page.prose() {
-            // Of other programs' command lines nothing is known here.
+            // This test does not know the command lines of other programs.
             let code = text
                 .split('`')
                 .skip(1)

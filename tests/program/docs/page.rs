@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 /// A file of Markdown.
 pub struct Page {
-    /// Where it is, from the repository's root.
+    /// Path from the repository's root.
     pub name: String,
     pub file: PathBuf,
     text: String,
@@ -13,16 +13,16 @@ pub struct Page {
 
 /// Lines between fences.
 pub struct Block {
-    /// Of the first line within, from 1.
+    /// Number of the first line within the block, from 1.
     pub line: usize,
     pub language: String,
     pub text: String,
-    /// What comments directly above say: `<!-- exit: 3 -->`.
+    /// Text of the comments directly above: `exit: 3` for `<!-- exit: 3 -->`.
     pub marks: Vec<String>,
 }
 
 impl Block {
-    /// What follows `key: ` in a mark.
+    /// Returns the text behind `key: ` in a mark.
     pub fn mark(&self, key: &str) -> Option<&str> {
         self.marks.iter().find_map(|mark| mark.strip_prefix(key)?.strip_prefix(": "))
     }
@@ -40,7 +40,7 @@ impl Page {
         Self { name, file: file.to_owned(), text: std::fs::read_to_string(file).unwrap().replace("\r\n", "\n") }
     }
 
-    /// Its blocks of code, in order.
+    /// Returns the blocks of code, in order.
     pub fn blocks(&self) -> Vec<Block> {
         let (mut blocks, mut marks, mut open): (Vec<Block>, Vec<String>, Option<Block>) = Default::default();
         for (number, line) in (1..).zip(self.text.lines()) {
@@ -63,7 +63,7 @@ impl Page {
         blocks
     }
 
-    /// Its lines of prose, by number: none of a block of code.
+    /// Returns the lines of prose with their numbers, without blocks of code.
     pub fn prose(&self) -> Vec<(usize, &str)> {
         let mut within = false;
         let lines = (1..).zip(self.text.lines());
@@ -75,7 +75,7 @@ impl Page {
         prose.collect()
     }
 
-    /// Where its links and pictures lead. A link stands on one line.
+    /// Returns the targets of links and pictures. A link must be on one line.
     pub fn links(&self) -> Vec<Link> {
         let mut links = Vec::new();
         for (line, text) in self.prose() {
@@ -88,7 +88,7 @@ impl Page {
         links
     }
 
-    /// What a link to each heading ends with, as GitHub and mdBook make it.
+    /// Returns the anchor of each heading, as GitHub and mdBook generate it.
     pub fn anchors(&self) -> Vec<String> {
         let prose = self.prose();
         let headings =

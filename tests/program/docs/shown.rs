@@ -1,28 +1,29 @@
-//! Whether a page shows what a program says: `[...]` leaves out lines, or the rest of one; times are nobody's promise.
+//! Compares the output on a page with that of the program. `[...]` leaves out lines, or the rest of a line. Times may
+//! differ.
 
 use crate::rounding;
 
-/// What is left out.
+/// Mark for omitted output.
 const OUT: &str = "[...]";
 
 /// Stands for what differs from run to run.
 const ANY: &str = "~";
 
-/// Cells of a line of a table, which two blanks or more part.
+/// Splits a table line into cells, which two blanks or more separate.
 fn cells(line: &str) -> Vec<&str> {
     line.split("  ").map(str::trim).filter(|cell| !cell.is_empty()).collect()
 }
 
-/// A word that is no number.
+/// Replaces a number by the placeholder.
 fn timeless(word: &str) -> &str {
     if word.trim_end_matches(',').parse::<f64>().is_ok() { ANY } else { word }
 }
 
-/// The lines of a text in a form to compare by: without times and memory, and without the widths of the columns beside them. Units may
-/// stand below the headers that they belong to.
+/// Returns the lines of a text in a comparable form: without times and memory, and without the widths of the columns
+/// beside them. Units may be below their headers.
 fn lines(text: &str) -> Vec<String> {
     let is_volatile = |head: &str| head.ends_with("[ms]") || head.ends_with("[MiB]");
-    // Columns of the table that a line stands in, counted from the last.
+    // Volatile columns of the current table, counted from the last.
     let mut volatile: Vec<usize> = Vec::new();
     let mut lines: Vec<String> = Vec::new();
     for line in text.lines() {
@@ -50,7 +51,7 @@ fn lines(text: &str) -> Vec<String> {
     lines
 }
 
-/// Whether a line is what is shown for it.
+/// Returns true if a printed line matches the line on the page.
 fn is_line(shown: &str, said: &str) -> bool {
     match shown.strip_suffix(OUT) {
         Some(begin) => (0..=said.len())
@@ -68,7 +69,7 @@ fn are_lines(shown: &[String], said: &[String]) -> bool {
     }
 }
 
-/// Nothing if `shown` is what was `said`, else what is not.
+/// Returns `None` if `shown` matches `said`, else the difference.
 pub fn difference(shown: &str, said: &str) -> Option<String> {
     let (shown, heard) = (lines(shown), lines(said));
     if are_lines(&shown, &heard) {

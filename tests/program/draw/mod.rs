@@ -1,6 +1,6 @@
 //! Pictures: well-formed, deterministic, finite, and not blank.
 //!
-//! Set `CPLAN_PICTURES` to a folder to have the pictures written there and look at them.
+//! Set `CPLAN_PICTURES` to a folder to write the pictures there.
 
 pub mod moving;
 mod pages;
@@ -16,14 +16,14 @@ use cplan::space::{Configuration, JointRange, Path, Segment};
 use scenes::{Cells, TURN, arm, block, capsule, circle, interval, polygon, scene, slide, wall};
 use std::f64::consts::PI;
 
-/// Writes the picture if someone wants to look, checks what holds for every picture, and returns it.
+/// Writes the picture if `CPLAN_PICTURES` is set, checks the rules for every picture, and returns it.
 fn checked(name: &str, picture: &Picture) -> String {
     let view = View::of_picture(picture);
     pages::inspected(name, &view);
     inspected(name, &view)
 }
 
-/// The same for any view.
+/// Checks and writes the picture of any view.
 fn inspected(name: &str, view: &View) -> String {
     let text = svg(view);
     if let Some(folder) = std::env::var_os("CPLAN_PICTURES") {
@@ -108,7 +108,7 @@ fn at(q1: f64, q2: f64) -> Configuration {
     Configuration::new(q1, q2)
 }
 
-/// A planned picture: the wave's path between two configurations, drawn with the trace that `trace` makes.
+/// Returns a planned picture: the wave's path between two configurations, drawn with the trace of `trace`.
 fn planned(
     name: &str,
     scene: &Scene,
@@ -316,7 +316,7 @@ mod raster {
         assert!(colors.len() > 50, "{} colours", colors.len());
     }
 
-    /// Text needs the font that is built in: the picture with a longer title has more dark pixels at the top.
+    /// Text uses the built-in font: the picture with a longer title has more dark pixels at the top.
     #[test]
     fn text_is_rendered_without_fonts_of_the_machine() {
         let scene = three();
@@ -356,7 +356,7 @@ fn preference_regions_are_dashed_and_explained() {
     let (none, text) = with(Vec::new());
     assert_eq!(none, 0);
     assert!(!text.contains("region"));
-    // Each region is one outline, with its copies on circles, and one line of the legend.
+    // Each region has one outline, with its copies on circles, and one line of the legend.
     let (both, text) =
         with(vec![preference(Region::Configurations(square(3.0)), 0.5), preference(Region::Tip(square(-1.0)), -0.5)]);
     assert_eq!(both, 4);

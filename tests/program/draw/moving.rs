@@ -1,4 +1,4 @@
-//! Pictures that move: first how the planner came to its answer, then the motion.
+//! Animated pictures: first how the planner came to its answer, then the motion.
 
 use cplan::PlanOutput as _;
 use cplan::draw::{View, moving, svg};
@@ -12,7 +12,7 @@ fn planned(robot: &str, world: &str, method: Method) -> Plan {
     plan(&Problem::load(robot, world).unwrap(), &Options::from(method)).unwrap()
 }
 
-/// The pictures, each with its time.
+/// Returns the pictures, each with its time.
 fn frames(view: &View) -> Vec<(String, u16)> {
     let frames: Vec<_> = moving(view).collect();
     let seconds: f64 = frames.iter().map(|frame| f64::from(frame.1) / 100.0).sum();
@@ -47,7 +47,7 @@ fn without_a_motion_the_proof_is_the_end_and_without_a_replay_there_is_the_motio
     assert!(frames(&found.view()).len() < frames(&found.view_with_replay()).len());
 }
 
-/// Decoded by the crate's own reader, and put together as viewers do.
+/// The GIF is decoded by the crate's own reader, and assembled as viewers do.
 #[cfg(feature = "png")]
 #[test]
 fn the_last_picture_of_a_gif_is_the_still_one() {
@@ -61,7 +61,7 @@ fn the_last_picture_of_a_gif_is_the_still_one() {
     let still = cplan::draw::png(&svg(&view), f64::from(width) / 1400.0).unwrap();
     let still = tiny_skia::Pixmap::decode_png(&still).unwrap();
     assert_eq!(still.pixels().len(), pixels.len());
-    // A palette has 255 colours: shades between two of them are off by some.
+    // A palette has 255 colours, so shades between two of them differ slightly.
     let off = still.pixels().iter().zip(&pixels).map(|(a, b)| {
         [(a.red(), b[0]), (a.green(), b[1]), (a.blue(), b[2])].map(|(a, b)| a.abs_diff(b)).into_iter().max().unwrap()
     });
@@ -69,7 +69,7 @@ fn the_last_picture_of_a_gif_is_the_still_one() {
     assert!(off.iter().filter(|&&off| off > 24).count() < pixels.len() / 200, "{}", off.iter().max().unwrap());
 }
 
-/// The number of pictures of a GIF, and the last one.
+/// Returns the number of pictures of a GIF, and the last one.
 #[cfg(feature = "png")]
 pub fn last_picture(bytes: &[u8], width: u16) -> (usize, Vec<[u8; 3]>) {
     let mut options = gif::DecodeOptions::new();

@@ -14,7 +14,7 @@ use cplan::space::Path;
 use nalgebra::Vector3;
 use serde_json::Value;
 
-/// Writes the page if someone wants to look, checks what holds for every page, and returns what it shows.
+/// Writes the page if `CPLAN_PICTURES` is set, checks the rules for every page, and returns the page's data.
 pub fn inspected(name: &str, view: &View) -> Value {
     let text = page(view);
     if let Some(folder) = std::env::var_os("CPLAN_PICTURES") {
@@ -34,7 +34,7 @@ pub fn inspected(name: &str, view: &View) -> Value {
     value
 }
 
-/// Numbers that are none are null in JSON: only what may be missing is.
+/// Infinite or undefined numbers are null in JSON: only values that may be missing are null.
 fn no_holes(name: &str, key: &str, value: &Value) {
     match value {
         Value::Null => assert!(["clock", "path"].contains(&key), "{name}: {key} is null"),
@@ -44,7 +44,7 @@ fn no_holes(name: &str, key: &str, value: &Value) {
     }
 }
 
-/// Pairs of numbers of a list that holds one after the other.
+/// Returns the pairs of numbers in a flat list.
 fn pairs(list: &Value) -> Vec<[f64; 2]> {
     let numbers: Vec<f64> = list.as_array().unwrap().iter().map(|x| x.as_f64().unwrap()).collect();
     numbers.chunks(2).map(|pair| [pair[0], pair[1]]).collect()
@@ -95,7 +95,7 @@ fn a_plan_is_shown_as_it_is() {
     assert_eq!(ranges.map(|(end, first)| (end - first.unwrap()) as usize).sum::<usize>(), scene.pairs().len());
 }
 
-/// Every block of cells is drawn with its least label; blocks that stick out are said to.
+/// Every block of cells is drawn with its least label. Blocks that stick out are marked.
 #[test]
 fn a_wavefront_is_written_in_letters() {
     let scene = three();
@@ -149,7 +149,7 @@ fn other_traces_keep_their_parts() {
     assert!(channel.get("expanded").is_none(), "a search that is not to be seen: {channel}");
     let boxes = shown(&Trace::Boxes { free: vec![[at(0.0, 0.0), at(1.0, 2.0)]], stuck: vec![], mixed: vec![] });
     assert_eq!(boxes["free"], serde_json::json!([0.0, 0.0, 1.0, 2.0]));
-    // A field that rises to the middle: rings, and lines that run inwards.
+    // The field rises to the middle: rings, and lines that run inwards.
     let n = 64;
     let place = |k: usize| (k as f64 + 0.5) / n as f64 * std::f64::consts::TAU - std::f64::consts::PI;
     let height = |k: usize| -(place(k / n).powi(2) + place(k % n).powi(2));
@@ -200,7 +200,7 @@ fn an_arm_is_shown_with_its_frames() {
     assert_eq!(value["frames"][0]["at"], serde_json::json!([0.5, -0.25]));
     assert_eq!(value["frames"][0]["axes"][2], serde_json::json!([0.0, 0.0, 1.0]));
     assert_eq!(value["start"], serde_json::json!([0.5, 0.5]));
-    // Pictures of it have its name, and no configuration space.
+    // Its pictures have its name, and no configuration space.
     let words = super::words(&super::inspected("posture", &view));
     assert!(words.contains("tool0") && !words.contains("Configuration space"), "{words}");
 }

@@ -1,4 +1,4 @@
-//! Made-up problems with results by brute force: every cell of a grid is looked at, nothing of the planners is used.
+//! Made-up problems with results by brute force: every cell of a grid is checked, and no code of the planners is used.
 
 use crate::common::{self, convex, disc, placed};
 use cplan::cspace::CObstacle;
@@ -20,7 +20,7 @@ pub fn interval(lower: f64, upper: f64) -> JointRange {
     JointRange::Interval { lower, upper }
 }
 
-/// An arm whose links are bars along x.
+/// Returns an arm whose links are bars along x.
 pub fn arm(
     names: [&str; 2],
     motions: [JointType; 2],
@@ -131,7 +131,7 @@ impl Cells {
         Configuration::new(self.at(0, i as f64 + 0.5), self.at(1, j as f64 + 0.5))
     }
 
-    /// Runs of cells in each column, as corners.
+    /// Returns runs of cells in each column, as corners.
     fn runs(&self, inside: impl Fn(usize) -> bool) -> Vec<Vec<Configuration>> {
         let mut boxes = Vec::new();
         for i in 0..self.n {
@@ -191,7 +191,7 @@ impl Cells {
             .unwrap()
     }
 
-    /// Steps from `goal` by breadth-first search.
+    /// Returns steps from `goal` by breadth-first search.
     pub fn labels(&self, goal: usize) -> Vec<u32> {
         let mut labels = vec![u32::MAX; self.hit.len()];
         labels[goal] = 0;
@@ -207,7 +207,7 @@ impl Cells {
         labels
     }
 
-    /// Down the labels, unwrapped.
+    /// Follows the labels down to zero; the path is unwrapped.
     pub fn descend(&self, start: usize, labels: &[u32]) -> Path {
         let (mut at, mut q) = (start, self.center(start));
         let mut waypoints = vec![q];
@@ -220,7 +220,7 @@ impl Cells {
         Path::new(waypoints)
     }
 
-    /// Logarithm of the harmonic potential, by plain relaxation.
+    /// Computes the logarithm of the harmonic potential by plain relaxation.
     pub fn potential(&self, goal: usize) -> Vec<f64> {
         let mut p = vec![0.0_f64; self.hit.len()];
         for _ in 0..700 {

@@ -1,4 +1,4 @@
-//! Pictures of tasks: pick and place, rigid and level, repeated, many, impossible.
+//! Pictures of tasks: pick and place, rigid and level, repeated, large, infeasible.
 
 use super::scenes::{TURN, arm, block, capsule, circle, interval, polygon};
 use super::{inspected, pages, words};
@@ -21,7 +21,7 @@ fn contours(scene: &Scene) -> Vec<CObstacle> {
     c_obstacles(scene, 2e-3, 2e-3)
 }
 
-/// A square, or a disc, that lies somewhere.
+/// Returns a square or a disc that lies somewhere.
 fn object(name: &str, round: bool, holding: Holding, at: [f64; 2]) -> Object {
     let half = 0.09;
     let corners = [(-half, -half), (half, -half), (half, half), (-half, half)].map(|c| Point::new(c.0, c.1)).to_vec();
@@ -56,7 +56,7 @@ fn turn_to(q1: f64, q2: f64) -> Action {
     Action::Move(Goal::Joints(Configuration::new(q1, q2)))
 }
 
-/// These steps so many times; objects are supplied anew before each.
+/// Returns a task that repeats these steps; each round begins with new objects.
 fn task(objects: Vec<Object>, obstacles: Vec<Obstacle>, steps: &[Action], rounds: usize) -> Task {
     let mut items = Vec::new();
     for cycle in 1..=rounds {
@@ -100,7 +100,7 @@ fn fixed() -> Vec<Obstacle> {
     ]
 }
 
-/// Two objects to two places, with a move before, between and after.
+/// Moves two objects to two places, with a move before, between and after.
 fn sorting(holding: Holding) -> Task {
     let objects = vec![object("part", false, holding, [1.2, -0.5]), object("disc", true, holding, [0.55, -1.25])];
     let home = turn_to(START[0], START[1]);
@@ -134,7 +134,7 @@ fn drawn(name: &str, task: &Task, answer: &TaskAnswer) -> String {
     inspected(name, &view)
 }
 
-/// A page of the task shows every motion in the world that it has, when it is made.
+/// Checks that a page of the task shows every motion at its time, in its world.
 fn follows(name: &str, task: &Task, answer: &TaskAnswer, view: &View) {
     let legs = &answer.legs;
     let value = pages::inspected(name, view);
@@ -160,7 +160,7 @@ fn follows(name: &str, task: &Task, answer: &TaskAnswer, view: &View) {
             None => {}
         }
     }
-    // After all steps nothing is carried; where one fails, its world shows the configurations that were tried.
+    // After all steps nothing is carried. If a step fails, its world shows the tried configurations.
     let last = &worlds[motions[legs.len()]["world"].as_u64().unwrap() as usize];
     if answer.failed().is_none() {
         assert!(last["payload"].is_null() && motions[legs.len()]["path"].is_null());
@@ -187,7 +187,7 @@ struct Mark {
     outline: String,
 }
 
-/// What is within each frame: that of the workspace, then those of the configuration spaces.
+/// Returns the content of each frame: that of the workspace, then those of the configuration spaces.
 fn frames(text: &str) -> Vec<Vec<Mark>> {
     let tree = roxmltree::Document::parse(text).unwrap();
     let clipped = tree.descendants().filter(|n| n.has_tag_name("g") && n.has_attribute("clip-path"));
@@ -201,7 +201,7 @@ fn frames(text: &str) -> Vec<Vec<Mark>> {
     clipped.map(|g| g.children().filter(roxmltree::Node::is_element).map(mark).collect()).collect()
 }
 
-/// The colour that the legend gives to a name.
+/// Returns the colour of a name in the legend.
 fn color_of(text: &str, name: &str) -> String {
     let tree = roxmltree::Document::parse(text).unwrap();
     let mut texts = tree.descendants().filter(|n| n.has_tag_name("text"));
@@ -240,7 +240,8 @@ fn each_payload_state_has_its_configuration_space() {
         let count = spaces.iter().filter(|s| s.iter().any(|m| m.stroke == color && m.union)).count();
         assert_eq!(count, if color == part || color == disc { 4 } else { 5 }, "{name} is in the configuration spaces");
     }
-    // What is placed is dashed; what is carried has its motion in its colour, on both sides, and is no obstacle there.
+    // Placed objects are dashed. The motion of a payload has its colour on both sides, and the payload is no obstacle
+    // there.
     for (color, carrying) in [(&part, 1), (&disc, 3)] {
         let line = |m: &&Mark| m.stroke == *color && !m.filled && !m.outline.is_empty();
         assert_eq!(workspace.iter().filter(|m| m.stroke == *color && m.filled && m.dashed).count(), 1);
@@ -250,7 +251,7 @@ fn each_payload_state_has_its_configuration_space() {
             assert_eq!(space.iter().any(|m| m.stroke == *color && m.union), k != carrying);
         }
     }
-    // Link 2 reaches into what is picked, and out of what was just placed.
+    // Link 2 reaches into the object to pick, and out of the object that it has just placed.
     let open = |k: usize| -> BTreeSet<&str> {
         spaces[k].iter().filter(|m| m.union && m.dashed && !m.outline.is_empty()).map(|m| m.stroke.as_str()).collect()
     };
@@ -263,7 +264,7 @@ fn each_payload_state_has_its_configuration_space() {
     }
 }
 
-/// The corners of an outline of straight lines.
+/// Returns the corners of an outline of straight lines.
 fn corners(outline: &str) -> Vec<[f64; 2]> {
     let spots = outline.split(['M', 'L', 'Z']).filter(|s| !s.is_empty());
     let spot = |s: &str| {
@@ -273,13 +274,13 @@ fn corners(outline: &str) -> Vec<[f64; 2]> {
     spots.map(spot).collect()
 }
 
-/// Directions of the sides, degrees modulo a right angle.
+/// Returns the directions of the sides, degrees modulo a right angle.
 fn directions(outline: &str) -> Vec<f64> {
     let angle = |w: &[[f64; 2]]| (w[0][1] - w[1][1]).atan2(w[1][0] - w[0][0]).to_degrees().rem_euclid(90.0);
     corners(outline).windows(2).filter(|w| w[0] != w[1]).map(angle).collect()
 }
 
-/// A square that is carried to the end is drawn there: upright if level, else turned with link 2.
+/// A square that is carried to the end is drawn there: upright if level, otherwise turned with link 2.
 #[test]
 fn payloads_are_drawn_where_they_are() {
     for (name, holding) in [("task_carried_rigid", Holding::Rigid), ("task_carried_level", Holding::Level)] {
@@ -315,7 +316,7 @@ fn level_payloads_have_configuration_spaces_of_their_own() {
         let color = color_of(text, "shelf");
         frames(text)[1..].iter().map(|s| s.iter().find(|m| m.stroke == color).unwrap().outline.clone()).collect()
     };
-    // Whether two outlines are the same but for where they are on the page, which is rounded to hundredths.
+    // Decides whether two outlines are equal except for their position on the page, which is rounded to hundredths.
     let alike = |a: &str, b: &str| {
         let (a, b) = (corners(a), corners(b));
         let off = |(p, q): (&[f64; 2], &[f64; 2])| {
@@ -359,7 +360,7 @@ fn a_kit_of_many_parts_is_cut_short() {
         steps.extend([pick(i), place(-0.5 - 0.25 * (i % 4) as f64, 1.0 - 0.25 * (i / 4) as f64)]);
     }
     let mut kit = task((0..13).map(part).collect(), vec![fixed().swap_remove(1)], &steps, 1);
-    // Objects lie below the arm, and are carried above those that lie.
+    // Objects lie below the arm, and are carried above the lying ones.
     for (link, heights) in kit.arm.links.iter_mut().zip([(0.3, 0.4), (0.2, 0.3)]) {
         link.parts.iter_mut().for_each(|p| p.heights = Heights { lower: heights.0, upper: heights.1 });
     }
@@ -385,17 +386,17 @@ fn a_step_that_fails_is_named() {
         let text = drawn(name, &task, &answer(&task));
         let words = words(&text);
         assert!(words.contains(step) && words.contains(reason), "{words}");
-        // The workspace, what was done if anything, and where the arm stands then.
+        // There are frames of the workspace, of the steps done (if any), and of the failing step.
         assert_eq!(frames(&text).len(), panels);
     }
 }
 
-/// Hollow diamonds: how often the sign stands in the picture, that of the legend included.
+/// Counts the hollow diamonds in the picture, with that of the legend.
 fn hollow_diamonds(text: &str) -> usize {
     let tree = roxmltree::Document::parse(text).unwrap();
     let white = tree.descendants().filter(|n| n.has_tag_name("path") && n.attribute("fill") == Some("#ffffff"));
     let outlines = white.filter_map(|n| n.attribute("d")).filter(|outline| !outline.contains('A'));
-    // Four lines, whose ends lie 14 pixels apart across and along.
+    // A diamond has four lines whose ends are 14 pixels apart across and along.
     let is_diamond = |outline: &&str| {
         let corners = corners(outline);
         let size = |k: usize| {
@@ -407,7 +408,7 @@ fn hollow_diamonds(text: &str) -> usize {
     outlines.filter(is_diamond).count()
 }
 
-/// With the object in the hand neither configuration at its place can be taken.
+/// With the object in the hand, both configurations at the target collide.
 #[test]
 fn the_motion_that_fails_is_drawn() {
     let held = |holding| vec![object("part", false, holding, [1.2, -0.5])];
@@ -432,13 +433,13 @@ fn the_motion_that_fails_is_drawn() {
     assert!(words.contains("not reached") && !words.contains("separating boxes"), "{words}");
     let frames = frames(&text);
     assert_eq!((frames.len(), hollow_diamonds(&text)), (3, 3));
-    // The object is in the hand in both configurations, which are drawn in the colour of what is barred.
+    // The hand holds the object in both configurations, and their colour is that of blocked ones.
     let part = color_of(&text, "part");
     assert_eq!(frames[0].iter().filter(|m| m.stroke == part && m.union).count(), 2);
     assert!(frames[2].iter().all(|m| m.stroke != part));
 }
 
-/// A picture of one motion with a payload: drawn by its own pieces, and no obstacle where it was taken away.
+/// In a picture of one motion, the payload is drawn by its own pieces, and there is no obstacle at its former place.
 #[test]
 fn pictures_of_one_motion_show_what_is_carried() {
     let task = sorting(Holding::Level);
@@ -458,7 +459,7 @@ fn pictures_of_one_motion_show_what_is_carried() {
     assert!(!words.contains("outside this picture"));
     let color = color_of(&text, "part, carried");
     let frames = frames(&text);
-    // At the start, at the goal and at five poses between, always upright.
+    // The poses are the start, the goal and five in between, always upright.
     let payload: Vec<&Mark> = frames[0].iter().filter(|m| m.stroke == color && m.union).collect();
     assert_eq!(payload.len(), 7);
     let off = |direction: f64| (direction + 45.0).rem_euclid(90.0) - 45.0;

@@ -13,17 +13,17 @@ pub struct Page {
     id: u64,
     /// The text that states are changes of.
     pub base: u64,
-    /// What the server said of it.
+    /// The server's message about the world.
     pub world: Value,
 }
 
 impl Page {
-    /// Opens a page, and hears what it is to show.
+    /// Opens a page, and receives its world.
     pub fn open(server: &Server) -> Self {
         Self::try_open(server).unwrap()
     }
 
-    /// The same; the status if the server refuses.
+    /// Opens a page; an error is the status if the server refuses.
     pub fn try_open(server: &Server) -> Result<Self, u16> {
         let mut request = format!("ws://{}/live", server.address).into_client_request().unwrap();
         let origin = HeaderValue::from_str(&format!("http://{}", server.address)).unwrap();
@@ -38,7 +38,7 @@ impl Page {
         Ok(page)
     }
 
-    /// Begins with files that the page brings along, or with the server's own; what it is told.
+    /// Begins with files that the page provides, or with the server's own. Returns the server's answer.
     pub fn begin(&mut self, files: &Value) -> Value {
         self.id += 1;
         self.send(&json!({ "do": "open", "id": self.id, "files": files }).to_string());
@@ -55,7 +55,7 @@ impl Page {
         self.socket.send(Message::text(message)).unwrap();
     }
 
-    /// The next message.
+    /// Returns the next message.
     pub fn next(&mut self) -> Value {
         loop {
             let message = match self.socket.read() {
@@ -77,7 +77,7 @@ impl Page {
         json!({ "id": self.id, "base": self.base, "final": is_final, "state": state, "options": options })
     }
 
-    /// Asks for a plan without waiting for it; its number.
+    /// Requests a plan without waiting for it; returns the request's number.
     pub fn post(&mut self, state: Option<Value>, is_final: bool, options: &str) -> u64 {
         let mut ask = self.ask(state, is_final, options);
         ask["do"] = "plan".into();
@@ -85,7 +85,7 @@ impl Page {
         self.id
     }
 
-    /// The last word on the request of this number; what is said of others before is passed over.
+    /// Returns the last answer to the request of this number; skips answers to others.
     pub fn answer(&mut self, id: u64) -> Value {
         loop {
             let message = self.next();
@@ -96,13 +96,13 @@ impl Page {
         }
     }
 
-    /// Asks for a plan of what the user stops at, and waits for it.
+    /// Requests a plan for a final state, and waits for it.
     pub fn plan(&mut self, state: Option<Value>, options: &str) -> Value {
         let id = self.post(state, true, options);
         self.answer(id)
     }
 
-    /// Takes another text, and waits for its plan.
+    /// Loads another text, and waits for its plan.
     pub fn load(&mut self, text: &str) -> Value {
         self.id += 1;
         self.send(&json!({ "do": "load", "id": self.id, "text": text, "options": "visibility" }).to_string());
@@ -120,7 +120,7 @@ impl Page {
         }
     }
 
-    /// A file: its name and content, or what is wrong.
+    /// Downloads a file: its name and content, or the error.
     pub fn download(&mut self, state: Option<Value>, options: &str, format: &str) -> Result<(String, Vec<u8>), String> {
         let ask = self.ask(state, true, options);
         self.send(&json!({ "do": "download", "ask": ask, "format": format }).to_string());
@@ -145,8 +145,8 @@ impl Page {
         }
     }
 
-    /// Whether the server ends the connection at this message, rather than to answer. It may do so before it has read
-    /// everything: then the rest cannot be written.
+    /// Returns true if the server closes the connection at this message instead of an answer. It may do so before it
+    /// has read everything. Then the rest cannot be written.
     pub fn is_refused(&mut self, message: &str) -> bool {
         if self.socket.send(Message::text(message)).is_err() {
             return true;

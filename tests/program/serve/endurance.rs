@@ -1,4 +1,4 @@
-//! What could keep the server from answering: worlds that take long to read, and clients that ask and never read.
+//! Threats to the server's availability: worlds that take long to read, and clients that ask and never read.
 
 use super::client::Page;
 use super::server::Server;
@@ -7,7 +7,7 @@ use std::io::Write;
 use std::net::TcpStream;
 use std::time::Duration;
 
-/// Connections that the server keeps at a time, and some more.
+/// More connections than the server keeps at a time.
 const MANY: usize = 40;
 
 #[test]

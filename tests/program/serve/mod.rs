@@ -1,4 +1,4 @@
-//! The live page's server from outside: plain HTTP, and its WebSocket as a page would use it.
+//! The live page's server from outside: plain HTTP, and its WebSocket as the page uses it.
 
 mod client;
 mod endurance;
@@ -11,14 +11,14 @@ mod server;
 
 use serde_json::{Value, json};
 
-/// The obstacle of `shelf.toml` that the arm goes round, moved by so much.
+/// Returns the obstacle of `shelf.toml` that the path leads around, moved by `by`.
 fn shelf_moved(by: [f64; 2]) -> Value {
     let corners = [[1.15, 0.18], [1.6, 0.18], [1.6, 0.3], [1.15, 0.3]];
     let moved: Vec<_> = corners.iter().map(|[x, y]| [x + by[0], y + by[1]]).collect();
     json!({ "from": 0, "polygon": moved })
 }
 
-/// The state of `shelf.toml` with that obstacle in place of its own.
+/// Returns the state of `shelf.toml` with that obstacle instead of its own.
 fn shelf_state(shelf: Value) -> Value {
     json!({
         "obstacles": [shelf, { "from": 1 }],

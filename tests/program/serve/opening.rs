@@ -1,4 +1,4 @@
-//! Pages that bring arm and world along, as those do that are opened by a link.
+//! Pages that provide arm and world, like those opened by a link.
 
 use super::client::Page;
 use super::server::{Server, shipped};
@@ -26,7 +26,7 @@ fn a_page_begins_with_what_it_brings_along() {
         (&json!(GANTRY), &json!(RING), &json!("trapezoid"))
     );
     assert_eq!(page.plan(None, "shortest")["verdict"], "infeasible");
-    // For itself alone, and until it goes back.
+    // This affects only that page, until it returns to the server's files.
     assert_eq!(other.plan(None, "shortest")["verdict"], "found");
     let again = page.begin(&Value::Null);
     assert_eq!((&again["toml"], &again["urdf"]), (&own["toml"], &own["urdf"]));
@@ -47,7 +47,7 @@ fn what_it_brings_along_names_no_files() {
         assert!(error.contains(part), "{part}: {error}");
     };
     let no_file = "this text is no file";
-    // Not even those that the server was started with.
+    // Even the server's own files are refused.
     for world in [own.as_str(), "[[obstacle]]\nimage = \"/etc/passwd\"\n", "[map]\nfile = \"/etc/passwd\"\n"] {
         refused("world", world, no_file);
     }
@@ -62,7 +62,7 @@ fn what_it_brings_along_names_no_files() {
 fn it_has_no_more_time_than_the_server_gives() {
     let server = Server::planar(SHELF, &["--time-limit", "0.05"]);
     let mut page = Page::open(&server);
-    // Where there is no way, a proof ends it sooner.
+    // The problem is feasible, because a proof would end it sooner.
     page.begin(&json!({ "urdf": GANTRY, "world": OPEN_RING, "options": "trapezoid" }));
     let answer = page.plan(None, "harmonic --cells 1024");
     assert!(answer["verdict"] == "unknown" && answer["reason"].as_str().unwrap().contains("0.05 s"), "{answer}");

@@ -1,4 +1,4 @@
-//! The page follows what is dragged, however many obstacles there are.
+//! The page follows dragged objects, however many obstacles there are.
 
 use super::client::Page;
 use super::server::Server;
@@ -10,7 +10,7 @@ const WORLD: &str = "workspaces/shelf.toml";
 /// Obstacles of the crowd.
 const MANY: usize = 300;
 
-/// Answers a second that a page is to get while something is dragged.
+/// Answers per second that a page should get during a drag.
 const WANTED: f64 = 10.0;
 
 /// Answers that are waited for.
@@ -19,7 +19,7 @@ const ANSWERS: u32 = 30;
 const START: [f64; 2] = [-0.9, 0.4];
 const GOAL: [f64; 2] = [1.55, -0.35];
 
-/// Small pentagons all over the reach of `planar_2r`, but for where the arm is at its start and goal.
+/// Returns small pentagons all over the reach of `planar_2r`, except near the arm at its start and goal.
 fn crowd() -> Vec<Vec<[f64; 2]>> {
     let links = |[q1, q2]: [f64; 2]| {
         let elbow = [q1.cos(), q1.sin()];
@@ -32,7 +32,7 @@ fn crowd() -> Vec<Vec<[f64; 2]>> {
         (e[0] - t * d[0]).hypot(e[1] - t * d[1])
     };
     let place = |k: usize| {
-        // The golden angle spreads them evenly.
+        // The golden angle spreads the obstacles evenly.
         let (radius, angle) = (1.3 + 0.6 * (k as f64 * 0.754_877).fract(), k as f64 * 2.399_963);
         [radius * angle.cos(), radius * angle.sin()]
     };
@@ -50,7 +50,7 @@ fn text(crowd: &[Vec<[f64; 2]>]) -> String {
     format!("[start]\njoints = {START:?}\n[goal]\njoints = {GOAL:?}\n{obstacles}")
 }
 
-/// The state in which the first obstacle has been dragged by so much.
+/// Returns the state in which the first obstacle has been dragged by this distance.
 fn dragged(crowd: &[Vec<[f64; 2]>], by: f64) -> Value {
     let piece = |(k, corners): (usize, &Vec<[f64; 2]>)| {
         let by = if k == 0 { by } else { 0.0 };
@@ -65,10 +65,10 @@ fn dragged(crowd: &[Vec<[f64; 2]>], by: f64) -> Value {
     })
 }
 
-/// Time that a process has computed so far, where the system tells.
+/// Returns the CPU time of a process so far, if the system reports it.
 fn computed(process: u32) -> Option<Duration> {
     let stat = std::fs::read_to_string(format!("/proc/{process}/stat")).ok()?;
-    // After the name in brackets: state, then eleven others, then ticks in user and system mode, a hundred a second.
+    // Behind the name in brackets: state, then eleven others, then ticks in user and system mode, a hundred per second.
     let ticks: Vec<u64> = stat.rsplit(')').next()?.split_whitespace().skip(11).take(2).flat_map(str::parse).collect();
     Some(Duration::from_millis(10 * ticks.iter().sum::<u64>()))
 }
@@ -82,7 +82,7 @@ fn three_hundred_obstacles_are_followed_ten_times_a_second() {
     assert!(answer["verdict"].is_string(), "{answer}");
     let before = computed(server.child.id());
     for step in 1..=ANSWERS {
-        // As the page does: the next place when there is an answer.
+        // Like the page: sends the next place after an answer.
         let by = 1e-4 * f64::from(step);
         let id = page.post(Some(dragged(&crowd, by)), false, "visibility");
         let answer = page.answer(id);
@@ -92,7 +92,7 @@ fn three_hundred_obstacles_are_followed_ten_times_a_second() {
         assert!(world["c_obstacles"].as_array().unwrap().len() >= MANY / 2, "with the configuration space");
         assert!(answer["certified"] == false || !answer["view"]["paths"].as_array().unwrap().is_empty());
     }
-    // Computing time of the server, which does not depend on what else the machine does.
+    // The server's CPU time does not depend on other load of the machine.
     if let Some((after, before)) = computed(server.child.id()).zip(before) {
         let each = (after - before).as_secs_f64() * 1e3 / f64::from(ANSWERS);
         assert!(each * WANTED <= 1e3, "{each:.0} ms of computing for an answer");
@@ -107,7 +107,7 @@ fn what_is_kept_from_one_answer_to_the_next_changes_nothing() {
     page.load(&text(&crowd));
     let drop = |state: &mut Value, k: usize| state["obstacles"].as_array_mut().unwrap().remove(k);
     let mut steps = vec![dragged(&crowd, 0.01), dragged(&crowd, 0.02)];
-    // Fewer, in another order, the same again, and with another distance to keep.
+    // Fewer obstacles, another order, the same again, and another clearance.
     let mut fewer = dragged(&crowd, 0.03);
     drop(&mut fewer, 17);
     let first = drop(&mut fewer, 0);
@@ -120,7 +120,7 @@ fn what_is_kept_from_one_answer_to_the_next_changes_nothing() {
     for (k, state) in steps.into_iter().enumerate() {
         page.post(Some(state.clone()), false, "visibility");
         let kept = page.plan(Some(state.clone()), "visibility");
-        // A page that knows nothing but the text.
+        // A page that has only the text.
         let mut other = Page::open(&server);
         let anew = other.load(kept["toml"].as_str().unwrap());
         assert!(kept["view"].is_object() && kept["view"] == anew["view"], "step {k}");

@@ -1,4 +1,4 @@
-//! What is served, to whom, and how it ends.
+//! Access to the server: which files it provides, to whom, and how it ends.
 
 use super::client::Page;
 use super::server::{Server, shipped};
@@ -12,7 +12,7 @@ fn the_page_is_served_and_nothing_else() {
     assert_eq!(page.status(), 200);
     assert!(page.body().contains("<!DOCTYPE html>"));
     assert!(page.header("content-type").starts_with("text/html"));
-    // Nothing comes from anywhere else: there is no address in the page.
+    // The page loads nothing from elsewhere: it contains no address.
     for remote in ["src=\"http", "href=\"http", "url(http", "import("] {
         assert!(!page.body().contains(remote), "{remote}");
     }
@@ -46,7 +46,7 @@ fn every_answer_says_what_browsers_may_do_with_it() {
     }
 }
 
-/// An address of documentation (RFC 5737) is no machine's own.
+/// No machine has an address reserved for documentation (RFC 5737).
 #[test]
 fn an_address_that_is_not_of_this_machine_is_refused_with_its_cure() {
     let mut serve = Command::new(env!("CARGO_BIN_EXE_cplan"));
@@ -68,7 +68,7 @@ fn other_names_and_other_pages_are_refused() {
     };
     assert_eq!(status("HOST", ""), 200);
     assert_eq!(status(&format!("localhost:{port}"), ""), 200);
-    // A stranger's name that leads to this machine (DNS rebinding).
+    // A foreign host name that leads to this machine (DNS rebinding).
     assert_eq!(status(&format!("evil.example:{port}"), ""), 421);
     assert_eq!(status("127.0.0.1:1", ""), 421);
     assert_eq!(status("HOST", "Origin: http://evil.example\r\n"), 403);
@@ -100,7 +100,7 @@ fn a_page_more_than_there_is_room_for_is_refused() {
     assert_eq!(Page::try_open(&server).err(), Some(503));
     assert_eq!(server.get("/").status(), 200);
     drop(pages);
-    // Room is made as soon as the server has noticed.
+    // There is room as soon as the server has noticed.
     while Page::try_open(&server).is_err() {
         std::thread::yield_now();
     }
@@ -143,7 +143,7 @@ fn wrong_command_lines_are_said_so() {
 fn control_c_ends_it_well() {
     for signal in ["-INT", "-TERM"] {
         let mut server = Server::start(&[]);
-        // An open page, and a connection that says nothing, do not keep it.
+        // An open page, and a silent connection, do not keep the server alive.
         let _page = Page::open(&server);
         let _silent = TcpStream::connect(server.address).unwrap();
         let sent = Command::new("kill").args([signal, &server.child.id().to_string()]).status().unwrap();

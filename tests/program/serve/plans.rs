@@ -1,4 +1,4 @@
-//! Plans of pages: the latest counts, slow ones stop, and what is saved is what is planned.
+//! Plans of pages: the latest counts, slow ones stop, and the saved world is the planned one.
 
 use super::client::Page;
 use super::server::{Server, shipped};
@@ -53,7 +53,7 @@ fn every_planner_answers_while_dragging_and_after() {
         assert!(answer["view"]["clock"].is_object() && answer["toml"].is_string(), "{planner}");
         let id = page.post(Some(shelf_state(shelf_moved([0.0, 0.01]))), false, planner);
         let quick = page.answer(id);
-        // On a slow machine the time of a drag may be up.
+        // On a slow machine, the time limit of a drag may be exceeded.
         assert!(
             is_certified(&quick) || quick["reason"].as_str().unwrap().contains("not decided while"),
             "{planner}: {quick}"
@@ -89,7 +89,7 @@ fn a_slow_plan_is_stopped_by_the_next() {
     let server = Server::planar("workspaces/crowd.toml", &["--time-limit", "3600"]);
     let mut page = Page::open(&server);
     let slow = page.post(None, true, SLOW);
-    // Its configuration space comes at once, its plan is under way then.
+    // Its configuration space is sent at once, while its plan is in progress.
     let first = page.next();
     assert_eq!((&first["id"], &first["done"]), (&json!(slow), &json!(false)));
     assert!(!first["view"]["worlds"][0]["c_obstacles"].as_array().unwrap().is_empty());
@@ -102,7 +102,7 @@ fn a_slow_plan_is_stopped_by_the_next() {
             break;
         }
     }
-    // A page that is closed takes its plan with it: there is room for another, at once.
+    // Closing a page stops its plan, so another plan can start at once.
     page.post(None, true, SLOW);
     drop(page);
     assert!(is_certified(&Page::open(&server).plan(None, "visibility")));
@@ -143,7 +143,7 @@ fn what_is_saved_is_what_was_planned() {
     let (name, toml) = page.download(Some(state.clone()), "visibility", "toml").unwrap();
     assert_eq!((name.as_str(), toml.as_slice()), ("world.toml", planned["toml"].as_str().unwrap().as_bytes()));
     let text = String::from_utf8(toml).unwrap();
-    // Comments and what was not touched are as they were.
+    // Comments and unchanged parts are preserved.
     let before = std::fs::read_to_string(shipped(WORLD)).unwrap();
     let comments =
         |text: &str| text.lines().filter(|line| line.starts_with('#')).map(str::to_owned).collect::<Vec<_>>();
@@ -154,7 +154,7 @@ fn what_is_saved_is_what_was_planned() {
     assert_eq!(again["view"], planned["view"]);
     assert_eq!(other.world["goal"], json!({ "tip": [0.4, 1.5] }));
 
-    // And the main job says the same of the file, byte for byte.
+    // The main job has the same result for the file, byte for byte.
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("shelf.toml"), &text).unwrap();
     let main = Command::new(env!("CARGO_BIN_EXE_cplan"))
@@ -188,7 +188,7 @@ fn the_start_follows_the_tip() {
     let server = Server::planar(WORLD, &[]);
     let mut page = Page::open(&server);
     let mut state = shelf_state(json!({ "from": 0 }));
-    // Links of one metre and of eight tenths.
+    // The links are 1 m and 0.8 m long.
     let tip = |q: [f64; 2]| [q[0].cos() + 0.8 * (q[0] + q[1]).cos(), q[0].sin() + 0.8 * (q[0] + q[1]).sin()];
     let near = [-0.9, 0.4];
     let wanted = tip([-0.85, 0.45]);
@@ -198,7 +198,7 @@ fn the_start_follows_the_tip() {
     let start: [f64; 2] = serde_json::from_value(answer["start"].clone()).unwrap();
     assert!((start[0] + 0.85).abs() < 1e-9 && (start[1] - 0.45).abs() < 1e-9, "{start:?}");
     assert!(answer["toml"].as_str().unwrap().contains(&format!("[{}, {}]", start[0], start[1])));
-    // Out of reach: as far as it goes that way.
+    // The place is out of reach: the arm stretches towards it.
     state["start"] = json!({ "tip": [3.0, -3.0], "near": near });
     let answer = page.plan(Some(state), "visibility");
     let start: [f64; 2] = serde_json::from_value(answer["start"].clone()).unwrap();

@@ -1,4 +1,4 @@
-//! What makes no sense is answered with a message, and the page goes on.
+//! Invalid requests are answered with a message, and the page continues.
 
 use super::client::Page;
 use super::server::Server;
@@ -71,7 +71,7 @@ fn a_start_in_an_obstacle_is_explained_and_drawn() {
     for is_final in [false, true] {
         let id = page.post(Some(shelf_state(blocking.clone())), is_final, "visibility");
         let answer = page.answer(id);
-        // In words of what is seen: the page's user knows of no file.
+        // The message refers to the visible scene, because the page's user knows of no file.
         let error = error_of(&answer);
         assert!(error.starts_with("The start is blocked: link \"upper_arm\" is "), "{error}");
         assert!(error.contains(" deep in \"shelf\"") && !error.contains("line") && !error.contains(".toml"), "{error}");

@@ -6,10 +6,10 @@ use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::Duration;
 
-/// Far longer than anything takes: a test that hangs fails.
+/// Far longer than any request takes, so that a test that hangs fails.
 pub const TIME_LIMIT: Duration = Duration::from_secs(120);
 
-/// A file of the repository.
+/// Returns the path of a file of the repository.
 pub fn shipped(file: &str) -> String {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(file).display().to_string()
 }
@@ -38,12 +38,12 @@ impl Server {
         Self { child, address }
     }
 
-    /// With `planar_2r` in a shipped world.
+    /// Starts a server with `planar_2r` in a shipped world.
     pub fn planar(world: &str, more: &[&str]) -> Self {
         let files = [shipped("robots/planar_2r.urdf"), shipped(world)];
         let mut arguments: Vec<&str> = files.iter().map(String::as_str).collect();
         arguments.extend(more);
-        // What is to be planned is planned, however busy the machine is.
+        // Plans must finish, however busy the machine is.
         if !more.contains(&"--time-limit") {
             arguments.extend(["--time-limit", "3600"]);
         }
@@ -56,12 +56,13 @@ impl Server {
         stream
     }
 
-    /// The answer to a request that is written as it is; `HOST` stands for the address.
+    /// Returns the answer to a request that is sent unchanged; `HOST` is replaced by the address.
     pub fn raw(&self, request: &str) -> Response {
         let mut stream = self.connect();
-        // A server that refuses may answer and close before it has read everything: what it said can be read all the same.
+        // A server that refuses may answer and close before it has read everything. Its answer can be read
+        // nevertheless.
         let _ = stream.write_all(request.replace("HOST", &self.address.to_string()).as_bytes());
-        // Not to the end: a server that keeps the connection would keep the test, too.
+        // Does not read to the end: a server that keeps the connection would block the test.
         let mut bytes = Vec::new();
         let mut chunk = [0; 4096];
         while !is_whole(&bytes) {
@@ -73,7 +74,7 @@ impl Server {
         Response(String::from_utf8_lossy(&bytes).into_owned())
     }
 
-    /// The answer to a GET.
+    /// Returns the answer to a GET.
     pub fn get(&self, path: &str) -> Response {
         self.raw(&format!("GET {path} HTTP/1.1\r\nHost: HOST\r\nConnection: close\r\n\r\n"))
     }
@@ -86,7 +87,7 @@ impl Drop for Server {
     }
 }
 
-/// Whether an answer is there with as long a body as it says.
+/// Returns true if an answer is complete, with a body of the stated length.
 fn is_whole(bytes: &[u8]) -> bool {
     let Some(end) = bytes.windows(4).position(|four| four == b"\r\n\r\n") else { return false };
     let head = String::from_utf8_lossy(&bytes[..end]).to_ascii_lowercase();
@@ -94,7 +95,7 @@ fn is_whole(bytes: &[u8]) -> bool {
     length.is_some_and(|length| bytes.len() >= end + 4 + length)
 }
 
-/// What came back.
+/// A server's answer.
 pub struct Response(pub String);
 
 impl Response {

@@ -1,9 +1,9 @@
-//! Recordings that cannot be used: refused with the file, the place, what is wrong, and what to do about it.
+//! Unusable recordings: refused with the file, the place, the fault and a remedy.
 
 use cplan::input::{load_recording, load_scene};
 use std::fs;
 
-/// A vertical slide carries two turning joints; the slide is held.
+/// A vertical slide carries two revolute joints; the slide is held.
 const ARM: &str = r#"<robot name="arm">
   <link name="base"/>
   <joint name="lift" type="prismatic">
@@ -141,7 +141,7 @@ fn held_joints_may_move_along_the_normal() {
         let notes = read("m.yaml", message(lift)).unwrap();
         assert!(notes.iter().any(|note| note.contains(said)), "{notes:?}");
     }
-    // What the arm does not depend on may move.
+    // Joints that the arm does not depend on may move.
     let notes = read("m.csv", "time,j1,j2,gripper\n0,0,0,0\n1,0,0.1,0.04\n").unwrap();
     assert!(notes.iter().any(|n| n.contains("not used: \"gripper\"")), "{notes:?}");
 }

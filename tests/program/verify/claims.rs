@@ -1,4 +1,4 @@
-//! Results in which one thing is false: everything that is judged is found, whatever it is changed to.
+//! Results with one false claim: the judge finds every change of each claim that it checks.
 
 use super::judged::{Question, judged, planned};
 use crate::common::dice::Dice;
@@ -11,7 +11,7 @@ fn shipped(file: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(file)
 }
 
-/// A robot, a world, and what the program found for them.
+/// A robot, a world, and the program's result for them.
 struct Case {
     robot: PathBuf,
     world: PathBuf,
@@ -23,7 +23,7 @@ impl Case {
         Self::of(shipped(&format!("robots/{robot}.urdf")), shipped(&format!("workspaces/{world}.toml")))
     }
 
-    /// A shipped task with five steps.
+    /// Returns a shipped task with five steps.
     fn tower() -> Self {
         let world = std::fs::read_to_string(shipped("workspaces/tasks/tower.toml")).unwrap();
         let robot = world.lines().find_map(|line| line.strip_prefix("# robot: ")).unwrap();
@@ -36,7 +36,7 @@ impl Case {
         Self { robot, world, result }
     }
 
-    /// What is found in a result, or the error.
+    /// Returns the findings about a result, or the error.
     fn judged(&self, result: &Value, question: &Question) -> Value {
         let folder = tempfile::tempdir().unwrap();
         let file = folder.path().join("r.json");
@@ -44,7 +44,7 @@ impl Case {
         judged(&self.robot, &self.world, &file, question).unwrap_or_else(|error| Value::String(error.to_string()))
     }
 
-    /// What is found in a motion or task that is to be the one that the world asks for.
+    /// Returns the findings about a motion or task for the start and goal of its world.
     fn found(&self, result: &Value) -> Value {
         self.judged(result, &Question::default())
     }
@@ -95,7 +95,7 @@ fn a_colliding_path_beside_a_good_trajectory_is_found() {
     let ends = [0, case.result["path"].as_array().unwrap().len() - 1].map(|k| case.result["path"][k].clone());
     let straight = |result: &mut Value| result["path"] = json!(ends);
     case.refused(straight, "claims", "it is not free");
-    // Even where all that is said of the path goes with it.
+    // The false path is found even if all reported data of the path fits it.
     let straight = |result: &mut Value| {
         result["path"] = json!(ends);
         let d: Vec<f64> = (0..2).map(|k| ends[1][k].as_f64().unwrap() - ends[0][k].as_f64().unwrap()).collect();
@@ -135,7 +135,7 @@ fn a_motion_that_does_not_lead_from_start_to_goal_is_found() {
         let found = case.judged(&only(0..count), &Question { overrides, ..Question::default() });
         assert_eq!(found["verdict"], "ends", "{found:#}");
     }
-    // A goal of the tip is met in any IK solution.
+    // Any IK solution satisfies a goal of the tip.
     let case = Case::new("planar_2r", "two_branches");
     let count = case.result["trajectory"]["time"].as_array().unwrap().len();
     let (robot, world) = (case.robot.clone(), case.world.clone());
@@ -192,7 +192,7 @@ fn each_false_claim_of_a_task_is_named() {
     case.refused(|r| r["duration"] = json!(1.0), "claims", "duration");
 }
 
-/// All numbers, words and truths that are claims, as pointers into the result.
+/// Lists all numbers, words and booleans that are claims, as pointers into the result.
 fn leaves(value: &Value, at: String, found: &mut Vec<String>) {
     match value {
         Value::Object(members) => members.iter().for_each(|(key, value)| leaves(value, format!("{at}/{key}"), found)),
@@ -202,7 +202,7 @@ fn leaves(value: &Value, at: String, found: &mut Vec<String>) {
     }
 }
 
-/// Whether a claim is judged whatever it is changed to.
+/// Returns true if the judge detects every change of this claim.
 fn is_judged(pointer: &str) -> bool {
     let words: Vec<&str> = pointer.split('/').skip(1).collect();
     let last = words[words.len() - 1];
@@ -218,7 +218,7 @@ fn is_judged(pointer: &str) -> bool {
     }
 }
 
-/// Something else in its place: a clearance is a bound, so that only more than there is is false.
+/// Returns a different value. A clearance is a lower bound, so only a greater value is false.
 fn changed(value: &Value, pointer: &str, dice: &mut Dice) -> Value {
     match value {
         Value::Bool(value) => json!(!value),

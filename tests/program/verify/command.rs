@@ -1,4 +1,4 @@
-//! The command from outside: exit codes and what it prints.
+//! The command from outside: exit codes and output.
 
 use serde_json::Value;
 use std::path::Path;
@@ -82,8 +82,8 @@ fn seams_of_wrapped_angles_are_noted_and_undone() {
     assert!(!stdout.contains("--unwrap") && stdout.contains("3.1832 rad"), "{stdout}");
 }
 
-/// The head of the gantry slides past a wall at exactly the distance to keep, from which it can neither be told that it
-/// keeps it nor that it does not; all lengths are binary fractions, so that the distance computed is that distance.
+/// The head of the gantry slides past a wall at exactly the distance to keep. Rounding leaves open whether it keeps it.
+/// All lengths are binary fractions, so the computed distance is exact.
 #[test]
 fn a_motion_that_grazes_at_exactly_the_clearance_is_undecided() {
     let folder = tempfile::tempdir().unwrap();
@@ -126,11 +126,11 @@ fn a_motion_that_grazes_at_exactly_the_clearance_is_undecided() {
     let found: Value = serde_json::from_str(&json).unwrap();
     assert_eq!((code, &found["verdict"]), (Some(4), &"undecided".into()));
     let [time, depth] = ["time", "depth"].map(|key| found["undecided"][key].as_f64().unwrap());
-    // The head comes alongside the wall after 0.5 s, when its front is at 1.
+    // The head reaches the wall's side after 0.5 s, when its front is at 1.
     assert!((depth + 0.25).abs() < 1e-9 && (time - 0.5).abs() < 1e-3, "{depth} at {time}");
     assert!(["clearance", "first_contact", "nearest"].iter().all(|key| found[key].is_null()), "{json}");
     assert_eq!(verify(&["--clearance", "0.25", "--quiet"]), (Some(4), String::new()));
-    // A hair to either side of it is decided.
+    // Slightly to either side, the verdict is definite.
     assert_eq!(verify(&["--clearance", "0.249999"]).0, Some(0));
     assert_eq!(verify(&["--clearance", "0.250001"]).0, Some(3));
 }

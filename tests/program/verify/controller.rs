@@ -1,4 +1,5 @@
-//! What a ROS 2 controller makes of a message is what is judged: held to the controller's own formulas.
+//! The judge uses the motion that a ROS 2 controller makes of a message. The reference is the controller's own
+//! formulas.
 
 use crate::common::rr;
 use cplan::check::{Limit, limits_kept};
@@ -12,9 +13,9 @@ use std::path::PathBuf;
 /// A point of a message: seconds, and position, velocity and acceleration of both joints.
 type Point = (f64, [[f64; 2]; 3]);
 
-/// How `joint_trajectory_controller` samples between two points, as its `Trajectory::interpolate_between_points` does for one
-/// joint: position, velocity and acceleration at `t` seconds after the first, by the coefficients of a quintic, a cubic or a
-/// line.
+/// Returns position, velocity and acceleration at `t` seconds after the first point, as `joint_trajectory_controller`
+/// samples them. The coefficients are those of a quintic, a cubic or a line, as in its
+/// `Trajectory::interpolate_between_points` for one joint.
 fn sampled(before: [f64; 3], after: [f64; 3], span: f64, t: f64, given: usize) -> [f64; 3] {
     let ([p0, v0, a0], [p1, v1, a1]) = (before, after);
     let s = |k: i32| span.powi(k);
@@ -46,7 +47,7 @@ fn sampled(before: [f64; 3], after: [f64; 3], span: f64, t: f64, given: usize) -
     ]
 }
 
-/// A message in YAML with the first `given` of positions, velocities and accelerations.
+/// Returns a message in YAML with the first `given` of positions, velocities and accelerations.
 fn yaml(points: &[Point], given: usize) -> String {
     let mut text = String::from("joint_names: [shoulder, elbow]\npoints:\n");
     for (time, rows) in points {
@@ -90,7 +91,8 @@ const LOOKS: u32 = 400;
 proptest! {
     #![proptest_config(cplan_cases::cases(24))]
 
-    /// Positions, velocities and accelerations between all points; and what limits are broken, which is what is seen.
+    /// Compares positions, velocities and accelerations between all points, and the exceeded limits with those of the
+    /// samples.
     #[test]
     fn messages_are_judged_as_the_controller_plays_them(points in points(), given in 1..=3_usize) {
         let recording = read(&yaml(&points, given));
@@ -114,7 +116,7 @@ proptest! {
                 }
             }
         }
-        // Limits a little above and a little below the greatest that was seen.
+        // Limits a little above and a little below the greatest observed value.
         let broken = |factor: f64| {
             let mut joints: [Joint; 2] = rr([JointRange::Circle; 2]).joints;
             for (joint, greatest) in joints.iter_mut().zip(greatest) {
@@ -133,13 +135,14 @@ proptest! {
     }
 }
 
-/// The dwell of a task whose two points differ in acceleration: a quintic leaves and returns.
+/// The two points of a task's dwell differ in acceleration: a quintic moves away and returns.
 #[test]
 fn a_dwell_with_different_accelerations_is_seen_to_move() {
     let still = |time: f64, acceleration: f64| (time, [[0.3, 0.4], [0.0; 2], [acceleration, 0.0]]);
     let recording = read(&yaml(&[still(0.0, -8.0), still(0.5, 8.0)], 3));
     let moved = recording.pieces()[0].at(0.5) - Configuration::new(0.3, 0.4);
-    // Halfway (u = 1/2) of -8 t^2 / 2 and its like from the end: -8 h^2 (u^2 - 3 u^3 + 3 u^4 - u^5) / 2 + 8 h^2 (u^3 - 2 u^4 + u^5) / 2.
+    // Halfway (u = 1/2) of -8 t^2 / 2 and the same from the end: -8 h^2 (u^2 - 3 u^3 + 3 u^4 - u^5) / 2 + 8 h^2 (u^3 -
+    // 2 u^4 + u^5) / 2.
     assert!(moved[0].abs() < 1e-15, "{moved}");
     let quarter = recording.pieces()[0].at(0.25) - Configuration::new(0.3, 0.4);
     assert!(quarter[0] < -0.01, "{quarter}");

@@ -1,4 +1,4 @@
-//! Tables as spreadsheets and loggers write them: the same motion, whatever separates its values.
+//! Tables as spreadsheets and loggers write them: the same motion with any separator.
 
 use super::judged::{Question, judged};
 use cplan::input::InputError;
@@ -7,7 +7,7 @@ use std::path::Path;
 
 const PLAIN: &str = "time,shoulder,elbow\n0,-0.9,0.4\n1,-0.8,0.4\n2,-0.7,0.5\n";
 
-/// What is found in a table.
+/// Returns the findings about a table.
 fn verify(table: &str) -> Result<Value, InputError> {
     let folder = tempfile::tempdir().unwrap();
     let [world, recording] = ["world.toml", "m.csv"].map(|file| folder.path().join(file));
@@ -17,7 +17,7 @@ fn verify(table: &str) -> Result<Value, InputError> {
     judged(robot, &world, &recording, &Question::default())
 }
 
-/// The findings without the notes.
+/// Returns the findings without the notes.
 fn findings(table: &str) -> Value {
     let mut found = verify(table).unwrap_or_else(|error| panic!("{table}: {error}"));
     assert_eq!(found["verdict"], "free", "{table}: {found:#}");
@@ -49,7 +49,7 @@ fn what_is_taken_is_said_and_what_is_not_clear_is_refused() {
     for part in ["1 sample repeats the one before it; taken once", "separated by semicolons"] {
         assert!(found["notes"].to_string().contains(part), "no {part:?} in {found:#}");
     }
-    // Two places at one time, commas for decimals, and two kinds of separators.
+    // There are two samples at one time, commas for decimals, and two kinds of separators.
     for (table, part) in [
         (PLAIN.replace("2,-0.7", "1,-0.7"), "line 4"),
         (PLAIN.replace(',', ";").replace('.', ","), "no number"),
@@ -61,7 +61,7 @@ fn what_is_taken_is_said_and_what_is_not_clear_is_refused() {
     }
 }
 
-/// Headers as PlotJuggler and loggers write them; dates keep their nanoseconds.
+/// The headers are those of PlotJuggler and loggers; dates keep their nanoseconds.
 #[test]
 fn names_of_topics_and_units_make_no_difference() {
     let plain = findings(PLAIN);
@@ -79,7 +79,7 @@ fn names_of_topics_and_units_make_no_difference() {
         header("time [s],shoulder [rad],elbow(rad)"),
         header("time [s],/joint_states/shoulder/position [rad],elbow_position [rad]"),
         "time [ms],shoulder,elbow\n0,-0.9,0.4\n1000,-0.8,0.4\n2000,-0.7,0.5\n".into(),
-        // Two sources in one table, which log at different moments.
+        // The table has two sources, which log at different moments.
         "__time,/a/shoulder/position,/a/elbow/position,/b/load\n0,-0.9,0.4,\n0.5,,,7\n1,-0.8,0.4,\n2,-0.7,0.5,\n2,,,7\n".into(),
     ] {
         assert_eq!(findings(&table), plain, "{table}");

@@ -1,4 +1,4 @@
-//! Our own outputs in all formats, as they are and tampered with.
+//! The program's own outputs in all formats, unchanged and tampered with.
 
 use cplan::check::{CollisionCheck, Excess, Limit, check_collision, limits_kept};
 use cplan::engine::{Method, Plan, Problem, plan};
@@ -15,7 +15,7 @@ fn root(file: &str) -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(file)
 }
 
-/// A shipped workspace and the motion found in it.
+/// Returns a shipped workspace and the motion found in it.
 fn planned(robot: &str, world: &str) -> Option<(LoadedScene, Plan)> {
     let files = [root(&format!("robots/{robot}.urdf")), root(&format!("workspaces/{world}.toml"))];
     let problem = input::load(&files[0], &files[1], &Overrides::default()).unwrap().problem;
@@ -24,7 +24,7 @@ fn planned(robot: &str, world: &str) -> Option<(LoadedScene, Plan)> {
     Some((load_scene(&files[0], &files[1]).unwrap(), plan))
 }
 
-/// What `verify` reads, each with a name.
+/// Formats that `verify` reads, each with a name.
 const FORMATS: &[(Format, &str)] = &[
     (Format::Json, "a.json"),
     (Format::Csv, "a.csv"),
@@ -62,7 +62,7 @@ fn every_shipped_result_verifies_alike_in_all_formats() {
             let (verdict, broken) = judge(&scene, &recording);
             let CollisionCheck::Free { clearance, .. } = verdict else { panic!("{name}, {file}: {verdict:?}") };
             assert_eq!(broken, [], "{name}, {file}");
-            // The same motion: the bounds differ by how the search went, both at least 0.9 of the truth.
+            // The motion is the same. The bounds depend on the search, but both are at least 0.9 of the truth.
             if let Some(certified) = plan.clearance() {
                 assert!(clearance >= 0.9 * certified && certified >= 0.9 * clearance, "{name}, {file}: {clearance}");
             }
@@ -72,7 +72,7 @@ fn every_shipped_result_verifies_alike_in_all_formats() {
     assert!(checked >= 10, "only {checked} workspaces");
 }
 
-/// The file's content, with another motion in place of the plan's.
+/// Returns the file's content, with another motion instead of the plan's.
 fn written(format: Format, plan: &Plan, motion: &Trajectory) -> Vec<u8> {
     let names = plan.arm().joints.each_ref().map(|joint| joint.name.clone());
     let message = JointMotion::new(&RobotJoints::planned(&names), motion, true).without_accelerations();
@@ -129,7 +129,7 @@ fn tampered_results_are_caught() {
             worst.map(|e| e.value.abs() / e.allowed).fold(0.0, f64::max)
         };
         let (speed, pull) = (ratio(Limit::Velocity), ratio(Limit::Acceleration));
-        // Nanoseconds make the accelerations of blends, whose samples lie close together, a little more than that.
+        // Times in nanoseconds increase the accelerations of blends, whose samples are close together, slightly.
         assert!((speed - 2.0).abs() < 1e-3 && (pull - 4.0).abs() < 0.2, "{name}: {speed}, {pull}");
 
         let (verdict, broken) = read(&pushed, format, name);
@@ -232,7 +232,7 @@ fn a_recording_may_be_larger_than_other_files() {
     let scene = load_scene(root.join("robots/planar_2r.urdf"), &root.join("workspaces/shelf.toml")).unwrap();
     let loaded = load_recording(&file, &scene).unwrap_or_else(|e| panic!("{e}"));
     assert_eq!(loaded.recording.positions().len(), 2);
-    // A robot is not read so far, and the hint is not about permissions.
+    // A robot file of this size is not read, and the hint is not about permissions.
     let error = load_scene(&file, &root.join("workspaces/shelf.toml")).unwrap_err().to_string();
     assert!(error.contains("larger than 256 MiB") && !error.contains("permissions"), "{error}");
 }

@@ -1,4 +1,4 @@
-//! Motions of joints beside the arm's two: a quill that goes up and down, a wrist that turns.
+//! Motions of joints other than the arm's two: a quill that moves up and down, and a wrist that turns.
 
 use super::judged::{Question, judged};
 use crate::cli::Place;
@@ -8,7 +8,8 @@ use cplan::space::Configuration;
 use serde_json::Value;
 use std::fmt::Write;
 
-/// Two arms of a metre each at a height of 1 m, a quill of 0.6 m at their end, a finger of 0.2 m beside its axis.
+/// Two arms of a metre each at a height of 1 m, a quill of 0.6 m at their end, and a finger of 0.2 m off the quill's
+/// axis.
 const ROBOT: &str = r#"<robot name="scara">
   <link name="base"/>
   <joint name="j1" type="revolute">
@@ -41,7 +42,7 @@ const FINGER: &str =
 const WORLD: &str = "[robot]\njoints = [\"j1\", \"j2\"]\n[[obstacle]]\nname = \"block\"\n\
                      polygon = [[1.5, 0.5], [1.9, 0.5], [1.9, 0.9], [1.5, 0.9]]\nheight = [0.0, 0.5]\n";
 
-/// What is found in a table.
+/// Returns the findings about a table.
 fn verify(finger: &str, table: &str) -> Result<Value, InputError> {
     let folder = tempfile::tempdir().unwrap();
     let write = |name: &str, text: &str| {
@@ -53,13 +54,13 @@ fn verify(finger: &str, table: &str) -> Result<Value, InputError> {
     judged(&robot, &write("world.toml", WORLD), &write("m.csv", table), &Question::anywhere())
 }
 
-/// What is found in a table that can be judged, and its verdict.
+/// Returns the verdict and the findings about a valid table.
 fn found(finger: &str, table: &str) -> (String, Value) {
     let found = verify(finger, table).unwrap_or_else(|error| panic!("{error}"));
     (found["verdict"].as_str().expect("a word").to_owned(), found)
 }
 
-/// Over the block and back: the rod is above it while it is raised.
+/// The arm moves over the block and back; the rod is above the block while it is raised.
 #[test]
 fn a_quill_is_judged_at_the_heights_that_it_has() {
     let table = |depths: [f64; 4]| {
@@ -89,7 +90,8 @@ fn a_quill_is_judged_at_the_heights_that_it_has() {
     assert!(notes.contains("moves, from 0 to 0.21 m") && notes.contains("at the heights that it has"), "{notes}");
 }
 
-/// Down beside the block, up before it: the cubic between samples goes deeper than they.
+/// The arm stands over the block. The rod moves down at the first sample and up at the second, so the cubic between
+/// them is deeper than both.
 #[test]
 fn between_samples_a_quill_goes_where_its_velocities_lead_it() {
     let table = |speed: f64| {
@@ -123,7 +125,8 @@ fn a_wrist_sweeps_a_disc() {
     }
 }
 
-/// What is written about two joints is not written about four; and what is not judged says why.
+/// A certificate covers two joints, so the program writes no certificate when other joints move. The errors of unusable
+/// motions give the reason.
 #[test]
 fn motions_that_cannot_be_judged_say_why() {
     let table = "time,j1,j2,quill\n0,0,0,0\n1,0.1,0,0.1\n";
@@ -145,7 +148,7 @@ fn motions_that_cannot_be_judged_say_why() {
     assert!(error.contains("not along the normal"), "{error}");
 }
 
-/// Motions drawn at random, held to the scenes of their moments, in each of which the quill is held where it is then.
+/// Random motions of a quill agree with the scenes of their moments, each with the quill at its position then.
 #[test]
 fn motions_of_a_quill_agree_with_the_scenes_of_their_moments() {
     let mut verdicts = [0; 2];

@@ -7,7 +7,7 @@ use cplan::{Problem, plan};
 use serde_json::Value;
 use std::path::Path;
 
-/// What is asked besides the files.
+/// Settings of the judge in addition to the files.
 #[derive(Default)]
 pub struct Question<'a> {
     pub overrides: Overrides,
@@ -16,13 +16,13 @@ pub struct Question<'a> {
 }
 
 impl Question<'_> {
-    /// A motion may begin and end anywhere.
+    /// Allows a motion to begin and end anywhere.
     pub fn anywhere() -> Self {
         Self { anywhere: true, ..Self::default() }
     }
 }
 
-/// The findings about a recording. Their `verdict` decides the program's exit code.
+/// Returns the findings about a recording. Their `verdict` decides the program's exit code.
 pub fn judged(robot: &Path, world: &Path, recording: &Path, question: &Question) -> Result<Value, InputError> {
     let Question { overrides, anywhere, topic } = question;
     let mut loaded = load_scene(robot, world)?.keeping(overrides.clearance)?;
@@ -37,7 +37,7 @@ pub fn judged(robot: &Path, world: &Path, recording: &Path, question: &Question)
     Ok(serde_json::to_value(&findings).unwrap())
 }
 
-/// The result of the main job with these words of its command line.
+/// Returns the result of the main job with these words of its command line.
 pub fn planned(robot: &Path, world: &Path, words: &str) -> Value {
     let words: Vec<String> = words.split_whitespace().map(str::to_owned).collect();
     let (options, overrides) = read_words(&words).unwrap_or_else(|error| panic!("{words:?}: {error}"));

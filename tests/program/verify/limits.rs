@@ -1,4 +1,4 @@
-//! Limits of recorded motions, between the samples too.
+//! Limits of recorded motions, also between the samples.
 
 use crate::common::{q, rr};
 use cplan::check::{Excess, Limit, limits_kept};
@@ -6,7 +6,7 @@ use cplan::model::Joint;
 use cplan::space::{Configuration, Derivative, JointRange, Recording};
 use proptest::prelude::*;
 
-/// Range from -1 to 1, top speed 1, acceleration 4.
+/// Returns joints with a range from -1 to 1, top speed 1 and acceleration 4.
 fn joints() -> [Joint; 2] {
     rr([JointRange::Interval { lower: -1.0, upper: 1.0 }; 2]).joints
 }
@@ -68,7 +68,8 @@ fn a_single_sample_may_not_move() {
     assert_eq!(judged(&[0.0], vec![q(0.0, 0.0)], Some(vec![q(0.0, 0.0)])), []);
 }
 
-/// Constant acceleration `a` from rest for 0.25 s and the same back, every `h` seconds, numbers rounded to `decimals`.
+/// Judges a constant acceleration `a` from rest for 0.25 s and the same back, every `h` seconds, with numbers rounded
+/// to `decimals`.
 fn ramps(a: f64, h: f64, decimals: i32) -> Vec<Excess> {
     let round = |v: f64| (v * 10f64.powi(decimals)).round() / 10f64.powi(decimals);
     let n = (0.5 / h).round() as u32;
@@ -88,7 +89,7 @@ fn rounded_numbers_of_a_motion_at_its_limits_break_none() {
             assert_eq!(ramps(4.0, h, decimals), [], "{decimals} decimals every {h} s");
         }
     }
-    // Doubles themselves are rounded: over such short times differences of positions say little.
+    // Doubles themselves are rounded, so over such short times differences of positions are inexact.
     for h in [1e-4, 1e-5] {
         assert_eq!(ramps(4.0, h, 15), [], "every {h} s");
         assert!(ramps(4.04, h, 15).iter().any(|e| e.limit == Limit::Acceleration), "every {h} s");
@@ -121,7 +122,8 @@ fn stated_velocities_are_judged_as_stated_however_close_the_samples() {
 
 #[test]
 fn a_real_move_that_is_too_fast_is_so_with_samples_a_microsecond_apart() {
-    // Up to 1.7 / s at 4 / s^2 and down again, sampled finely only where it is faster than allowed. Numbers have six decimals.
+    // The speed rises to 1.7 / s at 4 / s^2 and falls again, sampled finely only where it is too fast. Numbers have six
+    // decimals.
     let (a, top) = (4.0, 1.7 / 4.0);
     let state = |t: f64| match t <= top {
         true => (0.5 * a * t * t, a * t),
@@ -137,7 +139,7 @@ fn a_real_move_that_is_too_fast_is_so_with_samples_a_microsecond_apart() {
     let found = judged(&times, rows(|s| s.0), Some(velocity));
     let speed = found.iter().find(|e| e.limit == Limit::Velocity).expect("it is too fast");
     assert!(speed.value > 1.6, "{speed:?}");
-    // Where what is stated hides it, the way it goes does not.
+    // The stated velocities hide the excess, but the positions show it.
     let hidden = vec![q(0.99, 0.0); times.len()];
     let found = judged(&times, rows(|s| s.0), Some(hidden));
     assert!(found.iter().any(|e| e.limit == Limit::Velocity && e.value > 1.1), "{found:?}");
@@ -146,7 +148,7 @@ fn a_real_move_that_is_too_fast_is_so_with_samples_a_microsecond_apart() {
 proptest! {
     #![proptest_config(cplan_cases::cases(64))]
 
-    /// Random cubics with all their digits: what dense samples see beyond a limit is found, and nothing else.
+    /// In random cubics with all their digits, the judge finds exactly the excesses that dense samples show.
     #[test]
     fn speeds_and_accelerations_are_those_of_dense_samples(
         rows in prop::collection::vec((1e-6..1.0_f64, -0.2..0.2_f64, -1.1..1.1_f64), 2..6),

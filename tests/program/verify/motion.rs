@@ -8,13 +8,13 @@ use cplan::space::{Configuration, JointRange, Recording};
 use proptest::prelude::*;
 use std::f64::consts::FRAC_PI_4;
 
-/// Cubic Hermite interpolation by its basis polynomials.
+/// Computes cubic Hermite interpolation by its basis polynomials.
 fn hermite(h: f64, u: f64, [a, va]: [Configuration; 2], [b, vb]: [Configuration; 2]) -> Configuration {
     let (u2, u3) = (u * u, u * u * u);
     a * (2.0 * u3 - 3.0 * u2 + 1.0) + va * (h * (u3 - 2.0 * u2 + u)) + b * (3.0 * u2 - 2.0 * u3) + vb * (h * (u3 - u2))
 }
 
-/// Where the motion is at `time`, independently of the library.
+/// Returns the configuration at `time`, independently of the library.
 fn at(recording: &Recording, time: f64) -> Configuration {
     let (times, rows) = (recording.times().unwrap(), recording.positions());
     let k = times.iter().rposition(|t| *t <= time).unwrap().min(times.len() - 2);
@@ -48,7 +48,7 @@ proptest! {
         let domain = [0, 1].map(|k| scene.arm().topology().ranges[k].domain());
         let corner = |k: usize, t: f64| domain[k].0 + t * (domain[k].1 - domain[k].0);
         let first = rows[0].0;
-        // A walk about one place, so that some motions are free.
+        // The walk stays near one place, so that some motions are free.
         let near = |k: usize, t: f64| corner(k, first[k] + reach * (t - first[k]));
         let position: Vec<_> = rows.iter().map(|(r, _)| q(near(0, r[0]), near(1, r[1]))).collect();
         prop_assume!(scene.clearance(position[0]) > 0.0);
@@ -58,7 +58,8 @@ proptest! {
         const STEPS: u32 = 4000;
         let samples = sampled(&scene, &recording, STEPS);
         let seen = samples.iter().map(|s| s.1).fold(f64::INFINITY, f64::min);
-        // No point of these arms is farther than 3 m from a joint: so much can distances change between samples.
+        // No point of these arms is farther than 3 m from a joint, which bounds the change of distances between
+        // samples.
         let turned = |w: &[(f64, f64)]| (at(&recording, w[1].0) - at(&recording, w[0].0)).abs().sum();
         let step = 3.0 * samples.windows(2).map(turned).fold(0.0, f64::max);
         match check_collision(&scene, &recording, 0.0) {
@@ -84,7 +85,7 @@ proptest! {
     }
 }
 
-/// A speck in the way of the outstretched arm, and the angle at which the bar's side meets it.
+/// Returns a scene with a speck in the path of the outstretched arm, and the angle at which the bar's side meets it.
 fn speck() -> (Scene, f64) {
     let radius = 1e-9;
     let scene = scene(rr([JointRange::Circle, JointRange::Circle]), vec![disc(Point::new(1.2, 1.2), radius)]);
@@ -109,10 +110,10 @@ fn what_only_the_motion_between_samples_meets_is_found_at_its_time() {
     let (time, free) = collision(&scene, &Recording::new(ends(), Some(vec![10.0, 13.0]), None).unwrap());
     assert!((time - (10.0 + 2.0 * angle)).abs() < 1e-7, "{time}");
     assert!(free <= 10.0 + 2.0 * angle && free > time - 1e-9);
-    // Without a clock, at the same share of the way.
+    // Without times, the contact is at the same fraction of the path.
     let (share, _) = collision(&scene, &Recording::new(ends(), None, None).unwrap());
     assert!((share - angle / 1.5).abs() < 1e-7, "{share}");
-    // From rest to rest in 1 s: 3 u^2 - 2 u^3 of the way.
+    // From rest to rest in 1 s: the fraction 3 u^2 - 2 u^3 of the path.
     let rest = vec![q(0.0, 0.0); 2];
     let (time, _) = collision(&scene, &Recording::new(ends(), Some(vec![0.0, 1.0]), Some(rest)).unwrap());
     assert!((1.5 * time * time * (3.0 - 2.0 * time) - angle).abs() < 1e-7, "{time}");
@@ -120,7 +121,7 @@ fn what_only_the_motion_between_samples_meets_is_found_at_its_time() {
 
 #[test]
 fn an_excursion_between_samples_that_stand_still_is_found() {
-    // Both samples are at 0, but the velocities drive the cubic up to 4 / 27 h v at a third of the way, and back.
+    // Both samples are at 0, but the velocities move the cubic up to 4 / 27 h v at a third of the interval, and back.
     let (scene, angle) = speck();
     let excursion = |v: f64| {
         let velocity = vec![q(v, 0.0), q(0.0, 0.0)];

@@ -35,7 +35,7 @@ fn a_recording_is_judged_as_the_message_in_it() {
 struct Message(Vec<u8>);
 
 impl Message {
-    /// A message whose header has this stamp.
+    /// Returns a message whose header has this stamp.
     fn stamped(seconds: i32, nanoseconds: i32) -> Self {
         Self(vec![0, 1, 0, 0]).word(seconds).word(nanoseconds).word(1).byte(0)
     }
@@ -66,17 +66,17 @@ impl Message {
     }
 }
 
-/// A state with positions alone.
+/// Returns a state with positions only.
 fn state_of(seconds: i32, names: &[&str], values: &[f64]) -> Vec<u8> {
     Message::stamped(seconds, 500_000_000).names(names).values(values).word(0).word(0).0
 }
 
-/// A state of the planar arm.
+/// Returns a state of the planar arm.
 fn state(seconds: i32, values: [f64; 2]) -> Vec<u8> {
     state_of(seconds, &["elbow", "shoulder"], &values)
 }
 
-/// A motion without a stamp, of points with their seconds from the start.
+/// Returns a motion without a stamp, of points with their seconds from the start.
 fn motion(names: &[&str], points: &[(i32, [f64; 2])]) -> Vec<u8> {
     let start = Message::stamped(0, 0).names(names).word(points.len() as i32);
     let point = |message: Message, (seconds, values): &(i32, [f64; 2])| {
@@ -88,13 +88,13 @@ fn motion(names: &[&str], points: &[(i32, [f64; 2])]) -> Vec<u8> {
 const STATES: &str = "sensor_msgs/msg/JointState";
 const MOTIONS: &str = "trajectory_msgs/msg/JointTrajectory";
 
-/// A recording of messages: topic, log time and content, all of them of one type.
+/// Returns a recording of messages: topic, log time and content, all of the same type.
 fn recording(messages: &[(&str, u64, Vec<u8>)]) -> Vec<u8> {
     let typed: Vec<_> = messages.iter().map(|(topic, time, data)| (*topic, STATES, *time, data.clone())).collect();
     recording_of(&typed)
 }
 
-/// A recording of messages: topic, type, log time and content.
+/// Returns a recording of messages: topic, type, log time and content.
 fn recording_of(messages: &[(&str, &str, u64, Vec<u8>)]) -> Vec<u8> {
     let options = mcap::WriteOptions::new().compression(None);
     let mut writer = options.create(std::io::Cursor::new(Vec::new())).unwrap();
@@ -122,7 +122,7 @@ fn states_that_somebody_recorded() {
     assert_eq!(found["verdict"], "free", "{found:#}");
     assert_eq!((&found["samples"], &found["duration"]), (&json!(2), &json!(2.0)));
     assert!(found["notes"].to_string().contains("topics that are not used: \\\"/rosout\\\""), "{found:#}");
-    // Straight to the goal goes through the shelf, faster than the elbow can.
+    // The straight line to the goal leads through the shelf, faster than the elbow can move.
     assert_eq!(judged(&recording_of(&states([-0.35, 1.55])), None).unwrap()["verdict"], "collision");
 
     let whole = recording_of(&states([0.5, -0.8]));
@@ -143,7 +143,7 @@ fn states_that_somebody_recorded() {
     }
 }
 
-/// Judges a recording of the planar arm, wherever it begins and ends.
+/// Judges a recording of the planar arm, with any start and end.
 fn judged(bytes: &[u8], topic: Option<&str>) -> Result<Value, InputError> {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("m.mcap");
@@ -152,14 +152,14 @@ fn judged(bytes: &[u8], topic: Option<&str>) -> Result<Value, InputError> {
     judged::judged(&robot, &world, &file, &Question { topic, ..Question::anywhere() })
 }
 
-/// What is wrong with a recording, and the hint.
+/// Returns the error of a recording, and the hint.
 fn message_of(bytes: &[u8], topic: Option<&str>) -> String {
     let error = judged(bytes, topic).unwrap_err();
     let first = &error.diagnostics()[0];
     format!("{}; {}", first.message, first.help.as_ref().expect("a hint"))
 }
 
-/// `write.py` beside the files has written them with the format's Python package: the same motion as a table.
+/// `write.py` beside the files wrote them with the format's Python package. They hold the same motion as the table.
 #[test]
 fn compressed_chunks_of_a_topic_in_a_namespace_out_of_order() {
     let folder = tempfile::tempdir().unwrap();
@@ -189,7 +189,7 @@ fn damaged_compressed_chunks_are_refused() {
         let mut bytes = std::fs::read(shipped(&format!("tests/program/verify/recorded/{file}.mcap"))).unwrap();
         for at in (200..bytes.len() - 200).step_by(97) {
             bytes[at] ^= 0x55;
-            // Whatever a changed byte does, it is never a crash.
+            // Whatever byte changes, the program does not crash.
             if let Ok(found) = judged(&bytes, None) {
                 assert_ne!(found["verdict"], "undecided", "{file}, {at}: {found:#}");
             }
@@ -198,7 +198,7 @@ fn damaged_compressed_chunks_are_refused() {
     }
 }
 
-/// Of several topics none is chosen silently, and the hint works.
+/// If there are several topics, the program chooses none silently, and its hint works.
 #[test]
 fn several_topics_with_the_arms_joints() {
     let bytes = recording(&[
@@ -232,7 +232,7 @@ fn several_topics_with_the_arms_joints() {
     }
 }
 
-/// Several nodes publish on one topic: the arm's messages count, the others only say what else there is.
+/// Several nodes publish on one topic. The arm's messages count; the others only appear in notes.
 #[test]
 fn several_publishers_on_one_topic() {
     let bytes = recording(&[
@@ -249,7 +249,7 @@ fn several_publishers_on_one_topic() {
     assert!(notes.contains("2 of 4 messages on /joint_states do not name both"), "{notes}");
     assert!(notes.contains("1 messages repeat") && notes.contains("joint \\\"lid\\\" is ignored"), "{notes}");
 
-    // A joint of the arm that is in no message with the other one is not put together of two clocks.
+    // Positions of the two joints from separate messages are not combined.
     let halves = recording(&[
         ("/joint_states", 7, state_of(10, &["elbow"], &[0.4])),
         ("/joint_states", 8, state_of(10, &["shoulder"], &[-0.9])),
@@ -258,7 +258,7 @@ fn several_publishers_on_one_topic() {
     assert!(message.contains("holds no positions of") && message.contains("both of the arm's joints"), "{message}");
 }
 
-/// What a controller is sent: motions in a namespace, whose first point is not where the arm stands.
+/// The recording holds commands to a controller: motions in a namespace whose first point is not the arm's position.
 #[test]
 fn motions_of_a_controller_in_a_namespace() {
     let topic = "/arm_controller/joint_trajectory";
@@ -270,7 +270,7 @@ fn motions_of_a_controller_in_a_namespace() {
     ]);
     let found = judged(&bytes, None).unwrap();
     assert_eq!(found["verdict"], "free", "{found:#}");
-    // Two points, where the arm waits, where it starts again, two points.
+    // The samples: two points, the waiting position, the next beginning, two points.
     assert_eq!((&found["samples"], &found["duration"]), (&json!(5), &json!(9.0)), "{found:#}");
     assert!(found["notes"].to_string().contains("2 motions, one after the other"), "{found:#}");
 

@@ -1,4 +1,4 @@
-//! Results of tasks: our own ones as they are, tampered with, and in worlds that are not theirs.
+//! Results of tasks: the program's own ones, unchanged and tampered with, and in other worlds.
 
 use super::judged::{Question, judged, planned};
 use serde_json::{Value, json};
@@ -9,14 +9,14 @@ fn root(file: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(file)
 }
 
-/// A shipped task, and what is planned for it.
+/// A shipped task, and its plan.
 struct Shipped {
     robot: PathBuf,
     world: String,
     result: Value,
 }
 
-/// Exit code, what is printed, and what is said of errors.
+/// Exit code, stdout and stderr.
 type Said = (i32, String, String);
 
 fn run(folder: &Path, arguments: &[&str]) -> Said {
@@ -45,7 +45,7 @@ impl Shipped {
         files
     }
 
-    /// What `verify` says of the result.
+    /// Returns the output of `verify` about the result.
     fn said(&self, options: &[&str]) -> Said {
         let folder = tempfile::tempdir().unwrap();
         self.written(folder.path());
@@ -53,21 +53,21 @@ impl Shipped {
         run(folder.path(), &[&files, options].concat())
     }
 
-    /// What is found in the result.
+    /// Returns the findings about the result.
     fn found(&self) -> Value {
         let folder = tempfile::tempdir().unwrap();
         let [world, task] = self.written(folder.path());
         judged(&self.robot, &world, &task, &Question::default()).unwrap_or_else(|error| panic!("{error}"))
     }
 
-    /// The same in a world in which one thing is another.
+    /// Returns the same result for a world with one text replaced.
     fn in_world(mut self, thing: &str, other: &str) -> Self {
         assert!(self.world.contains(thing), "{thing}");
         self.world = self.world.replacen(thing, other, 1);
         self
     }
 
-    /// First and last sample of a step.
+    /// Returns the first and last sample of a step.
     fn samples(&self, step: usize) -> [usize; 2] {
         let sample = |key: &str| self.result["steps"][step][key].as_u64().unwrap() as usize;
         [sample("first_sample"), sample("last_sample")]
@@ -88,7 +88,7 @@ impl Shipped {
         self.result["trajectory"]["time"].as_array().unwrap().len()
     }
 
-    /// Refuted with this verdict: of the whole, and of these steps alone, counted from 0.
+    /// Checks that the verdict is this one for the whole, and refuted only for these steps, counted from 0.
     #[track_caller]
     fn refuted(&self, verdict: &str, steps: &[usize]) -> Value {
         let found = self.found();
@@ -121,7 +121,7 @@ fn our_own_tasks_are_free_and_their_clearances_agree() {
             let turn = [&ours["turn"], &theirs["turn"]].map(|turn| number(&turn["clearance"]));
             assert_eq!(turn[0], turn[1], "{name}");
             let bound = turn[0].into_iter().chain(number(&ours["clearance"])).reduce(f64::min);
-            // Both at least 0.9 of the same distance; the one is of the curve, the other of the cubics between samples.
+            // Both are at least 0.9 of the same distance: one is of the curve, the other of the cubics between samples.
             match (bound, number(&theirs["clearance"])) {
                 (Some(a), Some(b)) => assert!(a >= 0.89 * b && b >= 0.89 * a, "{name}: {a}, {b} in {ours:#}"),
                 (a, b) => assert_eq!(a, b, "{name}"),
@@ -180,7 +180,7 @@ fn an_object_elsewhere() {
 
 #[test]
 fn steps_in_another_order() {
-    // Pairs of a free group may come in any order, and do.
+    // Pairs of a free group may come in any order.
     let sorting = shipped("sorting");
     let numbers = |task: &Shipped| {
         let steps = task.result["steps"].as_array().unwrap();
@@ -224,7 +224,7 @@ fn samples_that_belong_to_no_step() {
     let mut tower = shipped("tower");
     let [_, last] = tower.samples(1);
     tower.result["steps"][1]["last_sample"] = json!(last - 3);
-    // What is left of the motion ends elsewhere, and not at rest.
+    // The rest of the motion ends elsewhere, and not at rest.
     let found = tower.refuted("task", &[1]);
     assert!(found["faults"].to_string().contains("which belong to no step"), "{found:#}");
     assert!(found["steps"][1]["limits_broken"].to_string().contains("rest at end"), "{found:#}");
@@ -275,20 +275,20 @@ fn a_turn_that_is_another() {
         found["steps"][1]["faults"],
         json!(["the wrist turns from an angle that is 1.570800 rad from the object's"])
     );
-    // The other way round, in the time of the shorter.
+    // The turn has the other direction, in the time of the shorter one.
     let found = reversed(0.0, to - std::f64::consts::TAU).refuted("task", &[1]);
     assert!(found["steps"][1]["faults"][0].as_str().unwrap().starts_with("the wrist turns in"), "{found:#}");
-    // Not at all: carried as it lay, the board does not pass.
+    // Without the turn, the board does not pass in its first orientation.
     let mut task = shipped("board_turned");
     task.result["steps"][1]["turn"] = Value::Null;
     task.refuted("collision", &[2]);
-    // With a post in the way of the turn alone.
+    // The post blocks only the turn.
     let post = "[[obstacle]]\nname = \"post\"\ncircle = { center = [0.52, 1.1], radius = 0.01 }\nheight = [0.0, 0.04]\n\n[[object]]";
     let found = shipped("board_turned").in_world("[[object]]", post).found();
     let turn = &found["steps"][1]["turn"];
     assert_eq!((&found["steps"][1]["verdict"], &turn["contact"]["obstacle"]), (&json!("collision"), &json!("post")));
-    // The post's centre is 0.12 beside the tip, the board's long side 0.06: they touch when the one is 0.07 from the other's
-    // axis, whichever way the board turns.
+    // The post's centre is 0.12 from the tip, and the board's long side 0.06. They touch when the centre is 0.07 from
+    // the board's axis, in either direction of the turn.
     let expected = (0.07_f64 / 0.12).acos();
     let angle = |turn: &Value| number(&turn["contact"]["angle"]).unwrap();
     assert!((angle(turn) - expected).abs() < 1e-6, "{turn:#}");
@@ -383,7 +383,7 @@ fn steps_that_are_none_are_refused() {
         result.as_object_mut().unwrap().remove("trajectory");
     });
     assert!(code == 1 && error.contains("no trajectory with time, position and velocity"), "{error}");
-    // No steps, or any numbers that are none of the world's, are not the task.
+    // No steps, or numbers that the world does not have, are not the task.
     for steps in [json!([]), step(json!({"step": 99})), step(json!({"cycle": 0}))] {
         let (code, text, error) = with(&|result| result["steps"] = steps.clone());
         assert!(code == 3 && text.contains("not the task"), "{text}{error}");

@@ -31,7 +31,7 @@ pub fn run(urdf: &str, world: &str, rounds: usize) -> Result<Value> {
     Ok(json!({"times": times.into_json(), "decide": told(decided), "shortest": told(shortest), "proven": proven}))
 }
 
-/// An outcome in JSON; none where nothing was run.
+/// Returns an outcome as JSON; the status is "unknown" if nothing was run.
 fn told<U>(outcome: Option<Outcome<Path, CheckedProof, U>>) -> Value {
     match outcome {
         Some(Outcome::Found(path)) => {

@@ -1,5 +1,6 @@
-//! A configuration space by collision tests at the centres of its cells, as one does it with parry2d: all that does not
-//! change along a row is done once a row, discs around the shapes come before the exact test, and the first hit settles.
+//! A configuration space by collision tests at the centres of its cells, as one writes it with parry2d. Values that are
+//! constant along a row are computed once per row, discs around the shapes are tested before the exact test, and the
+//! first hit decides.
 
 use crate::scenes::Bars;
 use parry2d::math::{Pose, Rotation, Vector};

@@ -34,7 +34,7 @@ pub fn run(urdf: &str, world: &str, cells: usize, rounds: usize) -> Result<Value
     let bits = bitmap(&scene, shape, 0.0);
     let blocked = |at: usize| bits.blocked(at / cells, at % cells);
     let differ: Vec<usize> = (0..cells * cells).filter(|&at| tested[at] != blocked(at)).collect();
-    // Where single precision says otherwise, double precision is asked.
+    // If single precision disagrees, double precision decides.
     let checker = Checker::new(&scenes::bars(&scene)?, &scenes::obstacles(&scene));
     let in_double = |at: usize| checker.collides([first[at / cells], second[at % cells]]);
     let differ_double = differ.iter().filter(|&&at| in_double(at) != blocked(at)).count();

@@ -1,5 +1,5 @@
-//! Distances and harmonic fields on a grid: cplan's solvers; the cells and the results go into files, for peers in other
-//! languages and for the comparison with them.
+//! Distances and harmonic fields on a grid by cplan's solvers. The cells and the results are written to files, for
+//! peers in other languages and for the comparison.
 
 #[path = "../../../../crates/cases/src/mazes.rs"]
 #[allow(dead_code, reason = "only the maze is needed here")]
@@ -61,7 +61,7 @@ pub fn run(grid: Grid, rounds: usize, directory: &str) -> Result<Value> {
         let ways = times.time("dijkstra", || Search::new(&packed, Neighborhood::Eight, Order::Dijkstra, &[goal], all));
         let solver = times.time("multigrid setup", || Multigrid::new(grid.cells, ends, &free, 0.0));
         let mut workspace = solver.workspace();
-        // The first solve touches the workspace's fresh memory, as everybody's first does; the second is a goal more.
+        // The first solve touches the workspace's fresh memory, as any first solve does. The second has one more goal.
         for stage in ["multigrid solve", "multigrid again"] {
             values.fill(0.0);
             times.time(stage, || solver.goal(goal, &mut values, ERROR, &mut workspace));

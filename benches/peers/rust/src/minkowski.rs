@@ -1,5 +1,5 @@
-//! Minkowski differences of convex polygons: cplan's, whose order of sides is decided by exact predicates, beside the plain
-//! merge in doubles that everybody writes first.
+//! Minkowski differences of convex polygons: cplan's, which orders sides by exact predicates, beside the plain merge in
+//! doubles that most people write first.
 
 use crate::Result;
 use crate::rounds::Rounds;
@@ -7,7 +7,7 @@ use cplan::geometry::{Convex, Point, Vector};
 use serde_json::{Value, json};
 use std::f64::consts::TAU;
 
-/// Differences a round, so that a round is long enough for the clock.
+/// Number of differences per round, so that a round is long enough for the clock.
 const BATCH: usize = 100;
 
 /// Returns a regular polygon, turned by `phase` so that the sides of two polygons are not parallel.

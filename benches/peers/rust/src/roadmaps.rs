@@ -1,5 +1,5 @@
-//! Shortest paths among random disjoint polygons: cplan's triangulation and visibility graph beside polyanya's mesh. The
-//! polygons and queries are written to a file, for peers in other languages.
+//! Shortest paths among random disjoint polygons: cplan's triangulation and visibility graph beside polyanya's mesh.
+//! The polygons and queries are written to a file, for peers in other languages.
 
 #[path = "../../../../crates/cases/src/dice.rs"]
 mod dice;
@@ -22,7 +22,7 @@ use serde_json::{Value, json};
 /// Number of queries per map.
 const QUERIES: usize = 32;
 
-/// Pairs of free places anywhere in the window.
+/// Number of pairs of free places in the window.
 fn queries(regions: &Regions) -> Vec<[Configuration; 2]> {
     let mut random = Dice::new(7);
     let free = |q: &Configuration| regions.free.iter().any(|polygon| polygon.contains(Point::from(*q)));

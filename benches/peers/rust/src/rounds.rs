@@ -4,7 +4,7 @@ use serde_json::{Map, Value, json};
 use std::hint::black_box;
 use std::time::Instant;
 
-/// Milliseconds of each contender, a list a name.
+/// Milliseconds of each contender, one list per name.
 #[derive(Default)]
 pub struct Rounds(Map<String, Value>);
 

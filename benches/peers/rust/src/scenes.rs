@@ -15,7 +15,7 @@ pub fn problem(urdf: &str, world: &str) -> Result<MotionProblem> {
     Ok(loaded.problem)
 }
 
-/// Corners of the one shape of each link, in the link's frame, and where joint 2 sits on link 1's x axis.
+/// Corners of the one shape of each link, in the link's frame, and the x coordinate of joint 2 on link 1.
 pub struct Bars {
     pub links: [Vec<[f64; 2]>; 2],
     pub elbow: f64,

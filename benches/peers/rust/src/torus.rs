@@ -1,4 +1,4 @@
-//! Two turning joints for oxmpl: the torus with the Euclidean metric, and a collision check by parry2d.
+//! Two revolute joints for oxmpl: the torus with the Euclidean metric, and a collision check by parry2d.
 
 use crate::Result;
 use crate::scenes::{self, Bars};

@@ -1,4 +1,4 @@
-//! Files that the URDF and the world name.
+//! Files that the URDF and the world refer to.
 
 use super::{Files, digest};
 use cplan_check::{CheckError, Input};
@@ -6,23 +6,23 @@ use std::fs::File;
 use std::io::Read as _;
 use std::path::Path;
 
-/// Bytes of the largest file that is read.
+/// Maximum size of a file, bytes.
 const LARGEST: u64 = 256 << 20;
 
 impl Files {
-    /// The path of one of the two, beside which others lie.
+    /// Returns the path of the URDF or the world. Other files lie relative to it.
     ///
     /// # Errors
-    /// If it is a text.
+    /// If it was given as a text.
     pub fn path(&self, of: Input) -> Result<&Path, CheckError> {
         let path = self.given[usize::from(of == Input::World)].as_deref();
         path.ok_or_else(|| CheckError::in_file(of, "it names other files, which only check_files looks for"))
     }
 
-    /// The content of a file that one of the two names.
+    /// Reads a file that the URDF or the world refers to.
     ///
     /// # Errors
-    /// What cannot be read, is larger than 256 MiB, or is another than the certificate is about.
+    /// If the file cannot be read, is larger than 256 MiB, or is not the one that the certificate is about.
     pub fn bytes(&self, of: Input, path: &Path) -> Result<Vec<u8>, CheckError> {
         if !path.is_file() {
             return Err(CheckError::in_file(of, format!("{} cannot be read: there is no such file", path.display())));

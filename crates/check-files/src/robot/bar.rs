@@ -1,4 +1,4 @@
-//! Bars in place of links without geometry.
+//! Bars that replace links without geometry.
 
 use super::Robot;
 use super::tree::Read;
@@ -11,7 +11,7 @@ use num_bigint::Sign;
 use std::collections::BTreeSet;
 
 impl Robot<'_> {
-    /// All within a radius of the segment from a joint to the next, or to the tip.
+    /// Makes the bar: all points within a radius of the segment from a joint to the next joint or to the tip.
     pub(super) fn bar(&self, last: usize, radius: &Decimal) -> Read<Counted> {
         if radius.sign() != Sign::Plus {
             return Err(CheckError::in_file(Input::World, "the radius of a bar is positive"));

@@ -1,5 +1,5 @@
-//! Meshes in Collada: geometries, and the scene of nodes in which they lie, in the unit of the file. Coordinates are the file's own, whichever
-//! axis it calls up.
+//! Collada meshes: geometries, and the scene of nodes that places them, in the unit of the file. Coordinates are taken
+//! as in the file; the declared up axis has no effect.
 
 use super::pose::{Pose, Vector, size};
 use cplan_check::decimal::Decimal;
@@ -8,19 +8,19 @@ use num_bigint::Sign;
 use roxmltree::{Document, Node, ParsingOptions};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Nodes within each other, nodes of the scene, and vertices of all that it shows, at most.
+/// Maximum depth of nested nodes, number of nodes in the scene, and number of visible vertices.
 const DEEPEST: usize = 64;
 const MOST_NODES: usize = 1 << 16;
 const MOST_POINTS: usize = 1 << 22;
 
-/// What a node is placed by, and how often at most.
+/// Elements that place a node, and their maximum number per node.
 const PLACING: [&str; 6] = ["matrix", "translate", "rotate", "scale", "lookat", "skew"];
 const MOST_PLACINGS: usize = 16;
 
-/// What is nearer to a number than `2^-ROUNDED` is that.
+/// Numbers that differ by less than `2^-ROUNDED` count as equal.
 const ROUNDED: u32 = 40;
 
-/// A linear map and a translation after it: as a pose, though no rotation as a rule.
+/// A linear map followed by a translation. It is stored as a pose, but usually is not a rotation.
 type Affine = Pose;
 
 struct Scene<'a> {
@@ -30,12 +30,12 @@ struct Scene<'a> {
     points: Vec<Vector>,
 }
 
-/// The vertices of all geometries that the scene shows, metres.
+/// Returns the vertices of all geometries that the scene shows, metres.
 pub fn vertices(bytes: &[u8]) -> Result<Vec<Vector>, String> {
     let text = std::str::from_utf8(bytes).map_err(|_| "it is no text")?;
     let options = ParsingOptions { allow_dtd: true, ..ParsingOptions::default() };
     let text = text.trim_start_matches('\u{feff}');
-    // What stands before the declaration is left out, if it is nothing but comments.
+    // Ignore comments before the declaration.
     let before = text.find("<?xml").filter(|at| is_comment(&text[..*at]));
     let text = &text[before.unwrap_or(0)..];
     let document = Document::parse_with_options(text, options).map_err(|error| error.to_string())?;
@@ -56,7 +56,7 @@ pub fn vertices(bytes: &[u8]) -> Result<Vec<Vector>, String> {
     if let Some(shown) = shown {
         scene.show(shown, &to_file, 0)?;
     }
-    // Without a scene that shows anything all meshes count, as they are.
+    // Without a scene that shows anything, all meshes count, without placement.
     if scene.points.is_empty() {
         let meshes = named(root, "geometry").filter_map(|geometry| child(geometry, "mesh"));
         meshes.collect::<Vec<_>>().into_iter().try_for_each(|mesh| scene.positions(mesh, &to_file))?;
@@ -64,7 +64,7 @@ pub fn vertices(bytes: &[u8]) -> Result<Vec<Vector>, String> {
     if scene.points.is_empty() { Err("it has no mesh".into()) } else { Ok(scene.points) }
 }
 
-/// Whether a text is comments and white space alone.
+/// Returns true if a text consists of comments and white space only.
 fn is_comment(text: &str) -> bool {
     match text.trim().strip_prefix("<!--") {
         Some(comment) => comment.split_once("-->").is_some_and(|(_, after)| is_comment(after)),
@@ -81,13 +81,13 @@ fn named<'a>(node: Node<'a, 'a>, name: &'static str) -> impl Iterator<Item = Nod
 }
 
 impl<'a> Scene<'a> {
-    /// What an element refers to.
+    /// Returns the element that another one refers to.
     fn target(&self, node: Node<'a, 'a>) -> Option<Node<'a, 'a>> {
         let id = node.attribute("url").or(node.attribute("source"))?.strip_prefix('#')?;
         self.ids.get(id).copied()
     }
 
-    /// Adds what a node shows, whose coordinates a map takes to those of the file.
+    /// Adds everything that a node shows. The map converts its coordinates to those of the file.
     fn show(&mut self, node: Node<'a, 'a>, to_file: &Affine, depth: usize) -> Result<(), String> {
         self.nodes += 1;
         if depth > DEEPEST || self.nodes > MOST_NODES {
@@ -113,7 +113,7 @@ impl<'a> Scene<'a> {
         Ok(())
     }
 
-    /// Adds the positions that a mesh's primitives name.
+    /// Adds the positions that a mesh's primitives use.
     fn positions(&mut self, mesh: Node<'a, 'a>, to_file: &Affine) -> Result<(), String> {
         let vertices = child(mesh, "vertices").ok_or("a mesh has no vertices")?;
         let source = of_semantic(vertices, "POSITION").and_then(|input| self.target(input));
@@ -165,12 +165,12 @@ impl<'a> Scene<'a> {
     }
 }
 
-/// The input of a kind.
+/// Returns the input with a semantic.
 fn of_semantic<'a>(node: Node<'a, 'a>, semantic: &str) -> Option<Node<'a, 'a>> {
     node.children().find(|input| input.attribute("semantic") == Some(semantic))
 }
 
-/// The text of a node, whatever comments are in it.
+/// Returns the text of a node without its comments.
 fn text_of(node: Node) -> String {
     node.children().filter_map(|part| part.is_text().then(|| part.text())?).collect()
 }
@@ -185,7 +185,7 @@ fn scaled(by: Vector) -> Affine {
     map
 }
 
-/// From a node's coordinates to those of the one about it: its transformations, the first of them outermost.
+/// Returns the map from a node's coordinates to those of its parent: its transformations, the first of them outermost.
 fn placing(node: Node) -> Result<Affine, String> {
     let mut all = Pose::identity();
     let is_one = |part: &Node| PLACING.contains(&part.tag_name().name());
@@ -196,7 +196,7 @@ fn placing(node: Node) -> Result<Affine, String> {
         let kind = part.tag_name().name();
         let values = numbers(part)?;
         let vector = || [0, 1, 2].map(|k| values[k].clone());
-        // Up to rounding: 0 0 0 1.
+        // Up to rounding, the last row must be 0 0 0 1.
         let is_last_row = |k: usize| {
             (&values[k] - &Interval::whole(i32::from(k == 15))).magnitude()
                 < Interval::whole(1).in_halves(ROUNDED).lower
@@ -230,7 +230,7 @@ mod tests {
 
     const SHOWN: &str = "<scene><instance_visual_scene url=\"#v\"/></scene>";
 
-    /// A triangle in a node without a place, in centimetres.
+    /// Makes a file with a triangle in a node without placement, in centimetres.
     fn triangle(node: &str, scene: &str) -> String {
         format!(
             r##"<?xml version="1.0"?><COLLADA><asset><unit meter="0.01"/></asset><geometry id="g"><mesh>

@@ -8,7 +8,7 @@ use num_bigint::BigInt;
 /// Least thickness of a layer, metres: `10^-6`.
 const THINNEST: u32 = 6;
 
-/// Vertices at most this far outside a layer belong to it, metres: `10^-9`.
+/// Tolerance of layers, metres: `10^-9`. Vertices at most this far outside a layer belong to it.
 const ROUNDED: u32 = 9;
 
 fn metres(digits: u32) -> BigInt {
@@ -24,7 +24,8 @@ pub fn cuts(mut ends: Vec<BigInt>) -> Vec<BigInt> {
 }
 
 impl Surface {
-    /// Cuts the surface, and returns the points and the heights of each layer, the lowest first. A layer is the convex hull of its points.
+    /// Cuts the surface, and returns the points and the heights of each layer, the lowest first. A layer is the convex
+    /// hull of its points.
     ///
     /// The result is empty if no cut goes through the surface, or if the edges are unknown.
     pub fn layers(&self, cuts: &[BigInt]) -> Vec<(Vec<Point>, [Interval; 2])> {
@@ -55,7 +56,8 @@ impl Surface {
         layers
     }
 
-    /// Returns the points where edges cross a height. Edges whose two ends belong to both layers are left out: their ends are enough.
+    /// Returns the points where edges cross a height. Omits an edge if both its ends belong to both layers: the ends
+    /// suffice.
     fn crossings(&self, cut: &BigInt, rounded: &BigInt) -> Vec<Point> {
         let [floor, top] = [cut - rounded, cut + rounded];
         let is_at = |height: &Interval| floor <= height.upper && height.lower <= top;

@@ -1,15 +1,15 @@
-//! Packages by the name that their `package.xml` gives them.
+//! Packages, identified by the name in their `package.xml`.
 
 use roxmltree::Document;
 use std::path::{Path, PathBuf};
 
-/// Levels of folders that are looked into below a folder.
+/// Depth of the search below a folder.
 const LEVELS: usize = 4;
 
-/// Folders that are looked into below a folder.
+/// Maximum number of folders searched below a folder.
 const MOST: usize = 1_000;
 
-/// The folders that are packages of a name: this one, or those below it, nearest first.
+/// Finds the folders that are packages with this name: the folder itself, or those below it, nearest first.
 pub fn declared(package: &str, folder: &Path) -> Vec<PathBuf> {
     let mut level = vec![folder.to_owned()];
     let (mut found, mut seen) = (Vec::new(), 0);
@@ -21,7 +21,7 @@ pub fn declared(package: &str, folder: &Path) -> Vec<PathBuf> {
     found
 }
 
-/// The name that a folder gives itself.
+/// Returns the package name that a folder declares.
 fn name(folder: &Path) -> Option<String> {
     let text = std::fs::read_to_string(folder.join("package.xml")).ok()?;
     let document = Document::parse(text.trim_start()).ok()?;
@@ -29,7 +29,7 @@ fn name(folder: &Path) -> Option<String> {
     Some(name.text()?.trim().to_owned())
 }
 
-/// The folders in a folder, in the order of their names, without hidden ones.
+/// Returns the folders in a folder, sorted by name, without hidden ones.
 fn inside(folder: &Path) -> Vec<PathBuf> {
     let entries = folder.read_dir().into_iter().flatten().filter_map(Result::ok);
     let is_folder = |entry: &std::fs::DirEntry| entry.file_type().is_ok_and(|kind| kind.is_dir());

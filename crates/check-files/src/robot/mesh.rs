@@ -1,4 +1,4 @@
-//! Meshes: the corners of their faces, whose convex hull stands for them, and the edges between these.
+//! Meshes: the corners of their faces, whose convex hull is used for collisions, and the edges between these corners.
 
 use super::pose::Vector;
 use super::solid::Mesh;
@@ -13,19 +13,19 @@ use roxmltree::Node;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-/// Bytes of a binary STL before its triangles, of each triangle, and of its normal before its corners.
+/// Bytes of a binary STL before its triangles, bytes per triangle, and bytes of a triangle's normal before its corners.
 const HEADER: usize = 84;
 const TRIANGLE: usize = 50;
 const NORMAL: usize = 12;
 
-/// Folders about the URDF below which packages are looked for.
+/// Number of folders above the URDF in which packages are searched.
 const MOST_ABOUT: usize = 5;
 
-/// A corner, as STL has it: in single precision.
+/// A corner in single precision, as in STL.
 type Single = [u32; 3];
 
 impl<'a> Tree<'a> {
-    /// The surface of a `<mesh>`, or why it is not read.
+    /// Reads the surface of a `<mesh>`. The inner error is the reason why its file cannot be read.
     pub(super) fn mesh(&self, node: Node<'a, 'a>) -> Read<Read<Mesh>> {
         let is_scaled = node.has_attribute("scale");
         let scale = if is_scaled { self.vector(node, "scale")? } else { [1; 3].map(Interval::whole) };
@@ -37,7 +37,7 @@ impl<'a> Tree<'a> {
     }
 }
 
-/// A mesh of faces, each by its corners: what these corners are, each once, and the edges all round them.
+/// Converts faces, each given by its corners, to the distinct corners and the edges around all faces.
 fn of_faces<T: Ord + Copy>(faces: &[Vec<T>]) -> (Vec<T>, Vec<[usize; 2]>) {
     let corners: BTreeSet<T> = faces.iter().flatten().copied().collect();
     let corners: Vec<T> = corners.into_iter().collect();
@@ -52,10 +52,10 @@ fn of_faces<T: Ord + Copy>(faces: &[Vec<T>]) -> (Vec<T>, Vec<[usize; 2]>) {
     (corners, edges.into_iter().collect())
 }
 
-/// A mesh as its file has it.
+/// Reads a mesh from its file.
 ///
 /// # Errors
-/// A file that is not found or not read, or of another format.
+/// If the file is not found, cannot be read, or has another format.
 fn read(files: &Files, name: &str) -> Result<Mesh, CheckError> {
     let wrong = |why: &str| CheckError::in_file(Input::Urdf, format!("mesh \"{name}\": {why}"));
     let read: fn(&[u8]) -> Result<Mesh, String> = match name.to_lowercase().rsplit_once('.') {
@@ -72,7 +72,7 @@ fn read(files: &Files, name: &str) -> Result<Mesh, CheckError> {
     }
 }
 
-/// The triangles of an STL, as text or in bytes.
+/// Reads the triangles of an STL, in text or binary form.
 fn stl(bytes: &[u8]) -> Result<Mesh, String> {
     let count =
         bytes.get(HEADER - 4..HEADER).map(|count| count.iter().rev().fold(0, |sum, b| sum << 8 | usize::from(*b)));
@@ -85,7 +85,7 @@ fn stl(bytes: &[u8]) -> Result<Mesh, String> {
     Ok(Mesh { points: points.ok_or("a corner is not finite")?, edges })
 }
 
-/// The faces of an OBJ. A line that ends in a backslash goes on in the next, if it is no comment.
+/// Reads the faces of an OBJ. A line that ends in a backslash continues on the next line, unless it is a comment.
 fn obj(bytes: &[u8]) -> Result<Mesh, String> {
     let text = String::from_utf8_lossy(bytes);
     let (mut vertices, mut faces, mut lines) = (Vec::<Vector>::new(), Vec::new(), text.split('\n'));
@@ -105,7 +105,7 @@ fn obj(bytes: &[u8]) -> Result<Mesh, String> {
                 let point = <[Decimal; 3]>::try_from(numbers).map_err(|_| "a vertex needs three numbers")?;
                 vertices.push(point.each_ref().map(Interval::from));
             }
-            // Numbers of textures and normals follow after slashes; negative numbers count from the end.
+            // Numbers of textures and normals follow after slashes. Negative numbers count from the end.
             Some("f") => {
                 let mut face = Vec::new();
                 for word in words {
@@ -116,7 +116,7 @@ fn obj(bytes: &[u8]) -> Result<Mesh, String> {
                 }
                 faces.push(face);
             }
-            // What is said of looks, and names.
+            // Appearance, names and other keys without an effect on the shape.
             None
             | Some("vt" | "vn" | "vp" | "g" | "o" | "s" | "mg" | "usemtl" | "mtllib" | "shadow_obj" | "trace_obj") => {}
             Some(word) if word.starts_with('#') => {}
@@ -134,7 +134,7 @@ fn in_bytes(triangles: &[u8]) -> Vec<Vec<Single>> {
     triangles.chunks_exact(TRIANGLE).map(triangle).collect()
 }
 
-/// Solids one after the other, in the words of the format.
+/// Reads consecutive solids of an STL in text form.
 fn as_text(text: &str) -> Option<Vec<Vec<Single>>> {
     let lines = text.lines().map(|line| line.split_whitespace().collect::<Vec<_>>());
     let mut lines = lines.filter(|words| !words.is_empty());
@@ -162,21 +162,22 @@ fn as_text(text: &str) -> Option<Vec<Vec<Single>>> {
     Some(triangles)
 }
 
-/// The numbers that these bits stand for, which are dyadic.
+/// Returns the exact values of these single-precision numbers, which are dyadic.
 fn exactly(corner: Single) -> Option<Vector> {
     let number = |bits: u32| {
         let (exponent, fraction) = (bits >> 23 & 0xff, bits & 0x7f_ffff);
         let digits = BigInt::from(if exponent == 0 { fraction } else { fraction | 1 << 23 });
         let signed = if bits >> 31 == 1 { -digits } else { digits };
-        // A unit of the last digit is 2^(exponent - 150).
+        // A unit of the last digit is `2^(exponent - 150)`.
         (exponent < 0xff).then(|| Interval::exactly(signed << (exponent.max(1) + BITS - 150)))
     };
     let [x, y, z] = corner.map(number);
     Some([x?, y?, z?])
 }
 
-/// Where a mesh may be: as a path from the URDF on, or in a package. That is a folder whose `package.xml` has the name, about the URDF, or
-/// below one of the folders about it, or else a folder that is called so, also where `ROS_PACKAGE_PATH` and `AMENT_PREFIX_PATH` say.
+/// Returns the candidate paths of a mesh: relative to the URDF, or in a package. A package is a folder with the name in
+/// its `package.xml`, above the URDF or below one of the folders above it. Otherwise it is a folder with that name
+/// there, or in the folders of `ROS_PACKAGE_PATH` and `AMENT_PREFIX_PATH`.
 fn candidates(name: &str, urdf: &Path) -> Vec<PathBuf> {
     let Some(rest) = name.strip_prefix("package://") else {
         return vec![urdf.with_file_name(name.strip_prefix("file://").unwrap_or(name))];

@@ -6,7 +6,7 @@ use cplan_check::interval::Interval;
 use roxmltree::Node;
 
 impl<'a> Tree<'a> {
-    /// The joint that a joint mimics, through others; none of one that mimics none.
+    /// Returns the joint that a joint mimics, directly or through others. Returns `None` if it mimics no joint.
     fn leader(&self, joint: Node<'a, 'a>) -> Read<Option<Node<'a, 'a>>> {
         let mut leader = None;
         let mut at = joint;
@@ -18,7 +18,8 @@ impl<'a> Tree<'a> {
         self.error(joint, "joints mimic one another")
     }
 
-    /// Where a joint stands: one of the two that move at 0, one that mimics another where that takes it.
+    /// Returns the value of a joint: 0 for the two planned joints, and the value that follows from its leader for a
+    /// mimic joint.
     pub(super) fn value(&self, joint: Node<'a, 'a>, followed: usize) -> Read<Interval> {
         let Some(mimic) = child(joint, "mimic") else {
             return match self.values.get(self.text(joint, "name")?) {
@@ -42,7 +43,8 @@ impl<'a> Tree<'a> {
 }
 
 impl<'a> Robot<'a> {
-    /// That no joint mimics one of these and moves what could collide, or the tip: none of that is where it is taken to be.
+    /// Checks that no joint which carries the tip or shapes mimics one of these joints: its links would move in ways
+    /// that the arm does not model.
     pub(super) fn move_alone(&self, joints: &[Node<'a, 'a>]) -> Read<()> {
         for &link in &self.tree.order {
             let has_shapes = ["collision", "visual"].iter().any(|kind| child(self.tree.links[link], kind).is_some());

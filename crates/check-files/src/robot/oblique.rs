@@ -1,20 +1,21 @@
-//! What cylinders cover in the plane that do not stand on it.
+//! Planar projections of cylinders that are not perpendicular to the plane.
 
 use cplan_check::interval::{BITS, Interval, Point, length, sum};
 use cplan_check::shapes::Outline;
 use num_bigint::Sign;
 
-/// Steps along half of the ellipse that a cylinder's end is in the plane.
+/// Number of steps along half of the ellipse that a cylinder's end projects to.
 const ELLIPSE_STEPS: i32 = 16;
 
-/// From this share of its radius on, an oblique cylinder's end is taken as a disc or, lying, a rectangle.
+/// Tolerance for simple projections, as one part in this many. An end that deviates from a disc by less is enclosed by
+/// a disc. An end that is flatter than this is enclosed by a rectangle.
 const OBLIQUE: u32 = 200;
 
-/// A cylinder whose axis is out of the plane by less than this power of a half counts as lying.
+/// A cylinder with an axis out of the plane by less than this power of a half counts as lying in it.
 const LYING: u64 = 44;
 
-/// A core and a radius for the projection of a cylinder that does not stand: the hull of two ellipses, of half-axes `radius` across the
-/// projected axis and `radius * tilt` along it, at its ends. Points of the core are as far beyond the middle as they are before it.
+/// Returns core and radius of the projection of an oblique cylinder: the hull of two ellipses at its ends, with
+/// half-axes `radius` across the projected axis and `radius * tilt` along it. The core is symmetric about the middle.
 pub fn oblique(
     along: &Point,
     tilt: &Interval,
@@ -25,7 +26,7 @@ pub fn oblique(
     let end = along.each_ref().map(|c| c * half);
     let length = length(along);
     let (one, least) = (Interval::whole(1), Interval::whole(1).over(OBLIQUE));
-    // A turn by so much that its enclosure says nothing is such a case, too.
+    // An axis whose enclosure is too wide to be useful is treated in the same way.
     if length.lower.sign() != Sign::Plus || tilt.lower >= (&one - &least).lower {
         return (vec![end], if outline == Outline::Around { radius.clone() } else { radius * tilt });
     }

@@ -21,7 +21,7 @@ impl<'a> Tree<'a> {
     }
 }
 
-/// Whether no solid link lies between the ends of two chains that begin at the root.
+/// Returns true if no solid link lies between the ends of two chains that begin at the root.
 fn are_neighbours(left: &[&str], right: &[&str], is_solid: impl Fn(&str) -> bool) -> bool {
     let common = left.iter().zip(right).take_while(|(a, b)| a == b).count();
     let mut between = left[common.saturating_sub(1)..].iter().chain(&right[common..]);
@@ -43,10 +43,10 @@ impl<'a> Robot<'a> {
         Ok(is_held.then_some(None))
     }
 
-    /// Cuts meshes in layers, and finds the shapes that move, and those that are obstacles for others.
+    /// Cuts meshes into layers, and finds the moving shapes and those that are obstacles for others.
     ///
     /// # Errors
-    /// When the world names a link that the robot does not have.
+    /// If the world names a link that the robot does not have.
     pub(super) fn arrange(&mut self, all: Vec<Placed<'a>>, world: &WorldFile) -> Read<()> {
         let ignored = &world.robot.ignore_contact;
         if let Some(odd) = ignored.iter().flatten().find(|link| !self.tree.links.contains_key(link.as_str())) {
@@ -75,7 +75,7 @@ impl<'a> Robot<'a> {
             whole.ignored = ignored.map(|other| (*other).to_owned()).collect();
             let others = ends.iter().filter(|(other, _)| apart.contains(&(link, *other)));
             let cuts = cuts(others.flat_map(|(_, ends)| ends.clone()).collect());
-            // A link below the wrist is replaced by a disc, and stays in one piece.
+            // A link that turns with the wrist is replaced by a disc, and is not cut.
             let turns = self.tree.above(link)?.iter().any(|joint| wrist.is_some() && joint.attribute("name") == wrist);
             let layers = surface.filter(|_| !turns).map_or_else(Vec::new, |surface| surface.layers(&cuts));
             let layer = |(number, (points, heights)): (usize, (Vec<Point>, [Interval; 2]))| {
@@ -104,7 +104,7 @@ impl<'a> Robot<'a> {
     }
 }
 
-/// Places a shape of a link that stands still, or that joint 1 carries, in the plane, with joint 1 at zero.
+/// Places a shape of a static link, or of one that joint 1 carries, in the plane, with joint 1 at zero.
 fn at_zero(own: &Counted, base: &Point) -> Counted {
     let mut own = own.clone();
     if own.last.is_some() {

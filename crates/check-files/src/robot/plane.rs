@@ -6,28 +6,30 @@ use cplan_check::interval::{Interval, Point};
 use cplan_check::polygon::Corner;
 use num_bigint::{BigInt, Sign};
 
-/// Directions within this angle of one another count as one, radians: `10^-3`.
+/// Directions within this angle of each other count as equal, radians: `10^-3`.
 const ALIGNED: u32 = 3;
 
-/// Directions within `10^-12` of one another differ by rounding.
+/// Directions within `10^-12` of each other differ by rounding only.
 const ROUNDED: u32 = 12;
 
 /// The plane of two joints, in the root frame.
 pub struct Plane {
-    /// The directions of its two coordinates, ...
+    /// Directions of its two coordinates.
     pub across: [Vector; 2],
-    /// ... and of heights.
+    /// Direction of heights.
     pub normal: Vector,
-    /// The joints' axes are off the normal, or slides off the plane, by no more than this angle's sine.
+    /// Sine of the greatest angle between the joints' axes and the normal, or between slides and the plane.
     pub off: BigInt,
 }
 
 impl Plane {
-    /// That of two joints, by their axes, of unit length, and whether they slide. None if there is none.
+    /// Finds the plane of two joints, given their axes of unit length and whether they slide. Returns `None` if there
+    /// is no such plane.
     ///
-    /// Its normal is the first axis of a joint that turns, else across both slides. A normal along an axis of the root frame is that: about z
-    /// the coordinates are (x, y), about y (x, z), about x (y, z). Else the first is x, or y where x is within half a radian or so of the
-    /// normal, as far as it is across that, and the second a quarter of a turn on.
+    /// Its normal is the axis of the first revolute joint, or else perpendicular to both slides. A normal along an axis
+    /// of the root frame is replaced by that axis, and the coordinates are the other two: (x, y) for z, (x, z) for y,
+    /// and (y, z) for x. Otherwise the first coordinate is the projection of x onto the plane, or of y if x is within
+    /// about half a radian of the normal. The second coordinate is a quarter turn further.
     pub fn common(axes: &[Vector; 2], slides: [bool; 2]) -> Option<Self> {
         let [a, b] = axes;
         let aligned = &Interval::from(&Decimal::power_of_ten(ALIGNED)).sin_cos()[0];
@@ -43,7 +45,7 @@ impl Plane {
         let [x, y, z] = Pose::identity().rows;
         let frames = [([&x, &y], &z), ([&x, &z], &y), ([&y, &z], &x)];
         let is_along = |axis: &Vector| size(&cross(&normal, axis)).upper <= aligned.lower;
-        // Angles that are known too little are no directions.
+        // Reject angles that are not known precisely enough.
         if frames.iter().all(|(_, axis)| size(&cross(&normal, axis)).lower <= aligned.upper && !is_along(axis)) {
             return None;
         }
@@ -64,7 +66,8 @@ impl Plane {
         Some(Self { across, normal, off })
     }
 
-    /// By how much the joints are off it that are taken to move in it, in words, if it is more than rounding.
+    /// Describes in words by how much the joints deviate from the plane in which they are assumed to move, if it is
+    /// more than rounding.
     pub fn idealized(&self) -> String {
         let is_within = |digits: &u32| Interval::from(&Decimal::power_of_ten(*digits)).lower >= self.off;
         match (0..=ROUNDED).rev().find(is_within) {
@@ -76,20 +79,20 @@ impl Plane {
         }
     }
 
-    /// A vector in the plane, by its two coordinates.
+    /// Returns the two plane coordinates of a vector.
     pub fn flat(&self, v: &Vector) -> Point {
         self.across.each_ref().map(|along| dot(v, along))
     }
 
-    /// A vector's height.
+    /// Returns the height of a vector.
     pub fn height(&self, v: &Vector) -> Interval {
         dot(v, &self.normal)
     }
 
-    /// A direction in the plane, of unit length; none if it is not known.
+    /// Returns a direction in the plane, of unit length. Returns `None` if it is not known.
     pub fn direction(&self, axis: &Vector) -> Option<Point> {
         let flat = self.flat(axis);
-        // What lies in it is of unit length.
+        // A vector in the plane already has unit length.
         if self.height(axis).is_whole(0) {
             return Some(flat);
         }
@@ -97,12 +100,12 @@ impl Plane {
         (size.lower.sign() == Sign::Plus).then(|| flat.map(|c| c.divided(&size)))
     }
 
-    /// What turns left about this.
+    /// Returns the axis of rotations to the left.
     pub fn left(&self) -> Vector {
         cross(&self.across[0], &self.across[1])
     }
 
-    /// The pose of a root frame that is turned in the plane by an angle and stands at a place there.
+    /// Returns the pose of a root frame that is turned in the plane by an angle and placed at a point.
     pub fn placed(&self, at: &Corner, angle: &Interval) -> Pose {
         let [x, y] = at.each_ref().map(Interval::from);
         let [u, v] = &self.across;

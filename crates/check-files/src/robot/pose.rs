@@ -4,7 +4,7 @@ use cplan_check::interval::Interval;
 
 pub type Vector = [Interval; 3];
 
-/// A rotation, by its rows, and a translation.
+/// A rotation, given by its rows, and a translation.
 #[derive(Clone)]
 pub struct Pose {
     pub rows: [Vector; 3],
@@ -20,7 +20,7 @@ pub fn cross(a: &Vector, b: &Vector) -> Vector {
     [minor(1, 2), minor(2, 0), minor(0, 1)]
 }
 
-/// The length of a vector.
+/// Returns the length of a vector.
 pub fn size(v: &Vector) -> Interval {
     dot(v, v).sqrt()
 }
@@ -31,14 +31,14 @@ impl Pose {
         Self { rows: [whole([1, 0, 0]), whole([0, 1, 0]), whole([0, 0, 1])], at: whole([0, 0, 0]) }
     }
 
-    /// A turn by an angle about an axis of unit length (Rodrigues' formula).
+    /// Makes a rotation by an angle about an axis of unit length (Rodrigues' formula).
     pub fn turn(axis: &Vector, angle: &Interval) -> Self {
         let [sine, cosine] = angle.sin_cos();
         let rest = &Interval::whole(1) - &cosine;
         let entry = |i: usize, j: usize| {
             let product = &axis[i] * &axis[j];
             match (3 + j - i) % 3 {
-                // Exactly 1 for the coordinate that the axis is along.
+                // This gives exactly 1 for a coordinate along the axis.
                 0 => &Interval::whole(1) - &(&rest * &(&Interval::whole(1) - &product)),
                 1 => &(&rest * &product) - &(&sine * &axis[3 - i - j]),
                 _ => &(&rest * &product) + &(&sine * &axis[3 - i - j]),

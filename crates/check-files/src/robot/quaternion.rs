@@ -1,4 +1,4 @@
-//! Turns by quaternions.
+//! Rotations by quaternions.
 
 use super::pose::Pose;
 use super::tree::{Read, Tree};
@@ -7,7 +7,7 @@ use num_bigint::Sign;
 use roxmltree::Node;
 
 impl<'a> Tree<'a> {
-    /// The turn that an `<origin>` says by its `quat_xyzw`.
+    /// Returns the rotation that an `<origin>` states by its `quat_xyzw`.
     pub(super) fn quaternion(&self, origin: Node<'a, 'a>) -> Read<Pose> {
         let numbers = self.numbers::<4>(origin, "quat_xyzw")?.each_ref().map(Interval::from);
         Pose::of_quaternion(&numbers).map_or_else(|| self.error(origin, "the quaternion is too short"), Ok)
@@ -15,7 +15,8 @@ impl<'a> Tree<'a> {
 }
 
 impl Pose {
-    /// A turn by a quaternion, of whatever length: x, y, z and w. None if that is not known to be more than 0.
+    /// Makes a rotation from a quaternion x, y, z, w of any length. Returns `None` if the length is not certainly
+    /// greater than 0.
     fn of_quaternion(q: &[Interval; 4]) -> Option<Self> {
         let product = |i: usize, j: usize| &q[i] * &q[j];
         let square = (0..4).fold(Interval::whole(0), |sum, k| &sum + &product(k, k));

@@ -9,21 +9,21 @@ use cplan_check::{CheckError, Input};
 use roxmltree::Node;
 use std::collections::BTreeSet;
 
-/// A whole shape in its place.
+/// A whole shape at its place.
 pub struct Placed<'a> {
     pub link: &'a str,
     pub whole: Counted,
-    /// Its points and edges, if layers can be cut.
+    /// Its points and edges, if it can be cut into layers.
     pub surface: Option<Surface>,
 }
 
 impl<'a> Robot<'a> {
-    /// Finds all shapes: the collision shapes of each link, or its visual shapes if it has none. If a part of the arm has neither, or a mesh cannot be
-    /// read, the bar of the world stands in for it.
+    /// Finds all shapes: the collision shapes of each link, or its visual shapes if it has none. If a part of the arm
+    /// has no shapes, or a mesh cannot be read, the world's bar replaces it.
     ///
     /// # Errors
-    /// Shapes that the checker does not know. It is no matter here what the certificate says: nothing is left out but what is not read of links that
-    /// stand still, and visual shapes that are not read where other links of the part have collision shapes.
+    /// If there are shapes that the checker does not know, regardless of the certificate. It omits only two kinds of
+    /// unreadable shapes: those of static links, and visual shapes if other links of the part have collision shapes.
     pub(super) fn count(&mut self, world: &WorldFile) -> Read<()> {
         let mut all = Vec::new();
         let still = world.robot.own_body.then_some(None);
@@ -58,7 +58,7 @@ impl<'a> Robot<'a> {
         Ok(())
     }
 
-    /// Adds the shapes of a link; for each that cannot be read, the reason.
+    /// Adds the shapes of a link. For each shape that cannot be read, adds the reason.
     fn gather(
         &self,
         link: &'a str,

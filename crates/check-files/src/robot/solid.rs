@@ -1,4 +1,4 @@
-//! Solids, and what they cover in the plane.
+//! Solids, and their projections onto the plane.
 
 use super::Robot;
 use super::oblique::oblique;
@@ -11,13 +11,13 @@ use cplan_check::shapes::{Body, Outline};
 use num_bigint::{BigInt, Sign};
 use roxmltree::Node;
 
-/// Points of a solid. If its faces are known, their edges as pairs of indices.
+/// Points of a solid. If its faces are known, also their edges as pairs of indices.
 pub struct Mesh {
     pub points: Vec<Vector>,
     pub edges: Vec<[usize; 2]>,
 }
 
-/// A solid about its origin; cylinders and capsules along z.
+/// A solid about its origin. Cylinders and capsules are along z.
 pub enum Solid {
     /// The convex hull of points.
     Hull(Mesh),
@@ -25,7 +25,7 @@ pub enum Solid {
         radius: Interval,
         half: Interval,
     },
-    /// `half` is half the length between the centres of the caps: 0 for a sphere.
+    /// `half` is half the distance between the centres of the caps: 0 for a sphere.
     Capsule {
         radius: Interval,
         half: Interval,
@@ -39,7 +39,8 @@ impl Solid {
 }
 
 impl<'a> Tree<'a> {
-    /// A solid of the URDF, or why its mesh is not read; none if it has no size.
+    /// Reads a solid of the URDF. Returns `None` if it has no size. The inner error is the reason why its mesh cannot
+    /// be read.
     pub fn solid(&self, node: Node<'a, 'a>) -> Read<Option<Read<Solid>>> {
         let half = |n: &Decimal| Interval::from(n).half();
         let read = |name: &str| self.number(node, name);
@@ -73,7 +74,7 @@ impl<'a> Tree<'a> {
     }
 }
 
-/// Points in the plane, relative to a joint, each with its height; and the edges of faces.
+/// Points in the plane, relative to a joint, each with its height, and the edges of faces.
 pub struct Surface {
     pub points: Vec<(Point, Interval)>,
     pub edges: Vec<[usize; 2]>,
@@ -91,14 +92,14 @@ impl Surface {
         })
     }
 
-    /// Computes the convex hull: at least that of all points, and at most.
+    /// Computes the convex hull of all points: an outer and an inner approximation.
     pub fn whole(&self, last: Option<usize>) -> [Body; 2] {
         bodies(last, self.points.iter().map(|(at, _)| at.clone()), &self.heights())
     }
 }
 
 impl Robot<'_> {
-    /// Returns the origin of the joint that moves a link last; the plane's own for a link that stands still.
+    /// Returns the origin of the joint that moves a link last. Returns the plane's own origin for a static link.
     fn origin(&self, last: Option<usize>) -> Point {
         match last {
             None => [0, 0].map(Interval::whole),
@@ -119,7 +120,7 @@ impl Robot<'_> {
         Surface { points: mesh.points.iter().map(place).collect(), edges: mesh.edges.clone() }
     }
 
-    /// What a solid covers in the plane, as seen from the joint that moves it last.
+    /// Computes the projection of a solid, relative to the joint that moves it last.
     pub fn project(&self, last: Option<usize>, pose: &Pose, solid: &Solid, outline: Outline) -> Body {
         let plane = &self.plane;
         let center = minus(&plane.flat(&pose.at), &self.origin(last));
@@ -143,7 +144,7 @@ impl Robot<'_> {
             }
             Solid::Cylinder { radius, half } => {
                 let (offsets, round) = oblique(&along, &tilt, radius, half, outline);
-                // In order all round.
+                // All corners in order.
                 let (onward, back) =
                     (offsets.iter().map(|by| sum(&center, by)), offsets.iter().map(|by| minus(&center, by)));
                 let points = onward.chain(back).collect();
@@ -154,8 +155,8 @@ impl Robot<'_> {
     }
 }
 
-/// The hull of points, at least and at most, by those of its corners: of the middles of their enclosures it is found without rounding, and each point is
-/// as far from there as that of any enclosure.
+/// Computes an outer and an inner approximation of the hull of points. The corners of the hull are found exactly from
+/// the middles of the enclosures. The error is the greatest distance of a point from its middle.
 pub fn bodies(last: Option<usize>, points: impl Iterator<Item = Point>, heights: &[Interval; 2]) -> [Body; 2] {
     let mut error = BigInt::ZERO;
     let middles = points.map(|p| {
@@ -168,7 +169,8 @@ pub fn bodies(last: Option<usize>, points: impl Iterator<Item = Point>, heights:
     let ring = hull(middles.collect());
     let widened = |middle: BigInt| Interval { lower: &middle - &error, upper: middle + &error };
     let points: Vec<Point> = ring.into_iter().map(|p| p.map(widened)).collect();
-    // A point is off its middle, and a corner off its own, by less than two errors across and along together.
+    // The distances of a point and of a corner from their middles add up to less than two errors, across and along
+    // together.
     [Interval::exactly(&error * 4), Interval::whole(0)].map(|radius| {
         let shape = Shape { points: points.clone(), radius };
         Body { link: last.unwrap_or(0), shape, heights: Some(heights.clone()) }

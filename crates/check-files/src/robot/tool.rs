@@ -1,4 +1,4 @@
-//! The joints of the tool: a wrist, and one that lowers it.
+//! The joints of the tool: a wrist, and a stroke that lowers it.
 
 use super::Robot;
 use super::pose::{cross, size};
@@ -13,16 +13,17 @@ use cplan_check::{CheckError, Input};
 use num_bigint::{BigInt, Sign};
 use roxmltree::Node;
 
-/// No object presses deeper than this share of the arm's reach into what supports it: `10^-4`.
+/// Maximum depth to which an object may press into its support, as a share of the arm's reach: `10^-4`.
 const PRESSED: u32 = 4;
 
-/// The tip is off the wrist's axis by no more than rounding, metres: `10^-6`.
+/// Maximum distance of the tip from the wrist's axis, metres: `10^-6`. It allows for rounding.
 const ON_AXIS: u32 = 6;
 
-/// The cosine of the angle between the normal and what counts as along it is no smaller than 1 by more than `10^-9`.
+/// Tolerance of axes along the normal: the cosine of the angle between them is at least `1 - 10^-9`.
 const UPRIGHT: u32 = 9;
 
-/// A bound on how deep a point is in a shape, to a part in some 10^12; 0 where it is not seen to be within.
+/// Returns a lower bound on the depth of a point in a shape, accurate to one part in some `10^12`. Returns 0 if the
+/// point is not certainly inside.
 fn depth(shape: &Shape, point: &Point) -> BigInt {
     let own = Shape { points: vec![point.clone()], radius: Interval::whole(0) };
     let mut depth = BigInt::ZERO;
@@ -35,14 +36,15 @@ fn depth(shape: &Shape, point: &Point) -> BigInt {
     depth
 }
 
-/// Depths are looked for below `2^DEEPEST` metres, bit by bit.
+/// Depths are searched below `2^DEEPEST` metres, one binary digit after another.
 const DEEPEST: u32 = 10;
 const DIGITS: u32 = 60;
 
-/// What it covers whichever way it is turned about a point, and what it covers at all angles.
+/// Replaces a shape by discs: an outer disc that covers the shape in all orientations about a point, and an inner disc
+/// that all orientations cover.
 ///
 /// # Errors
-/// A shape that does not hold the point: it covers nothing at all angles.
+/// If the shape does not contain the point: then no disc is covered in all orientations.
 fn turn_about(counted: &mut Counted, axis: &Point) -> Read<()> {
     let off = |point: &Point| length(&minus(point, axis));
     let shape = &counted.around.shape;
@@ -61,10 +63,10 @@ fn turn_about(counted: &mut Counted, axis: &Point) -> Read<()> {
 }
 
 impl<'a> Robot<'a> {
-    /// Sees to it that the joints of the tool are some, and that what the wrist turns is covered all round.
+    /// Checks the joints of the tool, and replaces the shapes that the wrist turns by discs.
     ///
     /// # Errors
-    /// Joints that are none, and shapes that do not hold the wrist's axis.
+    /// If a joint is not suitable for the tool, or if a shape does not contain the wrist's axis.
     pub(super) fn with_tool(&mut self, task: &Task) -> Read<()> {
         if let Some(name) = task.wrist.as_ref().and_then(|wrist| wrist.joint.as_deref()) {
             let (joint, carried) = self.of_the_tool(name, "wrist")?;
@@ -85,7 +87,8 @@ impl<'a> Robot<'a> {
         task.stroke.as_ref().map_or(Ok(()), |stroke| self.of_the_tool(&stroke.joint, "stroke").map(|_| ()))
     }
 
-    /// A joint of the tool, and the link that it carries: it moves about the plane's normal or along it, and nothing that counts goes with it.
+    /// Returns a joint of the tool and the link that it carries. The joint must carry the tip, and move about the
+    /// plane's normal or along it. Joints that mimic it must not carry shapes or the tip.
     fn of_the_tool(&mut self, name: &str, what: &str) -> Read<(Node<'a, 'a>, &'a str)> {
         let wrong = |why: &str| Err(CheckError::in_file(Input::World, format!("the {what}'s joint \"{name}\" {why}")));
         let found = self.tree.joints.iter().find(|(_, node)| node.attribute("name") == Some(name));
@@ -106,10 +109,11 @@ impl<'a> Robot<'a> {
         Ok((joint, carried))
     }
 
-    /// Whether the joint that lowers the tool carries a shape: of a bar, which ends there, the tip.
+    /// Returns true if the joint that lowers the tool carries a shape. For a bar, which ends at the tip, returns true
+    /// if it carries the tip.
     ///
     /// # Errors
-    /// What is no tree.
+    /// If the links do not form a tree.
     pub fn lowers(&self, joint: &str, shape: &Counted) -> Read<bool> {
         let is_bar = shape.kind == "bar" && shape.around.link == 1;
         let link =
@@ -119,8 +123,8 @@ impl<'a> Robot<'a> {
     }
 }
 
-/// By how much objects may press into what supports them: a share of how far the arm reaches, from the first joint to the second, and on
-/// to where its shapes or the tip are.
+/// Returns the depth to which objects may press into their supports: a share of the arm's reach. The reach is the
+/// distance from the first joint to the second, plus the distance from there to the shapes or the tip.
 pub fn pressed(arm: &Arm) -> Interval {
     let greatest = |link: usize, first: Interval| {
         let own = arm.shapes.iter().map(|shape| &shape.around).filter(|body| body.link == link);
@@ -132,7 +136,7 @@ pub fn pressed(arm: &Arm) -> Interval {
     &(if near.lower > out.lower { near } else { out }) * &Interval::from(&Decimal::power_of_ten(PRESSED))
 }
 
-/// A body at all heights from where it is to where it is lowered by a length.
+/// Extends a body to all heights between its own and those after lowering it by a length.
 pub fn lowered(body: &Body, by: &Decimal) -> Body {
     let by = Interval::from(by);
     let is_raised = by.lower.sign() == Sign::Minus;

@@ -11,50 +11,51 @@ use num_bigint::{BigInt, Sign};
 use roxmltree::{Document, Node};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Ranges of a joint that turns longer than this mean that it has none.
+/// Maximum range of a revolute joint. A longer range counts as no limits.
 const LONGEST_TURN: i32 = 1000;
 
-/// Limits of a joint that are as far are none, radians or metres.
+/// Limits this far away count as none, radians or metres.
 const FARTHEST: i32 = 1_000_000;
 
-/// Joints of the longest chain.
+/// Maximum number of joints in a chain.
 pub const MOST_JOINTS: usize = 1000;
 
 pub type Read<T> = Result<T, CheckError>;
 
-/// Links and joints by name, and where the joints stand.
+/// Links and joints by name, and the values of the joints.
 pub struct Tree<'a> {
     pub files: &'a Files,
     pub document: &'a Document<'a>,
-    /// The root frame in the world.
+    /// Pose of the root frame in the world.
     pub root: Pose,
     pub links: BTreeMap<&'a str, Node<'a, 'a>>,
-    /// Names of links in the order of the file.
+    /// Names of links, in the order of the file.
     pub order: Vec<&'a str>,
-    /// By the link that it carries.
+    /// Joints by the link that they carry.
     pub joints: BTreeMap<&'a str, Node<'a, 'a>>,
-    /// By name.
+    /// Joints by name.
     pub named: BTreeMap<&'a str, Node<'a, 'a>>,
     pub values: BTreeMap<&'a str, Interval>,
 }
 
-/// What the value of a joint may be.
+/// The limits of a joint.
 pub enum Limits {
-    /// Nobody says.
+    /// Not specified.
     Unset,
-    /// Anything: it turns without end.
+    /// No limits: a continuous joint.
     Endless,
-    /// From one to another, each of which is known to lie in a range.
+    /// Lower and upper end, each enclosed in a range.
     Ends([Range; 2]),
 }
 
-/// Children of a name, of the node's own namespace: whatever else is in the file is none of the robot's.
+/// Returns the children with a name, in the node's own namespace. Elements of other namespaces do not describe the
+/// robot.
 pub fn children<'a>(node: Node<'a, 'a>, name: &'static str) -> impl Iterator<Item = Node<'a, 'a>> {
     let namespace = node.tag_name().namespace();
     node.children().filter(move |n| n.tag_name().name() == name && n.tag_name().namespace() == namespace)
 }
 
-/// Whether an element is to be expanded before it means anything.
+/// Returns true if an element must be expanded by xacro first.
 fn is_xacro(node: &Node, robot: &Node) -> bool {
     let namespace = node.tag_name().namespace().filter(|namespace| Some(*namespace) != robot.tag_name().namespace());
     namespace.is_some_and(|namespace| namespace.ends_with("/xacro"))
@@ -65,16 +66,16 @@ pub fn child<'a>(node: Node<'a, 'a>, name: &'static str) -> Option<Node<'a, 'a>>
     children(node, name).next()
 }
 
-/// Whether a joint has one value that it can move by.
+/// Returns true if a joint has a single value that can change.
 pub fn moves(joint: &Node) -> bool {
     matches!(joint.attribute("type"), Some("revolute" | "continuous" | "prismatic"))
 }
 
 impl<'a> Tree<'a> {
-    /// Reads it, and the names of the joints that can move by themselves.
+    /// Reads the tree, and returns it with the names of the joints that can move independently.
     ///
     /// # Errors
-    /// What is no robot.
+    /// If it does not describe a robot.
     pub fn read(document: &'a Document<'a>, files: &'a Files) -> Read<(Self, Vec<&'a str>)> {
         let (links, joints, named, values) = Default::default();
         let root = Pose::identity();
@@ -103,7 +104,7 @@ impl<'a> Tree<'a> {
             let (name, parent) = (tree.text(node, "name")?, tree.parent(node)?);
             let Some(carried) = child(node, "child") else { return tree.error(node, "the joint has no child") };
             let carried = tree.text(carried, "link")?;
-            // Only the root may go without saying.
+            // Only the root link may be undeclared.
             if !tree.links.contains_key(carried) || !(tree.links.contains_key(parent) || parent == "world") {
                 return tree.error(node, "the joint is between links that the robot does not have");
             }
@@ -126,7 +127,7 @@ impl<'a> Tree<'a> {
         Err(CheckError::at(Input::Urdf, self.document.input_text(), node.range().start, message))
     }
 
-    /// That a node has no two children of one of these names.
+    /// Checks that a node has at most one child of each of these names.
     fn has_one(&self, node: Node<'a, 'a>, names: &[&'static str]) -> Read<()> {
         match names.iter().find_map(|name| children(node, name).nth(1)) {
             Some(second) => self.error(second, "a second element of this kind"),
@@ -156,7 +157,8 @@ impl<'a> Tree<'a> {
         Ok(self.numbers::<3>(node, name)?.each_ref().map(Interval::from))
     }
 
-    /// The `<origin>`: a translation after a turn by roll, pitch and yaw about the fixed axes x, y and z.
+    /// Reads the `<origin>`: a rotation by roll, pitch and yaw about the fixed axes x, y and z, followed by a
+    /// translation.
     pub fn origin(&self, node: Node<'a, 'a>) -> Read<Pose> {
         let mut pose = Pose::identity();
         let Some(origin) = child(node, "origin") else { return Ok(pose) };
@@ -177,7 +179,7 @@ impl<'a> Tree<'a> {
         Ok(pose)
     }
 
-    /// A joint's axis in its frame, of unit length; by default x.
+    /// Returns a joint's axis in its frame, of unit length; x by default.
     pub fn axis(&self, joint: Node<'a, 'a>) -> Read<Vector> {
         let Some(axis) = child(joint, "axis") else { return Ok([1, 0, 0].map(Interval::whole)) };
         let numbers = self.numbers::<3>(axis, "xyz")?;
@@ -202,13 +204,13 @@ impl<'a> Tree<'a> {
         }
     }
 
-    /// The pose of a link in the world.
+    /// Returns the pose of a link in the world.
     pub fn pose(&self, link: &'a str) -> Read<Pose> {
         let below = |pose: Read<Pose>, joint: &Node<'a, 'a>| Ok(pose?.after(&self.step(*joint)?));
         self.above(link)?.iter().rev().fold(Ok(self.root.clone()), below)
     }
 
-    /// The pose of a joint's child in the frame of its parent.
+    /// Returns the pose of a joint's child in the frame of its parent.
     pub fn step(&self, joint: Node<'a, 'a>) -> Read<Pose> {
         let origin = self.origin(joint)?;
         let value = || self.value(joint, 0);
@@ -227,7 +229,7 @@ impl<'a> Tree<'a> {
         child(joint, "parent").map_or_else(|| self.error(joint, "the joint has no parent"), |p| self.text(p, "link"))
     }
 
-    /// The joints above a link, from there to the root.
+    /// Returns the joints above a link, from the link to the root.
     pub fn above(&self, mut link: &'a str) -> Read<Vec<Node<'a, 'a>>> {
         let mut above = Vec::new();
         while let Some(&joint) = self.joints.get(link) {
@@ -240,11 +242,11 @@ impl<'a> Tree<'a> {
         Ok(above)
     }
 
-    /// A limit of a joint; what is farther than all is as far as anything.
+    /// Reads a limit of a joint. Values beyond all limits become very large ones.
     fn limit(&self, limit: Node<'a, 'a>, name: &str) -> Read<Decimal> {
         let endless = |sign: f64| Decimal::whole(10 * FARTHEST * sign as i32);
         let Some(text) = limit.attribute(name) else {
-            // From version 1.2 on there is none then, before that it is 0.
+            // From version 1.2 on, a missing limit means unlimited. Before that it means 0.
             let version = self.document.root_element().attribute("version").unwrap_or("1.0").trim();
             let numbers = version.split_once('.').and_then(|(a, b)| Some((a.parse().ok()?, b.parse().ok()?)));
             let is_new = numbers.unwrap_or((1_u32, 0_u32)) >= (1, 2);
@@ -256,7 +258,7 @@ impl<'a> Tree<'a> {
         }
     }
 
-    /// What a joint's value may be: as the world says, else the URDF, less what its soft limits take.
+    /// Returns the limits of a joint: those of the world, or else those of the URDF, reduced by its soft limits.
     pub fn limits(&self, joint: Node<'a, 'a>, world: &WorldFile) -> Read<Limits> {
         let turns = joint.attribute("type") != Some("prismatic");
         if let Some(ends) = world.robot.limits.get(self.text(joint, "name")?) {
@@ -274,7 +276,7 @@ impl<'a> Tree<'a> {
             let zero = || Ok(Decimal::whole(0));
             let end = |name| if soft.has_attribute(name) { self.limit(soft, name) } else { zero() };
             let ends = [end("soft_lower_limit")?, end("soft_upper_limit")?];
-            // Both 0 is what exporters write where there are none.
+            // Exporters write 0 for both if the joint has no soft limits.
             if ends.iter().any(|end| end.sign() != Sign::NoSign) {
                 [low, high] = [low.max(ends[0].clone()), high.min(ends[1].clone())];
             }
@@ -298,7 +300,7 @@ impl<'a> Tree<'a> {
         Ok(Limits::Ends([[low.clone(), low], [high.clone(), high]]))
     }
 
-    /// The ends of what a joint's value may be, at the most and at the least; none of one that turns without end.
+    /// Returns an outer and an inner enclosure of a joint's limits. Returns `None` for a continuous joint.
     pub fn ends(&self, joint: Node<'a, 'a>, world: &WorldFile) -> Read<Option<[Range; 2]>> {
         let (name, turns) = (self.text(joint, "name")?, joint.attribute("type") != Some("prismatic"));
         match self.limits(joint, world)? {
@@ -315,7 +317,7 @@ impl<'a> Tree<'a> {
         }
     }
 
-    /// Where a joint is held of which nothing is said: at 0, or the limit next to it.
+    /// Returns the default value of a held joint: 0, or the limit nearest to 0.
     pub fn rest(&self, joint: Node<'a, 'a>, world: &WorldFile) -> Read<Interval> {
         let zero = Interval::whole(0);
         let Limits::Ends(ends) = self.limits(joint, world)? else { return Ok(zero) };

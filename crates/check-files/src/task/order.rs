@@ -1,4 +1,4 @@
-//! Steps in the order in which they are done.
+//! The steps of a task in the order of their execution.
 
 use crate::world::task::{Group, Node, Step};
 use cplan_check::CheckError;
@@ -7,15 +7,15 @@ use cplan_check::decimal::Decimal;
 use std::iter::{Enumerate, Peekable};
 use std::slice::Iter;
 
-/// A step of the world and how it is done.
+/// A step of the world with its execution.
 pub(super) struct Matched<'a> {
     pub(super) step: &'a Step,
     pub(super) done: &'a Done,
-    /// Objects that lie where they lay at first again before it.
+    /// Objects that return to their initial poses before the step.
     pub(super) renewed: Vec<usize>,
 }
 
-/// Steps as they are done, put beside those of the world.
+/// The executed steps, matched with those of the world.
 pub(super) struct Order<'a> {
     pub(super) left: Peekable<Enumerate<Iter<'a, Done>>>,
     pub(super) renewed: Vec<usize>,
@@ -62,7 +62,8 @@ impl<'a> Order<'a> {
     }
 }
 
-/// How long the arm stands still after each step: it does so from one to the next, before the first and after the last.
+/// Returns the time that the arm rests after each step. Checks that it rests between steps, before the first and after
+/// the last.
 pub(super) fn stands(motion: &Motion, steps: &[Matched]) -> Result<Vec<Decimal>, CheckError> {
     let knots = &motion.knots;
     let (mut last, mut all) = (0, Vec::new());

@@ -1,4 +1,4 @@
-//! The steps of a task, done again.
+//! Repeats the steps of a task.
 
 mod held;
 
@@ -24,17 +24,18 @@ use num_bigint::BigInt;
 use std::iter;
 use std::ops::Range;
 
-/// How what is held keeps off an obstacle.
+/// The rule by which a carried object must keep away from an obstacle.
 #[derive(PartialEq)]
 enum Manner {
     Off,
-    /// It presses into a support by no more than it may.
+    /// It may press into a support up to the allowed depth.
     Pressed,
-    /// However it turns about the tip: held level, it turns beside what joint 1 carries.
+    /// It must keep away in all orientations about the tip. This is for level objects beside links that joint 1
+    /// carries, which turn relative to them.
     Round,
 }
 
-/// Where everything is between steps.
+/// The state between steps.
 pub(super) struct Replay<'a> {
     arm: &'a Arm,
     task: &'a Task,
@@ -43,25 +44,27 @@ pub(super) struct Replay<'a> {
     tip: Point,
     /// Shapes of the arm, and whether the stroke lowers them.
     shapes: Vec<(&'a Counted, Solid, bool)>,
-    /// How far they keep off, and in words.
+    /// Required distance of the shapes. `keeps` is its description in words.
     kept: BigInt,
     keeps: String,
-    /// By how much what is carried may press into its supports.
+    /// Depth to which the carried object may press into its supports.
     pressed: Interval,
-    /// Obstacles and objects where they lie or as they move, then obstacles that move, then links of the robot; none while they are carried.
+    /// Obstacles and objects at their poses or on their trajectories, then moving obstacles, then links of the robot.
+    /// `None` for a carried object.
     present: Vec<Option<Present>>,
-    /// All of them as they are at first.
+    /// All of them in their initial state.
     all: Vec<&'a Obstacle>,
-    /// The last knot of the step before.
+    /// The last knot of the previous step.
     knot: usize,
     held: Option<Held>,
-    /// What has just been let go of, by its number among the obstacles.
+    /// The object that was released last, by its number among the obstacles.
     released: Option<usize>,
-    /// The most by which anything misses where it is to be.
+    /// The greatest deviation of anything from its required place.
     pub(super) off: BigInt,
 }
 
-/// Where shapes are looked at that a stroke of the tool lowers: as they are, or at all heights of it; or what is held where it is going to lie.
+/// The heights at which the shapes lowered by a stroke are checked: their own, or all heights of the stroke. `Lying`
+/// checks the carried object at its final pose.
 #[derive(Clone, Copy, PartialEq)]
 enum Tool {
     Raised,
@@ -107,20 +110,20 @@ impl<'a> Replay<'a> {
         })
     }
 
-    /// The motion from a knot to another; at least where it stands at the first.
+    /// Returns the motion from a knot to another; at least the rest at the first knot.
     fn pieces(&self, knots: Range<usize>) -> Result<Vec<Piece>, CheckError> {
         let until = &self.motion.knots[..=knots.end];
         let piece = |knot: usize| piece(self.arm, &self.motion.interpolation, until, knot);
         (knots.start..knots.end.max(knots.start + 1)).map(piece).collect()
     }
 
-    /// Does a step.
+    /// Executes a step.
     pub(super) fn step(
         &mut self,
         Matched { step, done, renewed }: &Matched,
         after: &[Matched],
     ) -> Result<(), CheckError> {
-        // What is to be renewed lies there while the arm stands.
+        // An object to be renewed is still there while the arm is at rest.
         if !renewed.is_empty() {
             let at = [1, 2].map(|k| Interval::from(&self.motion.knots[self.knot][k]));
             self.free(&self.pieces(self.knot..done.knots[0])?, &at, None, Tool::Raised)?;
@@ -134,10 +137,10 @@ impl<'a> Replay<'a> {
                 return CheckError::fails("there is to be a new one of an object that moves");
             }
             self.present[number] = Some(Present::new(&self.chain, self.all[number].clone())?);
-            // It is another one that may be touched.
+            // Another object, which may now be touched.
             self.released = self.released.filter(|released| *released != number);
         }
-        // Where a step leaves the arm it stands until its next motion begins.
+        // The arm stays where a step ends until its next motion begins.
         let (first, last) = (std::mem::replace(&mut self.knot, done.knots[1]), done.knots[1]);
         let (motion, released) = (self.motion, self.released);
         let (pieces, still) = (self.pieces(first..last)?, self.pieces(last..last)?);
@@ -170,7 +173,7 @@ impl<'a> Replay<'a> {
                 self.released = None;
             }
         }
-        // The last leaves it there, by what it came by.
+        // The last step leaves the arm there, and the exemptions of that step still apply.
         if let Some(rest) = rest {
             self.free(&rest, &to, released, Tool::Raised)?;
         }
@@ -183,7 +186,8 @@ impl<'a> Replay<'a> {
         Ok(())
     }
 
-    /// How what is held is to keep off an obstacle, if it can meet it.
+    /// Returns the rule by which the carried object must keep away from an obstacle. Returns `None` if they cannot
+    /// collide.
     fn meets(&self, held: &Held, obstacle: usize, tool: Tool) -> Option<Manner> {
         let own = self.task.first + held.object;
         let [heights, others] = [own, obstacle].map(|number| self.all[number].heights.as_ref());
@@ -198,7 +202,7 @@ impl<'a> Replay<'a> {
                 return None;
             }
         }
-        // What moves is where it lies later on, or not.
+        // A moving obstacle may or may not be there when the object arrives, so this check skips it.
         let moves = |present: &Present| present.obstacle.course.is_some();
         if tool == Tool::Lying && self.present[obstacle].as_ref().is_some_and(moves) {
             return None;
@@ -210,7 +214,7 @@ impl<'a> Replay<'a> {
         })
     }
 
-    /// The parts of what is held.
+    /// Returns the parts of the carried object.
     fn hanging<'h>(&'h self, held: &'h Held, solids: &'h [Vec<Solid>; 2], tool: Tool) -> Vec<Part<'h>> {
         let all = 0..self.present.len();
         let part = |solid, keeps, manner: Manner| {
@@ -224,7 +228,8 @@ impl<'a> Replay<'a> {
         others.iter().map(|solid| part(solid, &*self.keeps, Manner::Off)).chain(supported).chain(round).collect()
     }
 
-    /// That no obstacle begins within what is held, or no support within what of it keeps off these.
+    /// Checks that no obstacle is initially inside the carried object, and no support inside the part of it that must
+    /// keep away from supports.
     fn surrounds_none(&self, held: &Held, values: &Point, time: &Decimal, tool: Tool) -> Result<(), CheckError> {
         let of_second = [Interval::whole(0), values[1].clone()];
         let pressed = held.pressed.iter().map(|own| (own, Manner::Pressed));
@@ -247,8 +252,8 @@ impl<'a> Replay<'a> {
         Ok(())
     }
 
-    /// That the arm, with what it holds, is free on pieces that begin at a configuration. The second link may meet what has just been let
-    /// go of, and another obstacle.
+    /// Checks that the arm, with its load, is free on pieces that begin in a configuration. The second link may touch
+    /// the object released last, and the obstacle `also`.
     fn free(&self, pieces: &[Piece], from: &Point, also: Option<usize>, tool: Tool) -> Result<(), CheckError> {
         let stroke = match (tool, &self.task.stroke, &self.held) {
             (Tool::Raised | Tool::Lying, ..) => None,

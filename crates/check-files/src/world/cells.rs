@@ -10,25 +10,25 @@ use num_bigint::{BigInt, Sign};
 use serde::Deserialize;
 use std::path::Path;
 
-/// The squares of a picture, closed.
+/// The squares of a picture, as closed sets.
 pub struct Cells {
     size: [usize; 2],
     /// Row by row from below.
     solid: Vec<bool>,
-    /// The length of a square's side.
+    /// Length of a square's side.
     side: Decimal,
-    /// Where the lower left corner of the picture lies, and sine and cosine of its turn about that.
+    /// Position of the picture's lower left corner; `turn` holds sine and cosine of the rotation about it.
     at: Point,
     turn: [Interval; 2],
 }
 
-/// Pieces of the longest border: they take some gigabyte.
+/// Maximum number of border pieces. This many take some gigabyte.
 const MOST_PIECES: usize = 1 << 18;
 
-/// Darkness, of 255, that is unknown whatever the thresholds: ROS's map savers write it for what nobody has seen.
+/// Darkness, of 255, that means unknown, regardless of the thresholds: ROS's map savers write it for unseen cells.
 const UNSEEN: i32 = 50;
 
-/// What a description says, the YAML of ROS's map server. Numbers as they are written; keys of other programs say nothing.
+/// A map description: the YAML of ROS's map server. Numbers are kept as written; keys of other programs are ignored.
 #[derive(Deserialize)]
 struct Description {
     image: String,
@@ -41,10 +41,10 @@ struct Description {
 }
 
 impl Cells {
-    /// Reads a description, and the picture that it names.
+    /// Reads a description, and the picture that it refers to.
     ///
     /// # Errors
-    /// What is none, and pictures other than PGM and PNG.
+    /// If it is not a description, or if the picture is neither PGM nor PNG.
     pub fn read(files: &Files, yaml: &Path, unknown_is_solid: bool) -> Result<Self, CheckError> {
         let wrong = |path: &Path, why: &str| CheckError::in_file(Input::World, format!("{}: {why}", path.display()));
         let text = String::from_utf8(files.bytes(Input::World, yaml)?).map_err(|_| wrong(yaml, "it is no text"))?;
@@ -90,21 +90,21 @@ impl Cells {
         Ok(Self { size, solid, side, at: [&x, &y].map(Interval::from), turn: Interval::from(&yaw).sin_cos() })
     }
 
-    /// Whether a square is there and solid.
+    /// Returns true if a square exists and is solid.
     fn is_solid(&self, x: i64, y: i64) -> bool {
         let inside = |k: usize, n: i64| usize::try_from(n).ok().filter(|n| *n < self.size[k]);
         let (Some(x), Some(y)) = (inside(0, x), inside(1, y)) else { return false };
         self.solid[y * self.size[0] + x]
     }
 
-    /// Where a corner of squares is, in the frame of the obstacle.
+    /// Returns the position of a corner of squares in the frame of the obstacle.
     fn corner(&self, [x, y]: [i64; 2]) -> Point {
         let along =
             [x, y].map(|n| Interval::from(&(&self.side * &Decimal::whole(i32::try_from(n).expect("few squares")))));
         sum(&self.at, &turned(&along, &self.turn))
     }
 
-    /// A point of the obstacle's frame in the squares' own, whose sides are 1.
+    /// Converts a point of the obstacle's frame to the frame of the squares, in which sides are 1.
     fn counted(&self, p: &Point) -> Point {
         let [sine, cosine] = &self.turn;
         let from_there = minus(p, &self.at);
@@ -127,7 +127,7 @@ impl Squares for Cells {
         };
         let all = [[left, low], [right, low], [right, high], [left, high]];
         let is_one = left < right && low < high && all.iter().all(|corner| corners.contains(corner));
-        // What is outside is not solid, so that the loop ends there.
+        // Squares outside the picture are not solid, so the loop ends there.
         let is_solid = is_one && (left..right).all(|x| (low..high).all(|y| self.is_solid(x, y)));
         is_solid.then(|| all.map(|corner| self.corner(corner)).to_vec())
     }

@@ -1,4 +1,4 @@
-//! What moves in time.
+//! Motions of obstacles and objects in time.
 
 use super::{Read, Reader, Value};
 use cplan_check::decimal::Decimal;
@@ -7,13 +7,14 @@ use cplan_check::obstacle::{Course, point};
 use cplan_check::overlap::Shape;
 use num_bigint::{BigInt, Sign};
 
-/// Straight and evenly from stop to stop; before the first it waits there, the last it leaves at a velocity.
+/// Uniform straight motion from stop to stop. The obstacle waits at the first stop until its time, and leaves the last
+/// one at a constant velocity.
 pub struct Stops {
     stops: Vec<Stop>,
     velocity: Point,
 }
 
-/// Where the frame's origin is at a time, and by which angle the frame is turned.
+/// Position of the frame's origin at a time, and orientation of the frame.
 struct Stop {
     time: Decimal,
     at: Point,
@@ -21,7 +22,7 @@ struct Stop {
 }
 
 impl Stops {
-    /// Where the frame's origin is at a time, and by which angle the frame is turned.
+    /// Returns the position of the frame's origin at a time, and the orientation of the frame.
     fn pose(&self, time: &Decimal) -> (Point, Interval) {
         let next = self.stops.partition_point(|stop| stop.time <= *time);
         let Stop { time: begin, at, angle } = &self.stops[next.saturating_sub(1)];
@@ -44,8 +45,9 @@ impl Course for Stops {
         [at, angle.sin_cos()]
     }
 
-    /// It is the shape in the middle, wider by as far as it gets from there. How far a point is
-    /// from there is, between stops, at most a convex function of time, so that it is at most what it is at the span's ends and at stops.
+    /// Returns the shape at the middle of the span, grown by its greatest displacement from there. Between stops, a
+    /// convex function of time bounds the displacement of a point. So the greatest displacement is at an end of the
+    /// span or at a stop.
     fn during(&self, shape: &Shape, [from, to]: [&Decimal; 2]) -> Shape {
         let middle = Decimal::middle(from, to);
         let (at, angle) = self.pose(&middle);
@@ -66,7 +68,7 @@ impl Course for Stops {
 }
 
 impl Reader<'_> {
-    /// The `motion` of what is at a place and turned by an angle where nothing else is said.
+    /// Reads the `motion` of an obstacle. Position and angle are the defaults of its stops.
     pub(super) fn course(&self, value: &Value, at: &Point, angle: &Interval) -> Read<Stops> {
         let table = self.table(value)?;
         if let Some((key, _)) = table.iter().find(|(key, _)| !["stops", "velocity"].contains(&&**key.get_ref())) {

@@ -1,4 +1,4 @@
-//! What of an object keeps off others while it hangs on the arm.
+//! Shapes of carried objects that must keep away from obstacles.
 
 use super::Read;
 use cplan_check::decimal::Decimal;
@@ -9,16 +9,18 @@ use cplan_check::polygon::{Corner, edges, is_convex, side, surrounds};
 use cplan_check::{CheckError, Input};
 use num_bigint::Sign;
 
-/// Of an object's corners that press into supports, sines of half their angles and lengths of sides are above `2^-SHARPEST`.
+/// Lower bound `2^-SHARPEST` on the sines of half the corner angles, and on the side lengths, of objects that press
+/// into supports.
 const SHARPEST: u64 = 30;
 
-/// Corners that turn inwards are moved by this power of a half of the length less than others.
+/// Corners that turn inwards are moved by slightly less than others: by this power of a half of the length.
 const REFLEX: u32 = 30;
 
-/// Convex shapes, in its place: itself, or else its sides. What they stay off, and what neither lies in the other, is off it.
+/// Returns the obstacle as convex shapes at its place: itself if it is convex, or else its sides. A set that stays off
+/// them is off the obstacle, provided that neither contains the other.
 ///
 /// # Errors
-/// As [`Obstacle::sides`].
+/// Same as [`Obstacle::sides`].
 pub fn solids(obstacle: &Obstacle) -> Read<Vec<Shape>> {
     match (&obstacle.outline, convex(obstacle)) {
         (_, Some(corners)) => Ok(vec![hull(obstacle, &corners)]),
@@ -26,11 +28,12 @@ pub fn solids(obstacle: &Obstacle) -> Read<Vec<Shape>> {
     }
 }
 
-/// What of it stays off its supports: the same with each corner moved inwards by a length, halfway between its sides, or up to `2^-30` of that less;
-/// of a disc one with a radius that is smaller by that, or its centre.
+/// Returns the part of an object that must keep away from its supports. Each corner is moved inwards by a length,
+/// halfway between its sides, or by up to `2^-30` of that less. A disc gets a radius smaller by the length, or becomes
+/// its centre.
 ///
 /// # Errors
-/// An object that has no inside, or is too thin.
+/// If the object has no interior, or is too thin.
 pub fn pressed(object: &Obstacle, by: &Interval) -> Read<Obstacle> {
     let wrong = |why: &str| CheckError::in_file(Input::World, why);
     let outline = match &object.outline {
@@ -57,7 +60,7 @@ fn hull(obstacle: &Obstacle, corners: &[Corner]) -> Shape {
     Shape { points: corners.iter().map(|corner| obstacle.placed(&point(corner))).collect(), radius }
 }
 
-/// The corners that it is the hull of, turning left, up to the radius of a disc; none if it is not convex.
+/// Returns the corners of a convex obstacle, turning left; the centre for a disc. Returns `None` if it is not convex.
 fn convex(obstacle: &Obstacle) -> Option<Vec<Corner>> {
     match &obstacle.outline {
         Outline::Circle(center, radius) => (radius.sign() != Sign::Minus).then(|| vec![center.clone()]),
@@ -73,7 +76,7 @@ fn convex(obstacle: &Obstacle) -> Option<Vec<Corner>> {
     }
 }
 
-/// A ring without the corners that lie on a line with those beside them.
+/// Removes the corners of a ring that lie on a line with their neighbours.
 fn bent(ring: &[Corner]) -> Vec<Corner> {
     let mut ring = ring.to_vec();
     let is_straight = |ring: &[Corner], k: usize| {
@@ -86,8 +89,8 @@ fn bent(ring: &[Corner]) -> Vec<Corner> {
     ring
 }
 
-/// A ring whose corners are moved by a length, halfway between its sides: to what it surrounds, or away from there. None where that turns it
-/// over, or it has corners that are too sharp to tell. In the order of the ring.
+/// Moves the corners of a ring by a length, halfway between its sides: inwards, or outwards. Returns `None` if that
+/// turns the ring over, or if corners are too sharp to decide. The order of the ring stays.
 fn inset(mut ring: Vec<Corner>, outwards: bool, by: &Interval) -> Option<Vec<Corner>> {
     let turns_left = |ring: &[Corner]| {
         let doubled = edges(ring).map(|([a, b], [c, d])| &(a * d) - &(b * c));
@@ -105,8 +108,8 @@ fn inset(mut ring: Vec<Corner>, outwards: bool, by: &Interval) -> Option<Vec<Cor
     let corner = |k: usize| {
         let to = |other: usize| along(&minus(&points[other % points.len()], &points[k]));
         let [x, y] = minus(&to(k + 1)?, &to(k + points.len() - 1)?);
-        // To the left of both.
-        // A corner that turns inwards stays off the lines of others, whatever rounding does.
+        // The difference is perpendicular to the bisector; turned, it points to the left of both sides. A corner that
+        // turns inwards must stay off the lines of others despite rounding.
         let [last, next] = [points.len() - 1, 1].map(|other| &ring[(k + other) % ring.len()]);
         let is_reflex = side(last, &ring[k], next) == Sign::Minus;
         let by = if is_reflex { by - &by.in_halves(REFLEX) } else { by.clone() };
@@ -131,7 +134,7 @@ mod tests {
             let numbers: Vec<Decimal> = text.split(' ').map(|n| n.parse().unwrap()).collect();
             numbers.chunks(2).map(|p| [p[0].clone(), p[1].clone()]).collect::<Vec<Corner>>()
         };
-        // Along the diagonal of a unit square; a corner in the middle of a side says nothing.
+        // Along the diagonal of a unit square. A corner in the middle of a side has no effect.
         let by = Interval::whole(2).sqrt().over(10);
         for (outwards, is_inside) in [(false, true), (true, false)] {
             for text in ["0 0 1 0 1 1 0 1", "0 0 0 1 1 1 1 0", "0 0 0.5 0 1 0 1 1 0 1"] {

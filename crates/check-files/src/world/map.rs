@@ -11,7 +11,7 @@ use cplan_check::{CheckError, Input};
 use std::collections::VecDeque;
 use std::path::Path;
 
-/// What is in the world's unit: maps have one of their own.
+/// Conversion from the unit of a map to that of the world.
 struct Unit {
     scale: Decimal,
     offset: Corner,
@@ -24,7 +24,7 @@ impl Unit {
 }
 
 impl Reader<'_> {
-    /// `[map]`: its walls come after the obstacles, and its goal is the world's if that has none, and no steps.
+    /// Reads `[map]`. Its walls follow the obstacles. Its goal applies if the world has neither a goal nor steps.
     pub(super) fn map(&self, value: &Value, has_steps: bool, world: &mut World) -> Read<()> {
         let (mut file, mut wishes, mut is_framed, mut heights) = (None, None, true, None);
         let mut unit = Unit { scale: Decimal::power_of_ten(3), offset: origin() };
@@ -53,7 +53,7 @@ impl Reader<'_> {
     }
 }
 
-/// The lines of a file that say something, and what it is called.
+/// The meaningful lines of a file, and its name.
 struct Text<'a> {
     name: &'a str,
     lines: Vec<(usize, &'a str)>,
@@ -80,12 +80,12 @@ impl<'a> Text<'a> {
         Ok(())
     }
 
-    /// Whether the next line begins with a key.
+    /// Returns true if the next line begins with a key.
     fn is_at(&self, key: &str) -> bool {
         self.lines.get(self.next).is_some_and(|(_, line)| line.starts_with(key))
     }
 
-    /// Numbers, after a key and a colon where there is a key.
+    /// Reads numbers; after a key and a colon if there is a key.
     fn numbers<const N: usize>(&mut self, key: &str) -> Result<[Decimal; N], CheckError> {
         let line = self.lines.get(self.next).map(|(_, line)| *line);
         let after = |line: &'a str| match key {
@@ -99,7 +99,7 @@ impl<'a> Text<'a> {
         Ok(numbers)
     }
 
-    /// The corners of the whole map.
+    /// Reads the corners of the whole map.
     fn bounds(&mut self) -> Result<[Corner; 2], CheckError> {
         self.word("2D-Map")?;
         Ok([self.numbers("LineMinPos")?, self.numbers("LineMaxPos")?])
@@ -112,10 +112,10 @@ fn text_of(files: &Files, path: &Path) -> Result<String, CheckError> {
     Ok(text.trim_start_matches('\u{feff}').to_owned())
 }
 
-/// The walls of a line map, and what they are called: lines that follow one another and share an end are one.
+/// Reads the walls of a line map, and their names. Consecutive lines that share an end form one wall.
 ///
 /// # Errors
-/// What is no line map.
+/// If the file is not a line map.
 fn walls(files: &Files, path: &Path, unit: &Unit, is_framed: bool) -> Result<Vec<(String, Outline)>, CheckError> {
     let (name, content) = (path.display().to_string(), text_of(files, path)?);
     let mut text = Text::new(&name, &content);
@@ -129,7 +129,7 @@ fn walls(files: &Files, path: &Path, unit: &Unit, is_framed: bool) -> Result<Vec
         let (from, to) = ([a, b], [c, d]);
         lines += 1;
         let is_point = from == to;
-        // At its end, else at its beginning.
+        // Extend the wall at its end, or else at its beginning.
         let open = walls.last_mut().and_then(|(called, wall)| {
             let at_end = [wall.back(), wall.front()].map(|end| end.is_some_and(|end| *end == from || *end == to));
             let end = at_end.iter().position(|found| *found)?;
@@ -167,10 +167,10 @@ fn walls(files: &Files, path: &Path, unit: &Unit, is_framed: bool) -> Result<Vec
     Ok(walls.into_iter().map(|(called, wall)| (called, outline(wall))).collect())
 }
 
-/// The goals of a preference file.
+/// Reads the goals of a preference file.
 ///
 /// # Errors
-/// What is no preference file, up to there.
+/// If the file is not a preference file, up to the goals.
 fn goals(files: &Files, path: &Path, unit: &Unit) -> Result<Vec<[Corner; 2]>, CheckError> {
     let (name, content) = (path.display().to_string(), text_of(files, path)?);
     let mut text = Text::new(&name, &content);

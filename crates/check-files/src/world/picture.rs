@@ -1,21 +1,21 @@
-//! Pictures in shades: PGM and PNG.
+//! Grey pictures: PGM and PNG.
 
 use png::{BitDepth, ColorType, Decoder, DecodingError, Transformations};
 use std::io::Cursor;
 
-/// Pixels of the largest picture.
+/// Maximum number of pixels of a picture.
 const MOST_PIXELS: usize = 1 << 26;
 
-/// How light pixels are.
+/// The brightness of pixels.
 pub struct Picture {
     pub size: [usize; 2],
-    /// The shade of white; that of black is 0.
+    /// Shade of white. The shade of black is 0.
     pub white: u32,
-    /// Row by row from above; none of a pixel that is not opaque.
+    /// Row by row from above; `None` for a pixel that is not opaque.
     pub shades: Vec<Option<u32>>,
 }
 
-/// Reads a picture of either format.
+/// Reads a picture in either format.
 pub fn read(bytes: &[u8]) -> Result<Picture, String> {
     match bytes {
         [b'P', kind @ (b'2' | b'5'), rest @ ..] => greymap(rest, *kind == b'2'),
@@ -29,7 +29,7 @@ fn pixels([width, height]: [usize; 2]) -> Result<usize, String> {
     count.ok_or_else(|| "it has no size, or too large a one".into())
 }
 
-/// A PNG of any kind: colours are averaged.
+/// Reads a PNG of any kind. Colours are averaged.
 fn in_png(bytes: &[u8]) -> Result<Picture, String> {
     let wrong = |error: DecodingError| error.to_string();
     let mut decoder = Decoder::new(Cursor::new(bytes));
@@ -60,7 +60,7 @@ fn in_png(bytes: &[u8]) -> Result<Picture, String> {
     }
 }
 
-/// Whether all colours of a PNG are in its palette, if it has one.
+/// Returns true if all colours of a PNG are in its palette, or if it has none.
 fn is_in_palette(bytes: &[u8]) -> Result<bool, DecodingError> {
     let mut reader = Decoder::new(Cursor::new(bytes)).read_info()?;
     let (color, depth, width) =
@@ -79,7 +79,7 @@ fn is_in_palette(bytes: &[u8]) -> Result<bool, DecodingError> {
     Ok(rows.chunks(length).all(is_known))
 }
 
-/// A PGM, as text or bytes, after its first two bytes.
+/// Reads a PGM, in text or binary form, after its first two bytes.
 fn greymap(mut rest: &[u8], is_text: bool) -> Result<Picture, String> {
     if !rest.first().is_some_and(|byte| byte.is_ascii_whitespace() || *byte == b'#') {
         return Err("its header is none".into());
@@ -94,7 +94,7 @@ fn greymap(mut rest: &[u8], is_text: bool) -> Result<Picture, String> {
         skip(&mut rest);
         shades
     } else {
-        // One white space ends the header.
+        // A single white space ends the header.
         comment(&mut rest);
         let bytes_each = if white > 255 { 2 } else { 1 };
         let (raster, after) =
@@ -113,14 +113,14 @@ fn greymap(mut rest: &[u8], is_text: bool) -> Result<Picture, String> {
     }
 }
 
-/// Passes over a comment up to the end of its line.
+/// Skips a comment, up to the end of its line.
 fn comment(rest: &mut &[u8]) {
     if rest.first() == Some(&b'#') {
         *rest = &rest[rest.iter().position(|byte| matches!(byte, b'\n' | b'\r')).unwrap_or(rest.len())..];
     }
 }
 
-/// Passes over white space and comments.
+/// Skips white space and comments.
 fn skip(rest: &mut &[u8]) {
     comment(rest);
     while rest.first().is_some_and(u8::is_ascii_whitespace) {
@@ -129,7 +129,7 @@ fn skip(rest: &mut &[u8]) {
     }
 }
 
-/// The next number of a greymap.
+/// Reads the next number of a PGM.
 fn number(rest: &mut &[u8]) -> Result<usize, String> {
     skip(rest);
     let length = rest.iter().position(|byte| !byte.is_ascii_digit()).unwrap_or(rest.len());
@@ -144,7 +144,7 @@ mod tests {
     use super::*;
     use png::Encoder;
 
-    /// Two pixels a row, of two bits; what fills a row up is none.
+    /// Makes a picture of two pixels per row, with two bits each. The padding of a row must be ignored.
     fn indexed(rows: &[u8]) -> Result<Picture, String> {
         let mut bytes = Vec::new();
         let mut encoder = Encoder::new(&mut bytes, 2, rows.len() as u32);

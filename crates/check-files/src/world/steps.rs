@@ -1,4 +1,4 @@
-//! Objects, pallets and steps as the world file has them.
+//! Reads objects, pallets and steps of the world file.
 
 use super::task::{Action, Group, Node, Object, Passing, Step, Stroke, Task, Wrist};
 use super::{Read, Reader, Value};
@@ -10,17 +10,17 @@ use cplan_check::world::World;
 use std::collections::{BTreeMap, BTreeSet};
 use toml::de::{DeTable, DeValue};
 
-/// Places of the largest pallet.
+/// Maximum number of places on a pallet.
 const MOST_PLACES: usize = 10_000;
 
 /// Places in rows and columns.
 struct Pallet {
-    /// Row and column as names have them, and where that is.
+    /// Row and column as in names, and the position.
     places: Vec<(String, Point)>,
     turn: Point,
 }
 
-/// What steps refer to.
+/// The things that steps refer to.
 struct Steps<'r, 'w> {
     reader: &'r Reader<'r>,
     world: &'w World,
@@ -47,7 +47,7 @@ impl Reader<'_> {
         let first = world.obstacles.len();
         let mut taken: BTreeSet<String> = world.all().filter_map(|obstacle| obstacle.name.clone()).collect();
         let mut objects = Vec::new();
-        // What they rest on may come after them in the file.
+        // Supports may come later in the file than the objects on them.
         let mut resting = Vec::new();
         for value in list("object")? {
             let of_family = self.object(value, is_level, &pallets, &mut objects)?;
@@ -82,7 +82,7 @@ impl Reader<'_> {
         Ok(Some(Task { first, objects, steps, wrist, stroke }))
     }
 
-    /// A whole number from 1 on.
+    /// Reads a whole number from 1 on.
     fn count(&self, value: &Value) -> Read<usize> {
         let count = match value.get_ref() {
             DeValue::Integer(_) => self.number(value)?.to_string().parse().ok(),
@@ -128,7 +128,7 @@ impl Reader<'_> {
         Ok((self.text(name)?, Pallet { places: places.map(|(row, column)| place(row, column)).collect(), turn }))
     }
 
-    /// Reads an object, or those of a pallet: added to `objects`, and as what stands where they lie at first.
+    /// Reads an object, or those of a pallet. Adds them to `objects`, and to the obstacles at their initial poses.
     fn object(
         &self,
         value: &Value,
@@ -174,7 +174,8 @@ impl Reader<'_> {
         Ok(places)
     }
 
-    /// The numbers of named obstacles, objects, and all objects on pallets that have a name in common.
+    /// Returns the numbers of the named obstacles and objects. A name may stand for all objects on a pallet that share
+    /// it.
     fn supports(&self, list: &Value, world: &World, first: usize, objects: &[Object]) -> Read<Vec<usize>> {
         let mut all = Vec::new();
         for value in self.list(list)? {
@@ -192,11 +193,11 @@ impl Reader<'_> {
     }
 }
 
-/// Keys of what holds for several steps.
+/// Keys that apply to several steps.
 const MANNER: [&str; 4] = ["repeat", "order", "speed", "dwell"];
 
 impl Steps<'_, '_> {
-    /// A list of steps as one group; the manner is the table that has its repetitions and order.
+    /// Reads a list of steps as one group. The table `manner` has its repetitions and order.
     fn group(&mut self, list: &Value, manner: Option<&DeTable>, dwell: &Decimal) -> Read<Group> {
         let reader = self.reader;
         let mut nodes = Vec::new();
@@ -230,11 +231,11 @@ impl Steps<'_, '_> {
                 Node::Group(group) => renewed.extend(&group.renewed),
             }
         }
-        // One pair alone is done in its order.
+        // A single pair is executed in its own order.
         Ok(Group { is_free: is_free && nodes.len() > 2, nodes, repeat, renewed })
     }
 
-    /// What a table stands for: a step, a group, or the steps of a transfer.
+    /// Reads a table: a step, a group, or the steps of a transfer.
     fn nodes(&mut self, value: &Value, dwell: &Decimal) -> Read<Vec<Node>> {
         let reader = self.reader;
         let table = reader.table(value)?;
@@ -280,7 +281,7 @@ impl Steps<'_, '_> {
         Action::Pick { object, grasp, supports, passing: Box::new(passing) }
     }
 
-    /// What is named as supports in a table.
+    /// Reads the supports that a table names.
     fn supports(&self, table: &DeTable) -> Read<Option<Vec<usize>>> {
         let list = table.get("supports");
         list.map(|list| self.reader.supports(list, self.world, self.first, self.objects)).transpose()
@@ -307,7 +308,7 @@ impl Steps<'_, '_> {
         Ok(Action::Place { at, angle: self.angle(table)?, supports: self.supports(table)? })
     }
 
-    /// Picks and places of all objects on a pallet that have a name in common, one after the other.
+    /// Returns picks and places of all objects on a pallet that share a name, one after the other.
     fn transfer(&self, value: &Value) -> Read<Vec<Action>> {
         let (reader, table) = (self.reader, self.reader.table(value)?);
         let (Some(name), Some(to)) = (table.get("objects"), table.get("to")) else {

@@ -1,4 +1,4 @@
-//! What is to be done: objects, pallets and steps.
+//! The content of a task: objects, pallets and steps.
 
 use cplan_check::decimal::Decimal;
 use cplan_check::domain::Range;
@@ -6,12 +6,13 @@ use cplan_check::interval::{Interval, Point};
 use cplan_check::polygon::Corner;
 use cplan_check::world::Goal;
 
-/// An object rests on what its lower end reaches into by no more than this, metres: `10^-6`.
+/// Tolerance of resting heights, metres: `10^-6`. An object rests on a support if its lower end reaches into the
+/// support by no more than this.
 pub const RESTING: u32 = 6;
 
-/// What the steps of a world ask for.
+/// The task that the steps of a world describe.
 pub struct Task {
-    /// The first object's number among the world's obstacles; the others follow.
+    /// Number of the first object among the world's obstacles. The others follow.
     pub first: usize,
     pub objects: Vec<Object>,
     pub steps: Group,
@@ -19,27 +20,27 @@ pub struct Task {
     pub stroke: Option<Stroke>,
 }
 
-/// What holds for an object besides where it lies at first.
+/// Properties of an object beyond its initial pose.
 pub struct Object {
-    /// Its name, without row and column on a pallet.
+    /// Name, without row and column on a pallet.
     pub(super) family: String,
-    /// How much higher it is while it is carried.
+    /// Distance that it is raised while it is carried.
     pub lift: Decimal,
-    /// Whether a wrist keeps it level, or else it turns with the second link.
+    /// True if a wrist keeps it level. Otherwise it turns with the second link.
     pub is_level: bool,
-    /// The point of it that the tip goes to.
+    /// The point of the object to which the tip moves.
     pub(super) grasp: Corner,
-    /// What it may touch where it is picked and placed: obstacles by their numbers.
+    /// Obstacles that it may touch where it is picked and placed, by number.
     pub supports: Vec<usize>,
     pub(super) renews: bool,
 }
 
-/// What keeps and turns level objects: which joint it is, if the world says it.
+/// The wrist that keeps and turns level objects, with its joint if the world names one.
 pub struct Wrist {
     pub joint: Option<String>,
 }
 
-/// A joint that lowers the tool, and how far; as far as objects are lifted if it does not say.
+/// The joint that lowers the tool, and the distance. `None`: as far as objects are lifted.
 pub struct Stroke {
     pub joint: String,
     pub travel: Option<Decimal>,
@@ -49,9 +50,9 @@ pub struct Stroke {
 pub struct Group {
     pub nodes: Vec<Node>,
     pub repeat: usize,
-    /// Whether its pairs of a pick and a place are done in any order.
+    /// True if its pairs of a pick and a place may be executed in any order.
     pub is_free: bool,
-    /// Objects that lie where they lay at first again when it is repeated.
+    /// Objects that return to their initial poses when the group is repeated.
     pub renewed: Vec<usize>,
 }
 
@@ -63,32 +64,32 @@ pub enum Node {
 
 /// A step of the file.
 pub struct Step {
-    /// From 1 in the order of the file.
+    /// From 1, in the order of the file.
     pub number: usize,
     pub action: Action,
-    /// How long the arm stands still afterwards.
+    /// Time that the arm rests afterwards.
     pub dwell: Decimal,
 }
 
-/// When and where an object is to be picked that moves, as far as the step says.
+/// Time and place at which a moving object is to be picked, as far as the step states them.
 #[derive(Default)]
 pub struct Passing {
     /// Seconds after the task began.
     pub window: Option<Range>,
-    /// Where its origin is then.
+    /// Position of its origin at that time.
     pub at: Option<Point>,
 }
 
-/// What a step does.
+/// The action of a step.
 pub enum Action {
-    /// The tip goes to a point of an object, which hangs on it from then on.
+    /// The tip moves to a point of an object, which is attached to it from then on.
     Pick {
         object: usize,
         grasp: Corner,
         supports: Vec<usize>,
         passing: Box<Passing>,
     },
-    /// What is carried goes to a place with its origin, where it is let go of.
+    /// The origin of the carried object moves to a position, where the object is released.
     Place {
         at: Point,
         angle: Option<Interval>,
@@ -97,16 +98,16 @@ pub enum Action {
     Move(Goal),
 }
 
-/// What holds from a pick to the place that follows.
+/// Rules that apply from a pick to the place that follows.
 pub struct Carrying {
-    /// What the object may touch.
+    /// Obstacles that the object may touch.
     pub supports: Vec<usize>,
-    /// Whether the wrist may turn it: to the angle of the place.
+    /// True if the wrist may turn it, to the angle of the place.
     pub may_turn: bool,
 }
 
 impl Task {
-    /// Of an object that is picked from supports, and placed by a step if that follows.
+    /// Returns the rules for an object that is picked from supports, and placed by the step `placing` if there is one.
     pub fn carrying(&self, object: usize, supports: &[usize], placing: Option<&Step>) -> Carrying {
         let mut carrying = Carrying { supports: supports.to_vec(), may_turn: false };
         if let Some(Action::Place { angle, supports, .. }) = placing.map(|step| &step.action) {

@@ -2,7 +2,8 @@
 
 use cplan_check_files::CheckError;
 
-/// Its URDF. The base is 0.4 m by 0.3 m and 0.3 m high, and stands on height 0. The quill reaches down to the height `lowest`.
+/// Returns its URDF. The base is 0.4 m by 0.3 m and 0.3 m high, and stands at height 0. The quill reaches down to the
+/// height `lowest`.
 pub fn scara(lowest: f64) -> String {
     format!(
         r#"<robot name="scara">
@@ -25,12 +26,12 @@ pub fn scara(lowest: f64) -> String {
     )
 }
 
-/// A world with these lines in `[robot]`; the arm folds from its start to its goal.
+/// Returns a world with these lines in `[robot]`. The arm folds from its start to its goal.
 pub fn world(robot: &str) -> String {
     format!("[robot]\n{robot}\n[start]\njoints = [-1, 0]\n[goal]\njoints = [-1, 2.8]\n")
 }
 
-/// A certificate that folds the arm. The quill ends 0.17 m from the axis of the base.
+/// Returns a certificate that folds the arm. The quill ends 0.17 m from the axis of the base.
 pub fn folded(extra: &str) -> String {
     format!(
         r#"{{"format": "cplan certificate 1", "answer": "found", {extra}
@@ -38,7 +39,7 @@ pub fn folded(extra: &str) -> String {
     )
 }
 
-/// The exit code and the message.
+/// Returns the exit code and the message.
 pub fn told(verdict: Result<String, CheckError>) -> (i32, String) {
     match verdict {
         Ok(said) => (0, said),
@@ -60,7 +61,8 @@ pub fn fails((code, said): (i32, String), parts: &[&str]) {
     assert!(code == 3 && parts.iter().all(|part| said.contains(part)), "{code} {said}");
 }
 
-/// A certificate that the elbow cannot fold past 2.65 rad, since a shape is in a part then, for all values of the shoulder within [`LIMITS`].
+/// Returns a certificate that the elbow cannot fold beyond 2.65 rad. There a shape overlaps a part, for all values of
+/// the shoulder within [`LIMITS`].
 pub fn shut(shape: &str, part: &str) -> String {
     let stuck = |k: i32| {
         let [low, high] = [k, k + 1].map(|k| f64::from(k) / 10.0);

@@ -19,5 +19,5 @@ pub const TWO_BARS: &str = r#"<robot name="r">
   <link name="tool"/>
 </robot>"#;
 
-/// The limit of both joints, either way.
+/// Limit of both joints, in either direction.
 pub const LIMIT: f64 = 2.9;

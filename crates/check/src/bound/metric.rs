@@ -1,4 +1,4 @@
-//! How lengths are measured.
+//! Length metrics.
 
 use crate::certificate::Metric;
 use crate::decimal::Decimal;
@@ -7,13 +7,13 @@ use crate::interval::{Interval, Point, length};
 use num_bigint::{BigInt, Sign};
 use std::fmt;
 
-/// How far two rectangles are from each other along each axis, at least.
+/// Returns lower bounds on the distance between two rectangles along each axis.
 fn apart(a: &Point, b: &Point) -> [BigInt; 2] {
     [0, 1].map(|k| (&b[k].lower - &a[k].upper).max(&a[k].lower - &b[k].upper).max(BigInt::ZERO))
 }
 
 impl fmt::Display for Metric {
-    /// What follows on a length.
+    /// Writes the text that follows a length in a message.
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         match self {
             Self::Euclidean => Ok(()),
@@ -27,7 +27,7 @@ impl Metric {
     pub(super) fn is_a_norm(&self) -> Result<(), CheckError> {
         let (Self::Weights(factors) | Self::Speeds(factors)) = self else { return Ok(()) };
         let is_positive = |factor: &Decimal| Interval::from(factor).lower.sign() == Sign::Plus;
-        // Whole turns have to be of some length.
+        // Whole turns must have a positive length.
         let tells = |k: usize| self.scaled(k, &Interval::whole(1)).lower.sign() == Sign::Plus;
         if factors.iter().all(is_positive) && tells(0) && tells(1) {
             return Ok(());
@@ -35,12 +35,12 @@ impl Metric {
         CheckError::fails("the metric's weights or speeds are not greater than 0, or too great")
     }
 
-    /// Whether lengths are the greatest entry's; or else they are the root of the sum of squares.
+    /// Returns true if the length is the greatest entry. Otherwise it is the root of the sum of squares.
     pub(super) fn is_greatest(&self) -> bool {
         matches!(self, Self::Speeds(_))
     }
 
-    /// A joint's value in the units of the metric.
+    /// Converts a joint's value to the units of the metric.
     pub(super) fn scaled(&self, joint: usize, value: &Interval) -> Interval {
         match self {
             Self::Euclidean => value.clone(),
@@ -49,13 +49,13 @@ impl Metric {
         }
     }
 
-    /// No way from one place to any in a rectangle is shorter than this.
+    /// Returns a lower bound on the length of all paths from a place to a rectangle.
     pub(super) fn between(&self, a: &Point, b: &Point) -> BigInt {
         let [x, y] = apart(a, b);
         if self.is_greatest() { x.max(y) } else { length(&[x, y].map(Interval::exactly)).lower }
     }
 
-    /// Whether no way from one place to any in a rectangle is shorter than a length above 0.
+    /// Returns true if all paths from a place to a rectangle have at least a given length above 0.
     pub(super) fn is_at_least(&self, a: &Point, b: &Point, least: &BigInt) -> bool {
         let [x, y] = apart(a, b);
         if self.is_greatest() { x.max(y) >= *least } else { &x * &x + &y * &y >= least * least }

@@ -7,39 +7,40 @@ use crate::interval::{BITS, Interval, Point};
 use num_bigint::{BigInt, Sign};
 use std::collections::BTreeMap;
 
-/// A place in the plane of the metric, whose units make lengths those of the metric.
+/// A place in the plane of the metric: coordinates are scaled so that lengths are those of the metric.
 #[derive(Clone)]
 pub(super) struct Place {
     pub(super) at: Point,
-    /// The same in coarser units, from a little below to a little above.
+    /// The same in coarser units, rounded outward to a lower and an upper bound.
     pub(super) coarse: [[i64; 2]; 2],
-    /// The value of joint 1 as it is written, and the turns from there, if it is one number.
+    /// Value of joint 1 as written, with the number of whole turns added to it. `None` if it is not a single number.
     pub(super) line: Option<Line>,
 }
 
-/// Configurations with one value of joint 1.
+/// Configurations that share one value of joint 1.
 pub(super) type Line = (Decimal, i64);
 
-/// Places are at most so far from the origin, in coarse units: products of differences are exact in 128 bits.
+/// Limit on the distance of places from the origin, in coarse units. It keeps products of differences exact in 128
+/// bits.
 pub(super) const FARTHEST: i64 = 1 << 58;
 
-/// Coarse units, of `2^-40`, are `2^COARSER` times as long.
+/// Coarse units are `2^-40`, which is `2^COARSER` fine units.
 pub(super) const COARSER: u32 = BITS - 40;
 
-/// A wall as it is met on some turn of each joint.
+/// A copy of a wall, shifted by whole turns of each joint.
 pub(super) struct Copy {
     pub(super) wall: usize,
     pub(super) turns: [i64; 2],
     pub(super) ends: [Place; 2],
 }
 
-/// Walls on a line that overlap one another, from end to end, and where walls end within that come from either side.
+/// Overlapping walls on one line, from end to end, with the ends of other walls that touch them from either side.
 pub(super) struct Run {
     pub(super) ends: [Interval; 2],
     pub(super) beside: [Vec<Interval>; 2],
 }
 
-/// The runs of upright walls, with the ends of others in them.
+/// Merges upright walls into runs, and collects the ends of other walls that lie within them.
 pub(super) fn runs(copies: &[Copy]) -> BTreeMap<Line, Vec<Run>> {
     let mut runs: BTreeMap<Line, Vec<Run>> = BTreeMap::new();
     for Copy { ends: [a, b], .. } in copies {
@@ -84,7 +85,7 @@ pub(super) fn runs(copies: &[Copy]) -> BTreeMap<Line, Vec<Run>> {
 }
 
 impl Place {
-    /// The copy of a rectangle on some turns; none where that is too far away.
+    /// Makes the copy of a rectangle shifted by whole turns. Returns `None` if that is too far away.
     pub(super) fn new(metric: &Metric, rectangle: &Rectangle, turns: [i64; 2]) -> Option<Self> {
         let at = [0, 1].map(|k| {
             let turns = Interval::exactly(BigInt::from(2 * turns[k]) << BITS);
@@ -98,9 +99,10 @@ impl Place {
         Some(Self { at, coarse: [first?, second?], line })
     }
 
-    /// On which side of the line through two others it certainly is; 0 if neither.
+    /// Returns the side of the line through two other places on which this place certainly lies; 0 if neither is
+    /// certain.
     pub(super) fn side(&self, a: &Self, b: &Self) -> i8 {
-        // Coarse middles are off by less than two units, so differences by less than four.
+        // Coarse middles are off by less than two units, so differences are off by less than four.
         let middle = |place: &Self| place.coarse.map(|[low, high]| (low + high) / 2);
         let wide = |place: &Self| place.coarse.iter().any(|[low, high]| high - low > 2);
         let ([ax, ay], [bx, by], [px, py]) = (middle(a), middle(b), middle(self));
@@ -123,7 +125,7 @@ impl Place {
         }
     }
 
-    /// Whether it certainly is on one side of the line through two others, and another place on the other.
+    /// Returns true if this place and another certainly lie on opposite sides of the line through two others.
     pub(super) fn is_opposite(&self, other: &Self, a: &Self, b: &Self) -> bool {
         let side = self.side(a, b);
         side != 0 && other.side(a, b) == -side
@@ -131,17 +133,18 @@ impl Place {
 }
 
 impl Copy {
-    /// Where it begins along joint 1, in coarse units, ...
+    /// Returns the least value along joint 1, in coarse units.
     pub(super) fn begins(&self) -> i64 {
         self.ends[0].coarse[0][0].min(self.ends[1].coarse[0][0])
     }
 
-    /// ... and where it ends.
+    /// Returns the greatest value along joint 1, in coarse units.
     pub(super) fn stops(&self) -> i64 {
         self.ends[0].coarse[0][1].max(self.ends[1].coarse[0][1])
     }
 
-    /// Whether every straight leg from a place to any in a rectangle goes through its inside, from one side to the other.
+    /// Returns true if every straight leg from a place to a rectangle passes through the inside of this wall, from one
+    /// side to the other.
     pub(super) fn crosses(&self, from: &Place, to: &Place) -> bool {
         let [a, b] = &self.ends;
         let apart = |k: usize| {
@@ -153,7 +156,7 @@ impl Copy {
     }
 }
 
-/// Whether the first is certainly below the second.
+/// Returns true if the first is certainly below the second.
 pub(super) fn below(a: &Interval, b: &Interval) -> bool {
     a.upper < b.lower
 }

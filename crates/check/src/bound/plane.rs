@@ -1,4 +1,4 @@
-//! Walls on all turns, and the legs that they bar.
+//! Copies of walls on all turns, and the legs that they block.
 
 use super::places::{COARSER, Copy, Line, Place, Run, below, runs};
 use crate::certificate::{Bound, Metric};
@@ -11,27 +11,27 @@ use std::cell::Cell;
 use std::collections::BTreeMap;
 use std::ops::RangeInclusive;
 
-/// Copies of walls, on all turns that a way of the length can reach, at the most.
+/// Maximum number of wall copies, on all turns that a path of the given length can reach.
 const MOST_COPIES: usize = 200_000;
 
-/// An end of a wall at which ways may turn.
+/// An end of a wall at which shortest paths may turn.
 pub(super) struct Corner {
     name: (usize, usize, [i64; 2]),
     at: Place,
-    /// No way from there to a goal is shorter.
+    /// Lower bound on the length of paths from there to a goal.
     rest: BigInt,
-    /// No way from the start is claimed to be shorter; where nothing is claimed, the length less the rest.
+    /// Claimed lower bound on the length of paths from the start. `None` stands for the whole length minus the rest.
     potential: Option<BigInt>,
 }
 
-/// All that ways of some length meet.
+/// Walls and goals within reach of paths of some length.
 pub(super) struct Plane<'a> {
     metric: &'a Metric,
     length: Interval,
     start: Place,
-    /// By the least value of joint 1.
+    /// Sorted by the least value of joint 1.
     copies: Vec<Copy>,
-    /// How far a wall reaches along joint 1 at most, in coarse units.
+    /// Maximum extent of a wall along joint 1, in coarse units.
     widest: i64,
     runs: BTreeMap<Line, Vec<Run>>,
     goals: Vec<Place>,
@@ -48,7 +48,7 @@ impl<'a> Plane<'a> {
         let length = Interval::from(&bound.length);
         let too_long = || CheckError::Fails(format!("the length {} leads past too much", bound.length));
         let from = Place::new(metric, start, [0, 0]).ok_or_else(too_long)?;
-        // The copies of a rectangle that ways get to.
+        // The copies of a rectangle that paths of this length can reach.
         let copies = |rectangle: &Rectangle| -> Option<Vec<([i64; 2], Place)>> {
             let turns = [0, 1].map(|k| {
                 let Axis::Circle = axes[k] else { return Some(0..=0) };
@@ -91,7 +91,7 @@ impl<'a> Plane<'a> {
         Ok(Self { metric, length, start: from, copies: walls, widest, runs, goals: everywhere })
     }
 
-    /// The corners that a way of less than the length may turn at.
+    /// Returns the corners at which a path shorter than the length may turn.
     pub(super) fn corners(&self, bound: &Bound, axes: [&Axis; 2]) -> Result<Vec<Corner>, CheckError> {
         let mut potentials = BTreeMap::new();
         for (number, potential) in bound.potentials.iter().enumerate() {
@@ -130,10 +130,10 @@ impl<'a> Plane<'a> {
         Ok(corners)
     }
 
-    /// That no potential grows along a leg by more than the leg is long, unless a wall bars it.
+    /// Checks that no potential grows along a leg by more than the leg's length, unless a wall blocks the leg.
     ///
     /// # Errors
-    /// The leg along which one does.
+    /// Names the leg along which a potential grows too much.
     pub(super) fn legs_are_long(&self, corners: &[Corner]) -> Result<(), CheckError> {
         let claimed: Vec<BigInt> = corners
             .iter()
@@ -142,7 +142,7 @@ impl<'a> Plane<'a> {
         let sources = corners.iter().filter_map(|c| Some((&c.at, c.potential.as_ref()?, Some(c.name))));
         let none = BigInt::ZERO;
         for (at, potential, name) in sources.chain([(&self.start, &none, None)]) {
-            // A wall that bars one leg bars many others from there.
+            // A wall that blocks one leg often blocks many others from the same place.
             let latest = Cell::new(0);
             let bars = |to: &Place| self.bars(at, to, &latest);
             let from = || name.map_or_else(|| "the start".to_owned(), called);
@@ -161,12 +161,12 @@ impl<'a> Plane<'a> {
         Ok(())
     }
 
-    /// Whether a leg is at least so long.
+    /// Returns true if a leg has at least the given length.
     fn is_long(&self, from: &Place, to: &Place, length: &BigInt) -> bool {
         if length.sign() != Sign::Plus {
             return true;
         }
-        // Coarse units first: most legs are much longer.
+        // Compare in coarse units first: most legs are much longer.
         let Ok(coarse) = i64::try_from((length >> COARSER) + 1) else { return false };
         let [x, y] = [0, 1].map(|k| {
             let ([a, b], [c, d]) = (from.coarse[k], to.coarse[k]);
@@ -177,8 +177,9 @@ impl<'a> Plane<'a> {
         is_long || self.metric.is_at_least(&from.at, &to.at, length)
     }
 
-    /// Whether walls bar every straight leg from a place to any in a rectangle: one that it goes through, from one side to the other, or
-    /// those beside it that leave no side to pass along.
+    /// Returns true if walls block every straight leg from a place to a rectangle. Either the leg passes through a wall
+    /// from one side to the other, or it runs along walls and other walls touch them on both sides, so that neither
+    /// side is open.
     fn bars(&self, from: &Place, to: &Place, latest: &Cell<usize>) -> bool {
         if self.copies.get(latest.get()).is_some_and(|copy| copy.crosses(from, to)) {
             return true;
@@ -187,7 +188,7 @@ impl<'a> Plane<'a> {
         let first = self.copies.partition_point(|copy| copy.begins() < low - self.widest);
         let last = self.copies.partition_point(|copy| copy.begins() <= high);
         let near = &self.copies[first..last.max(first)];
-        // What bars a leg is near its beginning, as a rule.
+        // A wall that blocks a leg is usually near the leg's beginning.
         let crosses = |copy: &Copy| copy.crosses(from, to);
         let is_onward = from.coarse[0][0] <= to.coarse[0][0];
         if let Some(at) = if is_onward { near.iter().position(crosses) } else { near.iter().rposition(crosses) } {
@@ -204,7 +205,7 @@ impl<'a> Plane<'a> {
     }
 }
 
-/// An end of a wall, for messages.
+/// Names an end of a wall for messages.
 fn called((wall, end, turns): (usize, usize, [i64; 2])) -> String {
     let end = ["begins", "ends"][end];
     match turns {

@@ -1,63 +1,63 @@
-//! What a certificate says of ways that are shorter.
+//! Certificate content about lower bounds on the length of motions.
 
 use crate::decimal::Decimal;
 use serde::Deserialize;
 
-/// That no motion is shorter than a length.
+/// A claim that no motion is shorter than a length.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Bound {
-    /// Where to; by default to the goal.
+    /// Target configuration; the goal by default.
     pub to: Option<[Decimal; 2]>,
-    /// No motion is claimed to be shorter.
+    /// Claimed lower bound on the length of all motions.
     pub length: Decimal,
-    /// How lengths are measured.
+    /// Length metric.
     #[serde(default)]
     pub metric: Metric,
-    /// What bars shorter motions.
+    /// Walls that block shorter motions.
     pub walls: Vec<Wall>,
-    /// Lengths of the ways to ends of walls.
+    /// Claimed lower bounds on the length of paths to ends of walls.
     pub potentials: Vec<Potential>,
 }
 
-/// How lengths of displacements are measured.
+/// Metric for lengths of displacements.
 #[derive(Deserialize, Default)]
 #[serde(rename_all = "snake_case")]
 pub enum Metric {
-    /// The root of the sum of squares, ...
+    /// Root of the sum of squares.
     #[default]
     Euclidean,
-    /// ... each entry times a factor before, ...
+    /// Root of the sum of squares after multiplying each entry by a factor.
     Weights([Decimal; 2]),
-    /// ... or the greater of the quotients by two speeds.
+    /// The greater of the two quotients of entry and speed.
     Speeds([Decimal; 2]),
 }
 
-/// A straight segment of configurations in all of which a shape and a part overlap.
+/// A straight segment of configurations. A shape and a part overlap in all of them.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Wall {
-    /// Where it begins.
+    /// First configuration.
     pub from: [Decimal; 2],
-    /// Where it ends.
+    /// Last configuration.
     pub to: [Decimal; 2],
-    /// Into the shapes.
+    /// Index into the shapes.
     pub shape: usize,
-    /// Into the parts.
+    /// Index into the parts.
     pub part: usize,
 }
 
-/// A length that no way from the start to an end of a wall falls short of.
+/// A lower bound on the length of all paths from the start to an end of a wall.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Potential {
-    /// Into the walls.
+    /// Index into the walls.
     pub wall: usize,
-    /// 0 where it begins, 1 where it ends.
+    /// The end of the wall: 0 for its first configuration, 1 for its last.
     pub end: usize,
-    /// Whole turns of each joint from where the wall is written to where it is meant.
+    /// Whole turns of each joint from the written wall to the intended copy.
     #[serde(default)]
     pub turns: [i64; 2],
-    /// The length.
+    /// The lower bound.
     pub value: Decimal,
 }

@@ -1,4 +1,4 @@
-//! What a certificate says of configurations that are not free.
+//! Certificate content about configurations that are not free.
 
 use crate::decimal::Decimal;
 use crate::domain::Rectangle;
@@ -6,58 +6,58 @@ use crate::error::CheckError;
 use crate::polygon::Corner;
 use serde::Deserialize;
 
-/// A shape of the URDF, by its number among those of its kind that the link has.
+/// A shape of the URDF, identified by its number among the link's shapes of the same kind.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ShapeName {
-    /// The link.
+    /// Name of the link.
     pub link: String,
-    /// Its number, if it is a collision shape, ...
+    /// Number, if it is a collision shape.
     pub collision: Option<usize>,
-    /// ... a visual shape, ...
+    /// Number, if it is a visual shape.
     pub visual: Option<usize>,
-    /// ... or the bar of the world: then 0.
+    /// 0, if it is the bar that the world defines.
     pub bar: Option<usize>,
-    /// A height in the layer, if the shape has several.
+    /// A height within the intended layer, if the shape has several layers.
     pub height: Option<Decimal>,
 }
 
-/// A convex part of an obstacle, or a shape of a link that stands still.
+/// A convex part of an obstacle, or a shape of a link that acts as an obstacle.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PartName {
     /// Number of the obstacle in the world file.
     pub obstacle: Option<usize>,
-    /// Corners of the obstacle; none of a circle.
+    /// Corners of the part; absent for a circle.
     pub corners: Option<Vec<Corner>>,
-    /// Link of the robot that stands still.
+    /// Name of the link, if the part belongs to the robot.
     pub own: Option<String>,
-    /// The number of the link's shape, if it is a collision shape, ...
+    /// Number of the link's shape, if it is a collision shape.
     pub collision: Option<usize>,
-    /// ... or a visual shape.
+    /// Number of the link's shape, if it is a visual shape.
     pub visual: Option<usize>,
-    /// A height in the layer, if the shape has several.
+    /// A height within the intended layer, if the shape has several layers.
     pub height: Option<Decimal>,
 }
 
-/// Configurations in all of which a shape and a part overlap.
+/// A box of configurations. A shape and a part overlap in all of them.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct StuckBox {
-    /// The least value of each joint.
+    /// Least value of each joint.
     pub lower: [Decimal; 2],
-    /// The greatest.
+    /// Greatest value of each joint.
     pub upper: [Decimal; 2],
-    /// Into the shapes.
+    /// Index into the shapes.
     pub shape: usize,
-    /// Into the parts.
+    /// Index into the parts.
     pub part: usize,
 }
 
-/// Boxes as they are.
+/// Converts boxes to rectangles, unchanged.
 ///
 /// # Errors
-/// One that is turned inside out.
+/// If an upper end of a box is below its lower end.
 pub fn rectangles(boxes: &[StuckBox]) -> Result<Vec<Rectangle>, CheckError> {
     let ranges = |stuck: &StuckBox| [0, 1].map(|k| [stuck.lower[k].clone(), stuck.upper[k].clone()]);
     let boxes: Vec<Rectangle> = boxes.iter().map(ranges).collect();

@@ -1,28 +1,29 @@
-//! What a certificate says of a motion.
+//! Certificate content about a motion.
 
 use crate::decimal::Decimal;
 use serde::Deserialize;
 
-/// What is played.
+/// The motion that the robot executes.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Motion {
-    /// The ways in which it can be read: it is free in each.
+    /// Interpolations with which the knots may be read. The motion must be free with each of them.
     pub interpolation: Vec<Interpolation>,
-    /// Time, both joints' values, and as far as an interpolation needs them their velocities and accelerations.
+    /// Time, both joints' values, and their velocities and accelerations as far as an interpolation needs them.
     pub knots: Vec<Vec<Decimal>>,
 }
 
-/// How knots are joined.
+/// Interpolation between knots.
 #[derive(Deserialize, Clone, Copy, PartialEq, PartialOrd)]
 #[serde(rename_all = "snake_case")]
 pub enum Interpolation {
-    /// Straight.
+    /// Straight lines.
     Linear,
-    /// By the cubic with the values and velocities of both.
+    /// Cubic polynomials that match values and velocities at both knots.
     Cubic,
-    /// By the polynomial of the fourth degree with value, velocity and acceleration of the first, value and velocity of the second.
+    /// Polynomials of degree 4 that match value, velocity and acceleration at the first knot, and value and velocity at
+    /// the second.
     Quartic,
-    /// By the polynomial of the fifth degree with the values, velocities and accelerations of both.
+    /// Polynomials of degree 5 that match values, velocities and accelerations at both knots.
     Quintic,
 }

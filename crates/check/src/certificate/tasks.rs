@@ -1,16 +1,16 @@
-//! What a certificate says of tasks.
+//! Certificate content about tasks.
 
 use crate::decimal::Decimal;
 use serde::Deserialize;
 
-/// A step as it is done.
+/// A step with its part of the motion.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Done {
-    /// Its number in the world file, from 1.
+    /// Number in the world file, from 1.
     pub step: usize,
-    /// The first and the last knot of its motion.
+    /// First and last knot of its motion.
     pub knots: [usize; 2],
-    /// By how much the wrist turns what is carried while the arm stands still afterwards, to the left.
+    /// Angle by which the wrist turns the load to the left afterwards, while the arm is at rest.
     pub turn: Option<Decimal>,
 }

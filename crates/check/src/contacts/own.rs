@@ -6,10 +6,10 @@ use crate::certificate::PartName;
 use crate::error::{CheckError, Input};
 use crate::shapes::{Outline, named};
 
-/// Finds the shape of a link that is an obstacle for others, or a layer of it.
+/// Finds the shape of a link that is an obstacle for other links, or one of its layers.
 ///
 /// # Errors
-/// When the name is incomplete, or no such shape counts.
+/// If the name is incomplete, or if no such shape is considered.
 pub fn part(arm: &Arm, name: &PartName) -> Result<Evident, CheckError> {
     let (link, kind, number) = match (&name.own, name.collision, name.visual, &name.corners) {
         (Some(link), Some(number), None, None) => (link, "collision", number),

@@ -1,4 +1,4 @@
-//! How near motions begin and end to where they are to.
+//! Distance between the ends of a motion and the required start or goal.
 
 use super::End;
 use crate::arm::Arm;
@@ -10,14 +10,14 @@ use crate::interval::{BITS, Interval, Point, length, minus};
 use crate::world::Goal;
 use num_bigint::BigInt;
 
-/// By how much a motion may miss its start or goal, radians or metres: `10^-5`.
+/// Maximum error of a motion at its start or goal, radians or metres: `10^-5`.
 const MISSED: u32 = 5;
 
 impl End {
-    /// It in words, with how near to it a motion has its first or last knot.
+    /// Describes the end in words, with the distance of a motion's first or last knot from it.
     ///
     /// # Errors
-    /// If that is too far away.
+    /// If the distance is too large.
     pub fn reached(&self, arm: &Arm, knot: &[Decimal]) -> Result<String, CheckError> {
         let named = self.named(arm);
         let is_it = |k: usize, range: &Range| range.iter().all(|end| *end == knot[1 + k]);
@@ -28,10 +28,10 @@ impl End {
     }
 }
 
-/// By how much an end is missed, in words.
+/// Describes in words by how much a motion misses an end.
 ///
 /// # Errors
-/// If it is too much.
+/// If it misses by too much.
 pub fn missed(what: &str, off: &BigInt) -> Result<String, CheckError> {
     let is_within = |digits: &u32| Interval::from(&Decimal::power_of_ten(*digits)).lower >= *off;
     match (MISSED..50).rev().find(is_within) {
@@ -40,7 +40,7 @@ pub fn missed(what: &str, off: &BigInt) -> Result<String, CheckError> {
     }
 }
 
-/// A bound on how far a place is outside of a rectangle.
+/// Returns an upper bound on the distance of a place from a rectangle.
 fn outside(place: &Point, area: &Point) -> BigInt {
     let zero = Interval::whole(0);
     let beyond = |k: usize| {
@@ -52,7 +52,7 @@ fn outside(place: &Point, area: &Point) -> BigInt {
 }
 
 impl Arm {
-    /// A bound on how far a knot is from where it is to be: joint by joint, or of the tip.
+    /// Returns an upper bound on the distance of a knot from a goal: the greatest joint error, or the error of the tip.
     pub fn away(&self, knot: &[Decimal], goal: &Goal) -> BigInt {
         let at = [&knot[1], &knot[2]];
         match goal {
@@ -68,12 +68,13 @@ impl Arm {
         }
     }
 
-    /// Where the tip is.
+    /// Returns the position of the tip.
     fn tip_at(&self, at: &[&Decimal; 2]) -> Point {
         Chain::from(self).point_at(&On::Link(1), &self.tip.shape.points[0], &at.map(Interval::from))
     }
 
-    /// A bound on how far a value of a joint is from another, whole turns of a joint that turns without end not counted.
+    /// Returns an upper bound on the difference between a joint's value and a target range. Whole turns of a continuous
+    /// joint do not count.
     fn off(&self, joint: usize, is: &Decimal, should: &Range) -> BigInt {
         let apart = &Interval::from(is) - &Interval::around(should);
         if !matches!(self.joints[joint].axis, Axis::Circle) {

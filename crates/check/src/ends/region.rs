@@ -1,4 +1,4 @@
-//! All configurations with which motions may begin or end.
+//! All configurations in which motions may begin or end.
 
 use super::End;
 use crate::arm::{Arm, Motion};
@@ -9,17 +9,17 @@ use crate::interval::{Interval, Point};
 use crate::polygon::Corner;
 use crate::world::Goal;
 
-/// Parts of the domain in which the tip may be at a place, at the most, if it is to be shut off there, ...
+/// Maximum number of parts of the domain in which the tip may be at a position, for proofs that enclose these parts.
 pub const MOST_PARTS: usize = 2000;
 
-/// ... and if it is only to be known where.
+/// Maximum number of parts if only their location must be known.
 pub const FEW_PARTS: usize = 500;
 
 impl End {
-    /// What encloses it, if it is one configuration.
+    /// Returns an enclosure of the end, if it is a single configuration.
     ///
     /// # Errors
-    /// Places of the tip, and values outside of the limits.
+    /// If it is a tip position, or if values are outside the limits.
     pub fn configuration(&self, arm: &Arm) -> Result<Rectangle, CheckError> {
         match &self.at {
             Goal::Joints(values) => arm.configuration(self.what, values),
@@ -33,10 +33,10 @@ impl End {
         }
     }
 
-    /// All configurations that are it.
+    /// Returns all configurations that satisfy the end.
     ///
     /// # Errors
-    /// Values outside of the limits.
+    /// If values are outside the limits.
     pub fn region(&self, arm: &Arm) -> Result<Region, CheckError> {
         match &self.at {
             Goal::Joints(values) => Ok(Region::Configuration(arm.configuration(self.what, values)?)),
@@ -46,18 +46,18 @@ impl End {
     }
 }
 
-/// The configurations that are to be reached.
+/// The configurations to be reached.
 pub enum Region {
-    /// What encloses one.
+    /// Enclosure of one configuration.
     Configuration(Rectangle),
-    /// All that put the tip at a place.
+    /// All configurations that put the tip at a position.
     Tip(Point),
-    /// Any of several.
+    /// The union of several regions.
     Any(Vec<Region>),
 }
 
 impl Region {
-    /// What holds all of it but what is left out.
+    /// Returns rectangles that cover the whole region, except for excluded rectangles.
     pub fn places(&self, arm: &Arm, most: usize, is_left_out: impl Fn(&Rectangle) -> bool) -> Vec<Rectangle> {
         self.places_by(arm, most, &is_left_out)
     }
@@ -72,7 +72,8 @@ impl Region {
 }
 
 impl Arm {
-    /// The places of the tip that a rectangle stands for: all of it, of an arm that turns its middle.
+    /// Returns the tip positions that a rectangle stands for: the whole rectangle if both joints slide, or else its
+    /// centre.
     pub fn area(&self, [a, b]: &[Corner; 2]) -> Point {
         if self.joints.iter().any(|joint| !matches!(joint.motion, Motion::Slide(_))) {
             return [0, 1].map(|k| Interval::from(&Decimal::middle(&a[k], &b[k])));
@@ -83,10 +84,10 @@ impl Arm {
         })
     }
 
-    /// What encloses a configuration.
+    /// Returns an enclosure of a configuration.
     ///
     /// # Errors
-    /// One that is outside of the limits.
+    /// If it is outside the limits.
     pub fn configuration(&self, what: &str, values: &[Range; 2]) -> Result<Rectangle, CheckError> {
         let wrapped = |k: usize| {
             let name = &self.joints[k].name;

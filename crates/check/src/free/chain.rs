@@ -1,4 +1,4 @@
-//! How two joints move what they carry.
+//! Motion of what two joints carry.
 
 use super::Posture;
 use crate::arm::{Arm, Motion};
@@ -6,7 +6,7 @@ use crate::curve::Tube;
 use crate::interval::{Interval, Point, sum};
 use crate::obstacle::Obstacle;
 
-/// A vector that turns with the joints: `R(±(s1 q1 + s2 q2)) (at + slide q)`, of whose angles those count that are named.
+/// A vector that turns with the joints: `R(±(s1 q1 + s2 q2)) (at + slide q)`. `by` selects the angles that count.
 #[derive(Clone)]
 pub(super) struct Term {
     pub(super) by: [bool; 2],
@@ -15,10 +15,10 @@ pub(super) struct Term {
     pub(super) slide: Option<(usize, Point)>,
 }
 
-/// A point by the vectors that add up to it.
+/// A point, as the sum of its vectors.
 pub(super) type Terms = Vec<Term>;
 
-/// How two joints move what they carry.
+/// The motion of what two joints carry.
 #[derive(Clone)]
 pub struct Chain {
     pub(super) motions: [Motion; 2],
@@ -26,12 +26,12 @@ pub struct Chain {
     offset: Point,
 }
 
-/// What a shape hangs on.
+/// Attachment of a shape.
 #[derive(Clone)]
 pub enum On {
-    /// A link, as it is seen from the link's joint.
+    /// A link. Coordinates are relative to the link's joint.
     Link(usize),
-    /// A point of the second link, about which it never turns.
+    /// A point of the second link. The shape follows the point but never turns.
     Level(Point),
 }
 
@@ -39,7 +39,7 @@ fn negative(a: &Point) -> Point {
     [-&a[0], -&a[1]]
 }
 
-/// A vector that does not turn, beside others: added to one of them, if there is one.
+/// Adds a vector that does not turn to a sum of vectors, merging it with an existing one if possible.
 fn shifted(terms: &mut Terms, by: &Point) {
     match terms.iter_mut().find(|term| term.by == [false; 2]) {
         Some(still) => still.at = sum(&still.at, by),
@@ -55,13 +55,13 @@ impl From<&Arm> for Chain {
 }
 
 impl Chain {
-    /// What turns left about a point.
+    /// Makes a chain that turns left about a point.
     pub fn about(point: &Point) -> Self {
         let offset = [0, 0].map(Interval::whole);
         Self { motions: [Motion::Turn(1), Motion::Turn(1)], base: point.clone(), offset }
     }
 
-    /// Where a point of a link is that is at `a` as seen from the link's joint.
+    /// Returns the position of a point that is fixed to a link, given its coordinates `a` relative to the link's joint.
     fn carried(&self, link: usize, a: &Point) -> Terms {
         let mut terms = Terms::new();
         shifted(&mut terms, a);
@@ -72,7 +72,7 @@ impl Chain {
         terms
     }
 
-    /// Where a point of the plane is as seen from the link's joint: the inverse of [`Arm::carried`].
+    /// Returns the coordinates of a point of the plane relative to the link's joint: the inverse of [`Self::carried`].
     pub(super) fn seen(&self, link: usize, p: &Point) -> Terms {
         let mut terms = Terms::new();
         shifted(&mut terms, p);
@@ -83,7 +83,7 @@ impl Chain {
         terms
     }
 
-    /// Moves the sum of vectors by a joint, or back.
+    /// Moves a sum of vectors by a joint, or back.
     fn moved(&self, terms: &mut Terms, joint: usize, back: bool) {
         match &self.motions[joint] {
             Motion::Turn(_) => {
@@ -102,7 +102,7 @@ impl Chain {
         }
     }
 
-    /// How a joint's angle counts: left 1, right -1, a slide 0.
+    /// Returns the sign of a joint's angle: 1 to the left, -1 to the right, 0 for a prismatic joint.
     pub(super) fn sign(&self, joint: usize) -> Interval {
         Interval::whole(match self.motions[joint] {
             Motion::Turn(sign) => sign,
@@ -110,7 +110,7 @@ impl Chain {
         })
     }
 
-    /// Where a point is of what hangs on something.
+    /// Returns the position of a point that is attached to a link or a level point.
     pub(super) fn hanging(&self, on: &On, a: &Point) -> Terms {
         match on {
             On::Link(link) => self.carried(*link, a),
@@ -122,17 +122,17 @@ impl Chain {
         }
     }
 
-    /// The same at a configuration.
+    /// Returns the position of an attached point in a configuration.
     pub fn point_at(&self, on: &On, a: &Point, values: &Point) -> Point {
         self.still(&self.hanging(on, a), values)
     }
 
-    /// What lies in the plane, as it hangs on the second link that takes it at a configuration.
+    /// Converts a placed object to coordinates of the second link, which picks it up in a configuration.
     pub fn hung(&self, lying: &Obstacle, values: &Point) -> Obstacle {
         lying.clone().moved(self.seen_at(&lying.at, values), self.turn(1, &lying.turn, true, values))
     }
 
-    /// What hangs on something, in the plane, at a configuration.
+    /// Converts an attached object to plane coordinates in a configuration.
     pub fn lying(&self, on: &On, hanging: &Obstacle, values: &Point) -> Obstacle {
         let turn = match on {
             On::Level(_) => hanging.turn.clone(),
@@ -141,14 +141,14 @@ impl Chain {
         hanging.clone().moved(self.point_at(on, &hanging.at, values), turn)
     }
 
-    /// Sine and cosine of how what hangs on a link lies, or back.
+    /// Returns the sine and cosine of an object's orientation after a link turned it, or turned it back.
     fn turn(&self, link: usize, [sine, cosine]: &[Interval; 2], back: bool, values: &Point) -> [Interval; 2] {
         let by = [0, 1].map(|joint| joint <= link && matches!(self.motions[joint], Motion::Turn(_)));
         let [x, y] = self.still(&[Term { by, back, at: [cosine.clone(), sine.clone()], slide: None }], values);
         [y, x]
     }
 
-    /// A point of the plane as it is seen from the second link's joint at a configuration.
+    /// Returns the coordinates of a point of the plane relative to the second link's joint in a configuration.
     fn seen_at(&self, p: &Point, values: &Point) -> Point {
         self.still(&self.seen(1, p), values)
     }

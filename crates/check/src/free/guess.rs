@@ -1,6 +1,6 @@
-//! Guesses of a direction that may separate. Whether it does is decided elsewhere.
+//! Guesses of a direction that may separate two shapes. The caller verifies them.
 
-/// The convex hull of points by their numbers, in order (Andrew 1979).
+/// Returns the indices of the points on the convex hull, in order (Andrew 1979).
 pub(super) fn ring(points: &[[f64; 2]]) -> Vec<usize> {
     let turns = |a: usize, b: usize, c: usize| {
         let [p, q, r] = [points[a], points[b], points[c]];
@@ -23,12 +23,14 @@ pub(super) fn ring(points: &[[f64; 2]]) -> Vec<usize> {
     if ring.is_empty() { order } else { ring }
 }
 
-/// From the point of one shape that is nearest to the other, to that one; none unless they are farther apart than that.
+/// Returns the direction from one shape to the nearest point of the other. Returns `None` unless they are farther apart
+/// than `apart`.
 pub(super) fn direction(here: &[[f64; 2]], there: &[[f64; 2]], apart: f64) -> Option<[f64; 2]> {
     let minus = |a: [f64; 2], b: [f64; 2]| [a[0] - b[0], a[1] - b[1]];
     let dot = |a: [f64; 2], b: [f64; 2]| a[0] * b[0] + a[1] * b[1];
-    // From a point to the nearest of a segment. Between its ends that is straight across it: of a way that is far shorter than the segment, computed as
-    // the difference of two places, no digit would be right.
+    // The vector from a point to the nearest point of a segment. Between the ends of the segment, it is perpendicular
+    // to the segment. Computing it as the difference of two positions would lose all digits if the vector is much
+    // shorter than the segment.
     let to_segment = |p: [f64; 2], a: [f64; 2], b: [f64; 2]| {
         let (along, to) = (minus(b, a), minus(a, p));
         let square = dot(along, along);

@@ -13,13 +13,13 @@ pub struct Cell {
 }
 
 impl Cell {
-    /// The configuration in the middle of the box.
+    /// Returns the configuration in the middle of the box.
     #[must_use]
     pub fn center(&self) -> Configuration {
         Configuration::new((self.lower[0] + self.upper[0]) / 2.0, (self.lower[1] + self.upper[1]) / 2.0)
     }
 
-    /// Half of each side, rounded up, so that the box about the centre, which is rounded as well, covers the cell.
+    /// Returns half of each side, rounded up, so that the box about the rounded centre covers the cell.
     #[must_use]
     pub fn half(&self) -> [f64; 2] {
         [0, 1].map(|k| {

@@ -1,23 +1,25 @@
-//! How far link and obstacle can come together while the configuration deviates from a given one.
+//! Bounds on the distance between a link and an obstacle while the configuration deviates from a given one.
 //!
 //! Let `q` deviate from `m` by `d`, let `n` be the direction of least distance at `m`, and let `x(d)` be a corner of
 //! the link. Taylor's formula gives `n . x(d) <= n . x(0) + |n . J d| + K / 2` with `K` a bound on the second
-//! derivative along the way. The link stays on its side of the obstacle's supporting line as long as this is below it
-//! for every corner, which bounds the distance from below: to first order only motion *towards* the obstacle counts.
-//! The same holds in the link's frame, where the obstacle's corners move and the link rests; whichever is the better
-//! bound counts. Both are far better than "no point moves farther than" (Schwarzer, Saha, Latombe 2005) when a link
-//! slides along an obstacle, which shortest paths do; that one is the third bound, and the best one far away.
+//! derivative along the motion. The link stays on its side of the obstacle's supporting line as long as this is below
+//! it for every corner. That bounds the distance from below: to first order, only motion *towards* the obstacle counts.
+//!
+//! The same holds in the link's frame, where the obstacle's corners move and the link rests; the better of the two
+//! bounds counts. Both are far better than "no point moves farther than" (Schwarzer, Saha, Latombe 2005) when a link
+//! slides along an obstacle, as it does on shortest paths. That bound is the third one, and the best one at large
+//! distances.
 
 use crate::model::{Arm, Drift, JointType, Pair, Scene};
 use crate::space::Configuration;
 use cplan_geometry::{Convex, Point, Pose, Separation, Vector, perpendicular, reach, separation_at};
 
-/// Rounding errors of one evaluation stay far below this share of the lengths involved (a few dozen operations at
-/// 1.1e-16 each); bounds are weakened by it, so that they hold in floating point too.
+/// Share of the lengths involved that bounds the rounding of one evaluation (a few dozen operations at 1.1e-16 each).
+/// Bounds are weakened by it, so that they hold in floating point too.
 const ROUNDING: f64 = 1e-13;
 
-/// The same where shapes are to be stuck: more than the independent check demands ([`super::Disconnection::checked`], 1e-12), so that it
-/// accepts what is claimed.
+/// Share of the lengths for proofs that shapes collide. It is larger than the tolerance of the independent check
+/// ([`super::Disconnection::checked`], 1e-12), so that the check accepts these proofs.
 pub const STUCK_ROUNDING: f64 = 2e-12;
 
 /// A set of deviations from a configuration, symmetric about it.
@@ -27,12 +29,12 @@ pub enum Deviation {
     Along(Configuration),
     /// A box: `|d_1| <= h_1` and `|d_2| <= h_2`.
     Box([f64; 2]),
-    /// The sum of both: a motion that is straight up to a box about each of its points, as a curve about its chord is.
+    /// The sum of both: a straight motion with a box about each of its points, such as a curve about its chord.
     Tube(Configuration, [f64; 2]),
 }
 
 impl Deviation {
-    /// The greatest `|g_1 d_1 + g_2 d_2|`.
+    /// Returns the greatest `|g_1 d_1 + g_2 d_2|`.
     fn linear(self, g: [f64; 2]) -> f64 {
         match self {
             Deviation::Along(d) => (g[0] * d[0] + g[1] * d[1]).abs(),
@@ -41,7 +43,7 @@ impl Deviation {
         }
     }
 
-    /// The greatest `|g_1 d_1 + g_2 d_2 - t c|`, where `t` is the share of the straight motion that has been gone.
+    /// Returns the greatest `|g_1 d_1 + g_2 d_2 - t c|`, where `t` is the share of the straight motion that is done.
     fn linear_less(self, g: [f64; 2], c: f64) -> f64 {
         match self {
             Deviation::Along(d) => (g[0] * d[0] + g[1] * d[1] - c).abs(),
@@ -50,7 +52,7 @@ impl Deviation {
         }
     }
 
-    /// The greatest `|d_1|` and `|d_2|`.
+    /// Returns the greatest `|d_1|` and `|d_2|`.
     fn each(self) -> [f64; 2] {
         match self {
             Deviation::Along(d) => [d[0].abs(), d[1].abs()],
@@ -66,11 +68,11 @@ pub struct Posture<'a> {
     scene: &'a Scene,
     q: Configuration,
     poses: [Pose; 3],
-    /// Where joint 2 is, here and with joint 1 at zero.
+    /// Positions of joint 2, here and with joint 1 at zero.
     elbows: [Point; 2],
 }
 
-/// A pair at a posture: its distance there, and the least it can come to.
+/// A pair at a posture: its distance there, and a lower bound on it nearby.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bounded {
     /// Signed distance at the posture.
@@ -79,14 +81,14 @@ pub struct Bounded {
     pub least: f64,
 }
 
-/// The shapes of a pair, and what the obstacle's does while the configuration deviates, if it moves: at the deviation `t d` it is where it is
-/// `t` half spans from the middle of the drift.
+/// The shapes of a pair, and the obstacle's motion while the configuration deviates, if it moves. At the deviation `t
+/// d` the obstacle is where it is `t` half spans from the middle of the drift.
 #[derive(Clone, Copy)]
 struct Shapes<'s> {
     link: usize,
-    /// The link's, in its frame.
+    /// The link's shape, in its frame.
     local: &'s Convex,
-    /// The obstacle's, in the plane; where it is in the middle.
+    /// The obstacle's shape, in the plane, at its place in the middle of the drift.
     piece: &'s Convex,
     drift: Option<&'s Drift>,
 }
@@ -94,25 +96,25 @@ struct Shapes<'s> {
 /// A bound on the second derivative of the motion of points, per squared parameter of the deviation.
 #[derive(Debug, Clone, Copy)]
 pub struct Curvature {
-    /// It grows with the distance from here, ...
+    /// The bound grows with the distance from here, ...
     center: Point,
     /// ... and this, ...
     shift: f64,
     /// ... times the square of this, ...
     factor: f64,
-    /// ... from this.
+    /// ... plus this.
     constant: f64,
 }
 
 impl Curvature {
-    /// That of a point.
+    /// Returns the bound for a point.
     pub fn of(&self, p: Point) -> f64 {
         ((p - self.center).norm() + self.shift) * self.factor * self.factor + self.constant
     }
 }
 
 impl<'a> Posture<'a> {
-    /// The arm of `scene` at `q`.
+    /// Returns the arm of `scene` at `q`.
     #[must_use]
     pub fn new(scene: &'a Scene, q: Configuration) -> Self {
         let poses = scene.arm().pair_poses(q);
@@ -121,33 +123,34 @@ impl<'a> Posture<'a> {
         Self { scene, q, poses, elbows: [poses[0] * offset, at_zero] }
     }
 
-    /// The configuration.
+    /// Returns the configuration.
     pub fn configuration(&self) -> Configuration {
         self.q
     }
 
-    /// Where a link is.
+    /// Returns the pose of a link.
     pub fn pose(&self, link: usize) -> Pose {
         self.poses[link]
     }
 
-    /// Distance of a pair here.
+    /// Returns the distance of a pair here.
     pub fn here(&self, pair: Pair) -> Separation {
         separation_at(self.scene.part(pair), &self.poses[pair.link], self.scene.piece(pair), |_, here| here)
     }
 
-    /// Distance of a pair here and a lower bound on it over `deviation`.
+    /// Returns the distance of a pair here and a lower bound on it over `deviation`.
     #[must_use]
     pub fn bound(&self, pair: Pair, deviation: Deviation) -> Bounded {
         self.bound_up_to(pair, deviation, |_| f64::INFINITY)
     }
 
-    /// The same, but for the trouble of a better bound than one that is enough for the distance here.
+    /// Returns the same as [`Posture::bound`], but stops as soon as the bound is good enough for the distance here.
     pub fn bound_up_to(&self, pair: Pair, deviation: Deviation, enough: impl Fn(f64) -> f64) -> Bounded {
         self.least(self.shapes(pair), deviation, enough)
     }
 
-    /// [`Posture::bound_up_to`] with something that moves: the posture is that in the middle of a span of time, the deviation what the arm does in it.
+    /// Returns the same as [`Posture::bound_up_to`] for a moving obstacle. The posture is that in the middle of a span
+    /// of time, and the deviation is the arm's motion in that span.
     pub fn bound_moving(
         &self,
         pair: Pair,
@@ -160,7 +163,7 @@ impl<'a> Posture<'a> {
         self.least(Shapes { piece: &piece, drift: Some(drift), ..standing }, deviation, enough)
     }
 
-    /// [`Posture::apart`] from something that moves.
+    /// Same as [`Posture::apart`] for a moving obstacle.
     pub fn apart_moving(&self, pair: Pair, deviation: Deviation, drift: &Drift) -> f64 {
         let (center, around) = disc(self.scene.piece(pair));
         let drifts = drift.farthest(center.coords.norm() + around);
@@ -190,8 +193,8 @@ impl<'a> Posture<'a> {
         })
     }
 
-    /// A lower bound on the distance of a pair over `deviation` from discs around the shapes: far below
-    /// [`Posture::bound`]'s where shapes are near each other, and a small part of its cost.
+    /// Returns a lower bound on the distance of a pair over `deviation` from discs around the shapes. It is far below
+    /// [`Posture::bound`]'s where shapes are near each other, at a small part of its cost.
     pub fn apart(&self, pair: Pair, deviation: Deviation) -> f64 {
         let (fixed, around) = disc(self.scene.piece(pair));
         self.apart_from(pair, deviation, fixed, around)
@@ -204,15 +207,16 @@ impl<'a> Posture<'a> {
         between - extent - around - ROUNDING * scale
     }
 
-    /// A disc that holds the part of a pair over `deviation`.
+    /// Returns a disc that holds the part of a pair over `deviation`.
     pub fn place(&self, pair: Pair, deviation: Deviation) -> (Point, f64) {
         let (center, extent) = disc(self.scene.part(pair));
         (self.poses[pair.link] * center, extent + self.farthest_motion(pair, deviation))
     }
 
-    /// An upper bound on the signed distance of a pair over `deviation`: negative means stuck everywhere in it.
+    /// Returns an upper bound on the signed distance of a pair over `deviation`: if it is negative, the pair collides
+    /// everywhere in it.
     ///
-    /// Were the shapes separate at some deviation, a separating line there, moved back by the farthest motion of a
+    /// If the shapes were separate at some deviation, a separating line there, moved back by the farthest motion of a
     /// point, would bound the depth here by that motion.
     #[must_use]
     pub fn greatest(&self, pair: Pair, deviation: Deviation) -> f64 {
@@ -223,13 +227,14 @@ impl<'a> Posture<'a> {
         })
     }
 
-    /// Magnitude of the coordinates that enter a distance.
+    /// Returns the magnitude of the coordinates that enter a distance.
     pub fn scale(&self, corners: &[Point], radius: f64, piece: &Convex) -> f64 {
         let base = self.scene.arm().base;
         base.coords.norm() + reach(corners, base) + radius.max(0.0) + piece.reach_from(base)
     }
 
-    /// Bound with the separating direction fixed in the plane: the link's corners move, and those of an obstacle that does.
+    /// Returns a bound with the separating direction fixed in the plane: the link's corners move, and those of a moving
+    /// obstacle.
     fn least_in_plane(&self, shapes: Shapes, corners: &[Point], n: Vector, deviation: Deviation) -> f64 {
         let Shapes { link, local, piece, drift } = shapes;
         let curvature = self.curvature_in_plane(link, deviation);
@@ -243,7 +248,7 @@ impl<'a> Posture<'a> {
             }
             return least;
         };
-        // Both move by the same share of the span: what they do together does not count.
+        // Both move by the same share of the span, so motion that they have in common does not count.
         let mut least = f64::INFINITY;
         for (x, a) in corners.iter().zip(local.core()) {
             let rates = self.rates(link, *x, n);
@@ -255,8 +260,8 @@ impl<'a> Posture<'a> {
         least
     }
 
-    /// Bound with the separating direction fixed in the link: the obstacle's corners move, with the opposite of the
-    /// velocity that a point of the link has in their place.
+    /// Returns a bound with the separating direction fixed in the link. The obstacle's corners move, with the opposite
+    /// of the velocity that a point of the link has at their place.
     fn least_in_link(&self, shapes: Shapes, corners: &[Point], n: Vector, deviation: Deviation) -> f64 {
         let Shapes { link, piece, .. } = shapes;
         let line = corners.iter().map(|p| n.dot(&p.coords)).fold(f64::NEG_INFINITY, f64::max);
@@ -270,7 +275,7 @@ impl<'a> Posture<'a> {
         least
     }
 
-    /// Rate along `n`, for each joint, of the point of link `link` that is at `x` now.
+    /// Returns the rate along `n`, for each joint, of the point of link `link` that is at `x` now.
     fn rates(&self, link: usize, x: Point, n: Vector) -> [f64; 2] {
         let arm = self.scene.arm();
         let first = match arm.joints[0].joint_type {
@@ -287,7 +292,7 @@ impl<'a> Posture<'a> {
         [first, second]
     }
 
-    /// Of points of the link (link frame) in the plane.
+    /// Returns the curvature of points of the link (link frame) in the plane.
     pub fn curvature_in_plane(&self, link: usize, deviation: Deviation) -> Curvature {
         use JointType::{Prismatic, Revolute};
         let arm = self.scene.arm();
@@ -309,7 +314,7 @@ impl<'a> Posture<'a> {
         }
     }
 
-    /// Of points of the plane, as seen from the link.
+    /// Returns the curvature of points of the plane, as seen from the link.
     pub fn curvature_in_link(&self, link: usize, deviation: Deviation) -> Curvature {
         use JointType::{Prismatic, Revolute};
         let arm = self.scene.arm();
@@ -331,7 +336,7 @@ impl<'a> Posture<'a> {
         }
     }
 
-    /// Bound on how far any point of the pair's link part moves.
+    /// Returns a bound on the motion of any point of the pair's link part.
     pub fn farthest_motion(&self, pair: Pair, deviation: Deviation) -> f64 {
         self.farthest_motion_of(pair.link, self.scene.part(pair), deviation)
     }
@@ -360,7 +365,7 @@ impl<'a> Posture<'a> {
     }
 }
 
-/// A disc around a shape.
+/// Returns a disc around a shape.
 fn disc(shape: &Convex) -> (Point, f64) {
     let core = shape.core();
     let center = Point::from(core.iter().map(|p| p.coords).sum::<Vector>() / core.len() as f64);
@@ -368,7 +373,7 @@ fn disc(shape: &Convex) -> (Point, f64) {
     (center, extent2.sqrt() + shape.radius())
 }
 
-/// Greatest turn of link 2 against the plane when both joints turn.
+/// Returns the greatest turn of link 2 against the plane when both joints turn.
 fn turn_of_link_2(arm: &Arm, deviation: Deviation) -> f64 {
     let sign = |k: usize| match arm.joints[k].joint_type {
         JointType::Revolute { sign } => sign,

@@ -1,4 +1,4 @@
-//! The judge: continuous collision checks of planned motions, and of proofs that there is none.
+//! The judge: continuous collision checks of planned motions, and of proofs that there is no path.
 //!
 //! It works on the scene's exact outlines and knows neither planners nor C-obstacles, so that a fault of a planner or of the search
 //! for proofs cannot hide here.
@@ -6,8 +6,8 @@
 //! - [`certify`] judges a path by bisection: [`Deviation`] bounds how much closer two shapes can come along a segment. Only `certify`
 //!   makes a [`CertifiedPath`].
 //! - [`CurveSearch`] does the same for any curve whose parts somebody bounds: the crate `motion` judges rounded corners with it.
-//! - [`Disconnection::checked`] judges a proof that there is no path. It joins what the collision boxes leave by petgraph's
-//!   union-find.
+//! - [`Disconnection::checked`] judges a proof that there is no path. It joins the gaps between the collision boxes by
+//!   petgraph's union-find.
 //!
 //! ```
 //! use cplan_core::check::{Rejection, certify};

@@ -6,27 +6,27 @@ use crate::model::{Contact, Pair, Scene};
 use crate::space::{Configuration, Path};
 use cplan_interrupt::checkpoint;
 
-/// The proven clearance is at least this share of the true one: below it, pieces of the path are looked at again in
-/// halves. Nearer to 1 costs more evaluations, a few more for every halving of the gap.
+/// The proven clearance is at least this share of the true one. Below it, pieces of the path are halved and bounded
+/// again. A value nearer to 1 costs more evaluations, a few more for every halving of the gap.
 const TIGHTNESS: f64 = 0.9;
 
-/// Looks at pairs and pieces of a path before giving up: some seconds' worth, ...
+/// Greatest number of checks of a pair and a piece of a path: some seconds' worth, ...
 const MAX_EVALUATIONS: usize = 5_000_000;
-/// ... and some for each straight piece: paths through mazes have hundreds of thousands.
+/// ... plus some for each straight piece, since paths through mazes have hundreds of thousands.
 const EVALUATIONS_PER_PIECE: usize = 500;
 
 /// Rounding of a configuration on a segment, relative to the larger of its ends: three operations. It matters where joints on
 /// circles are many turns from zero, where doubles lie far apart.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
-/// Parts of a curve whose postures all pairs share: its halves' halves' halves, and the three before.
+/// Number of parts of a curve whose postures all pairs share: four levels of halves.
 const SHARED: usize = 16;
 
 /// Rounding of a place where two paths join, relative to its size.
 const JOINED: f64 = 1e-9;
 
-/// A pair that keeps more than so many times the least distance seen is not looked at: the clearance proven is that of a
-/// nearer one. Above the inverse of [`TIGHTNESS`], with room for rounding.
+/// Pairs at more than this multiple of the least distance seen are not checked, because the proven clearance is that of
+/// a nearer pair. Larger than the inverse of [`TIGHTNESS`], with room for rounding.
 const BEYOND: f64 = 2.0;
 
 /// A path whose whole continuous motion is proven to be within the joint limits and to keep its clearance. Only
@@ -38,29 +38,30 @@ pub struct CertifiedPath {
     nearest: Option<Nearest>,
 }
 
-/// Where a path comes nearest to an obstacle, as far as was looked.
+/// The place where a path comes nearest to an obstacle, as far as the search looked.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Nearest {
-    /// The configuration at which it comes so near.
+    /// The configuration of the nearest approach.
     pub at: Configuration,
     /// The shapes and their distance there, an upper bound on the true clearance.
     pub contact: Contact,
 }
 
 impl CertifiedPath {
-    /// The path that was shown to be free.
+    /// Returns the path that was shown to be free.
     #[must_use]
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// The same with a lower clearance, if this is lower, and with another place as the nearest: of a motion that leaves the path.
+    /// Returns the path with a lower clearance, if this is lower, and another nearest place. For motions that leave the
+    /// path.
     #[must_use]
     pub fn within(self, clearance: f64, nearest: Option<Nearest>) -> Self {
         Self { clearance: self.clearance.min(clearance), nearest, ..self }
     }
 
-    /// Followed by another path that begins where this ends. The clearance is the lower one of both.
+    /// Returns this path followed by another one that begins where this ends. The clearance is the lower one of both.
     ///
     /// # Panics
     /// If the other path begins elsewhere, by more than rounding.
@@ -75,22 +76,23 @@ impl CertifiedPath {
         Self { path: Path::new(waypoints), clearance: self.clearance.min(next.clearance), nearest }
     }
 
-    /// The part between two distances along it, backwards if the first is the greater: part of what is certified is, and a way back as well as the
-    /// way there. Its clearance is at least that of the whole, which is what is told of it.
+    /// Returns the part between two distances along the path, backwards if the first is the greater. A part of a
+    /// certified path is certified, and so is its reverse. The reported clearance is that of the whole path, and the
+    /// part keeps at least that.
     #[must_use]
     pub fn part(&self, from: f64, to: f64) -> Self {
         Self { path: self.path.part(from, to), ..self.clone() }
     }
 
-    /// Proven lower bound on the distance between arm and obstacles along the whole motion, metres; infinite if
-    /// nothing can meet. Positive, at least the clearance asked for, and at least 0.9 of the true value unless the
-    /// clearance asked for is nearer to it.
+    /// Returns the proven lower bound on the distance between arm and obstacles along the whole motion, metres;
+    /// infinite if nothing can meet. It is positive and at least the required clearance. It is at least 0.9 of the true
+    /// value unless the required clearance is nearer to that.
     #[must_use]
     pub fn clearance(&self) -> f64 {
         self.clearance
     }
 
-    /// Where it comes nearest; none if nothing can meet.
+    /// Returns the place where the path comes nearest to an obstacle; `None` if nothing can meet.
     #[must_use]
     pub fn nearest(&self) -> Option<Nearest> {
         self.nearest
@@ -107,18 +109,18 @@ pub enum Rejection {
         /// 0 or 1.
         joint: usize,
     },
-    /// At this configuration on the path the shapes touch, overlap, or are nearer than the clearance to keep.
+    /// The shapes touch, overlap, or are nearer than the clearance to keep, at this configuration on the path.
     TooClose(Nearest),
-    /// The search ran out here: nearer to the clearance to keep than can be told apart.
+    /// The search ran out here: the distance is too near to the clearance to keep to decide which is larger.
     Undecided(Nearest),
 }
 
 /// Checks the whole motion along `path`, straight in joint space between waypoints: limits, and a distance of more
 /// than zero and at least `clearance` metres between every pair that can meet.
 ///
-/// For every pair and segment the lower bound of [`Posture::bound`] about the middle decides, else both halves are
-/// looked at. Ends because a motion that keeps more than the clearance does so by a positive amount; the number of
-/// halvings grows like the square root of its inverse.
+/// For every pair and segment the lower bound of [`Posture::bound`] about the middle decides; otherwise both halves are
+/// checked. The search ends because a motion that keeps more than the clearance exceeds it by a positive amount; the
+/// number of halvings grows like the square root of its inverse.
 ///
 /// # Errors
 /// [`Rejection`]; `TooClose` is a proof that the path fails, the others are not.
@@ -136,14 +138,14 @@ pub fn certify(scene: &Scene, path: Path, clearance: f64) -> Result<CertifiedPat
         let posture = Posture::new(scene, q);
         let here = Deviation::Box([0.0, 0.0]);
         vicinity.near(&posture, here, search.seen(), |pair| {
-            // What is farther off than the nearest so far is of no interest.
+            // Pairs farther off than the nearest so far are of no interest.
             if posture.apart(pair, here) < search.seen() {
                 search.see(q, Contact { pair, separation: posture.here(pair) })?;
             }
             Ok(())
         })?;
     }
-    // A path that stays where it is has no segment, yet a clearance.
+    // A path that does not move has no segment, but still a clearance.
     let rest = path.waypoints().len() == 1;
     for (from, to) in path.segments().chain(rest.then(|| (path.start(), path.start()))) {
         search.segment(&vicinity, from, to)?;
@@ -151,8 +153,8 @@ pub fn certify(scene: &Scene, path: Path, clearance: f64) -> Result<CertifiedPat
     Ok(CertifiedPath { path, clearance: search.proven, nearest: search.nearest })
 }
 
-/// Many straight motions in one scene, of each of which it is only asked whether it keeps the clearance: a small part of what [`certify`]
-/// costs, since nobody asks how much more it keeps.
+/// A check of many straight motions in one scene. For each it only decides whether the motion keeps the clearance, not
+/// how much more it keeps. That is a small part of the cost of [`certify`].
 pub struct StraightMotions<'a> {
     scene: &'a Scene,
     vicinity: Vicinity<'a>,
@@ -160,13 +162,14 @@ pub struct StraightMotions<'a> {
 }
 
 impl<'a> StraightMotions<'a> {
-    /// Those that keep more than zero and at least `clearance` metres. `O(n log n)` in the pairs that can meet.
+    /// Creates a check for motions that keep more than zero and at least `clearance` metres. `O(n log n)` in the pairs
+    /// that can meet.
     #[must_use]
     pub fn new(scene: &'a Scene, clearance: f64) -> Self {
         Self { scene, vicinity: Vicinity::new(scene), clearance }
     }
 
-    /// Whether a motion is shown to be free, within the joint limits.
+    /// Returns true if a motion is shown to be free, within the joint limits.
     #[must_use]
     pub fn is_free(&self, from: Configuration, to: Configuration) -> bool {
         let topology = self.scene.arm().topology();
@@ -178,27 +181,27 @@ impl<'a> StraightMotions<'a> {
     }
 }
 
-/// The part of a segment that is so many shares of it to either side of a place, and what rounding makes of that place.
+/// Returns the part of a segment within the share `half` on either side of a place, plus the rounding of that place.
 fn part_of(from: Configuration, to: Configuration, half: f64) -> Deviation {
     let rounded = [0, 1].map(|k| ROUNDING * from[k].abs().max(to[k].abs()));
     Deviation::Tube((to - from) * half, rounded)
 }
 
-/// Judges the pieces of a motion one after the other, along whatever curves.
+/// Judges the pieces of a motion one after the other, along any curves.
 #[derive(Debug, Clone)]
 pub struct CurveSearch<'a> {
     scene: &'a Scene,
     required: f64,
     /// A bound is accepted if it is at least this share of the least distance seen.
     tightness: f64,
-    /// Least of the bounds that were accepted.
+    /// Least of the accepted bounds.
     proven: f64,
     /// Least distance seen.
     nearest: Option<Nearest>,
-    /// Looks that are left.
+    /// Number of remaining checks.
     budget: usize,
-    /// Parts of a curve as (number, middle, half width) of the parameter, the first one on top. The whole has number 1, the halves of `n` have
-    /// `2 n` and `2 n + 1`.
+    /// Parts of a curve as (number, middle, half width) of the parameter, the next one last. The whole has number 1,
+    /// the halves of `n` have `2 n` and `2 n + 1`.
     open: Vec<(usize, f64, f64)>,
 }
 
@@ -207,25 +210,26 @@ impl<'a> CurveSearch<'a> {
         Self { scene, required, tightness: TIGHTNESS, proven: f64::INFINITY, nearest: None, budget, open: Vec::new() }
     }
 
-    /// A search that asks only whether the distance `required` is kept, not how much more, within `budget` looks at pairs.
+    /// Returns a search that only decides if the distance `required` is kept, not how much more, with at most `budget`
+    /// checks of pairs.
     #[must_use]
     pub fn deciding(scene: &'a Scene, required: f64, budget: usize) -> Self {
         Self { tightness: 0.0, ..Self::new(scene, required, budget) }
     }
 
-    /// A search that goes on from what is known of a path, and finds the clearance of both.
+    /// Returns a search that continues from the known clearance of a path, and finds the clearance of both.
     #[must_use]
     pub fn beside(known: &CertifiedPath, scene: &'a Scene, required: f64, budget: usize) -> Self {
         Self { proven: known.clearance, nearest: known.nearest, ..Self::new(scene, required, budget) }
     }
 
-    /// Returns the clearance that is proven for all pieces so far, and where they come nearest.
+    /// Returns the proven clearance of all pieces so far, and the place where they come nearest to an obstacle.
     #[must_use]
     pub fn found(&self) -> (f64, Option<Nearest>) {
         (self.proven, self.nearest)
     }
 
-    /// Takes note of a distance on the path.
+    /// Records a distance on the path.
     fn see(&mut self, at: Configuration, contact: Contact) -> Result<(), Rejection> {
         let distance = contact.separation.distance;
         if self.nearest.is_none_or(|n| distance < n.contact.separation.distance) {
@@ -237,12 +241,12 @@ impl<'a> CurveSearch<'a> {
         Ok(())
     }
 
-    /// Least distance seen.
+    /// Returns the least distance seen.
     fn seen(&self) -> f64 {
         self.nearest.map_or(f64::INFINITY, |n| n.contact.separation.distance)
     }
 
-    /// What a bound has to reach to be accepted, once this distance is seen, too.
+    /// Returns the value that a bound must reach to be accepted, once this distance is seen, too.
     fn target(&self, distance: f64) -> f64 {
         if self.tightness > 0.0 {
             (self.tightness * self.seen().min(distance)).max(self.required)
@@ -251,7 +255,7 @@ impl<'a> CurveSearch<'a> {
         }
     }
 
-    /// Pairs that keep more than this need no look.
+    /// Returns the distance beyond which pairs need no check.
     fn matters(&self) -> f64 {
         if self.tightness > 0.0 { BEYOND * self.target(f64::INFINITY) } else { self.required }
     }
@@ -260,11 +264,11 @@ impl<'a> CurveSearch<'a> {
         self.curve(vicinity, |middle, half| (from + (to - from) * middle, part_of(from, to, half)))
     }
 
-    /// Judges a curve. Its parameter goes from 0 to 1; `part` takes a middle and a half width of the parameter, and returns the configuration
-    /// there and the deviations from it that hold all of that part.
+    /// Judges a curve. Its parameter goes from 0 to 1. `part` takes a middle and a half width of the parameter, and
+    /// returns the configuration there and the deviations from it that hold all of that part.
     ///
     /// # Errors
-    /// [`Rejection`]: where the curve does not keep the distance required, or is not shown to.
+    /// [`Rejection`], if the curve does not keep the required distance, or is not shown to keep it.
     pub fn curve(
         &mut self,
         vicinity: &Vicinity,
@@ -280,7 +284,7 @@ impl<'a> CurveSearch<'a> {
         vicinity.near(&whole.0, whole.1, self.matters(), |pair| self.pair(pair, &whole, &mut shared, posed))
     }
 
-    /// One pair along a curve. Its first parts' postures are those of other pairs, too.
+    /// Judges one pair along a curve. The postures of its first parts are shared with other pairs.
     fn pair(
         &mut self,
         pair: Pair,

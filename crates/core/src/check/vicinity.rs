@@ -1,11 +1,11 @@
-//! Which obstacles are near a part of the arm at all.
+//! Finds the obstacles that are near a part of the arm.
 
 use super::deviation::{Deviation, Posture};
 use crate::model::{Pair, Scene};
 use cplan_geometry::{BoxTree, Vector};
 use std::borrow::Cow;
 
-/// The pairs of a scene, by the place of the obstacle's piece.
+/// The pairs of a scene, indexed by the place of the obstacle's piece.
 pub struct Vicinity<'a> {
     pairs: Cow<'a, [Pair]>,
     /// Stretches of pairs with the same part, and the boxes of their pieces.
@@ -13,12 +13,12 @@ pub struct Vicinity<'a> {
 }
 
 impl<'a> Vicinity<'a> {
-    /// All of them. `O(n log n)`.
+    /// Creates an index of all pairs. `O(n log n)`.
     pub fn new(scene: &'a Scene) -> Self {
         Self::of(scene, Cow::Borrowed(scene.pairs()))
     }
 
-    /// Some of them, in their order.
+    /// Creates an index of some pairs, in their order.
     pub fn of(scene: &Scene, pairs: Cow<'a, [Pair]>) -> Self {
         let mut from = 0;
         let stretches = pairs.chunk_by(|a, b| (a.link, a.part) == (b.link, b.part)).map(|stretch| {
@@ -31,7 +31,7 @@ impl<'a> Vicinity<'a> {
     }
 
     /// Calls `f` with pairs in their order: all that come within `distance` of each other while the configuration
-    /// deviates from the posture, and some others. Ends with the first error.
+    /// deviates from the posture, and possibly some others. Ends with the first error.
     pub fn near<E>(
         &self,
         posture: &Posture,

@@ -1,4 +1,4 @@
-//! Shapes with fewer corners around shapes with many: no configuration space shows more than its margin.
+//! Simpler shapes around shapes with many corners, since no configuration space shows more detail than its margin.
 
 use super::covering::covering;
 use crate::model::{Obstacle, Scene, Shape};
@@ -11,7 +11,7 @@ const PLAIN: usize = 16;
 /// An obstacle of more pieces, however its outline is simplified, is covered by polygons made of small cells, if these are fewer.
 const MANY: usize = 512;
 
-/// A polygon whose coarse outline crosses itself is tried again so many times, each with a quarter of the tolerance.
+/// Number of attempts to simplify a polygon whose coarse outline crosses itself, each with a quarter of the tolerance.
 const ATTEMPTS: usize = 3;
 
 /// Share of the tolerance for the corners of polygons made of cells.

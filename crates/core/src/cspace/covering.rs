@@ -1,4 +1,4 @@
-//! Many small pieces covered by few: cells of a lattice that they meet, joined to convex polygons.
+//! Covers many small pieces by few polygons: joined cells of a lattice that the pieces meet.
 
 use cplan_geometry::{Convex, Point, farthest, hull};
 use cplan_interrupt::checkpoint;
@@ -73,7 +73,7 @@ impl Lattice {
     /// Returns for each row the runs of cells that pieces meet: disjoint, not adjacent, ascending.
     fn runs(&self, pieces: &[Convex]) -> Vec<Vec<Run>> {
         let mut rows = vec![Vec::new(); self.rows];
-        // When a row has so many runs they are merged, so that they never take much more memory than they are worth.
+        // Rows with this many runs are merged, to limit the memory.
         let mut full = vec![64; self.rows];
         for piece in pieces {
             checkpoint();

@@ -15,7 +15,7 @@ use std::f64::consts::{PI, TAU};
 /// off the rest, which allows fewer corners.
 const KEPT: f64 = 0.25;
 
-/// Shapes with many corners may be coarser than they are by so many times the margin that contours keep of it.
+/// Greatest simplification of shapes with many corners, as a multiple of the margin that contours keep.
 const COARSENESS: f64 = 2.0;
 
 /// Overlap of bands across the seam of a turn, relative to the distance they are grown by: far above the rounding of the
@@ -85,7 +85,7 @@ pub struct CObstacle {
 pub struct Regions {
     /// Topology of the configuration space.
     pub topology: Topology,
-    /// What free and blocked regions prove.
+    /// The fact that free and blocked regions prove.
     pub proves: Proves,
     /// Lower and upper value of each axis.
     pub window: [(f64, f64); 2],
@@ -261,8 +261,8 @@ fn coarsened(scene: &Scene, margin: f64, tolerance: f64) -> Cow<'_, Scene> {
     coarse(scene, COARSENESS * margin, scene.workspace().clearance + margin + 4.0 * tolerance)
 }
 
-/// Returns how many pairs of shapes [`regions`] traces with that `margin`: a greater margin makes shapes with many
-/// corners coarser.
+/// Returns the number of pairs of shapes that [`regions`] traces with that `margin`: a greater margin makes shapes with
+/// many corners coarser.
 #[must_use]
 pub fn traced_pairs(scene: &Scene, margin: f64) -> usize {
     coarsened(scene, KEPT * margin, (1.0 - KEPT) * margin).pairs().len()

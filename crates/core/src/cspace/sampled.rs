@@ -1,5 +1,5 @@
-//! The grid by collision tests: parry2d's verdict at every centre. Slow, and an oracle that shares no code with slices; for field
-//! planners the space that others plan in. All that speaks parry2d's language is here.
+//! The grid by collision tests: parry2d's verdict at every centre. Slow. It is an oracle that shares no code with
+//! slices, and a space for field planners to compare with. All code that uses parry2d is here.
 
 use super::{Grid, Proves};
 use crate::model::Scene;
@@ -36,7 +36,7 @@ pub fn sampled_grid(scene: &Scene, cells: [usize; 2], clearance: f64) -> Grid {
     grid
 }
 
-/// A shape of parry2d and where it lies in its link's (or the plane's) frame.
+/// A shape of parry2d and its pose in its link's (or the plane's) frame.
 struct Solid {
     shape: Box<dyn Shape>,
     local: Pose,

@@ -1,4 +1,4 @@
-//! Grids from slices: no collision test a cell.
+//! Grids from slices, without a collision test per cell.
 
 use super::coarse::coarse;
 use super::{Grid, Proves};

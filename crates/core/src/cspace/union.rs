@@ -81,8 +81,8 @@ const GROUPS: usize = 4;
 /// If a union keeps more than this share of the corners, the outlines hardly overlap, and the last union suffices.
 const WORTH: f64 = 0.75;
 
-/// Corners are snapped to others within 256 steps of the grid, some 3e-15 of the coordinates' range, and four times as far in each round that has to
-/// follow: from less, or more slowly, sides that all but lie on each other are split in their thousands.
+/// Corners are snapped to others within 256 steps of the grid, some 3e-15 of the coordinates' range, and four times as
+/// far in each further round. With a smaller or slower growth, sides that almost coincide are split thousands of times.
 const SNAPPING: Precision = Precision { start: 16, progression: 4 };
 
 type Overlay = FloatOverlay<[f64; 2], i64>;
@@ -94,9 +94,9 @@ fn overlay(subject: &[[f64; 2]], clip: &[Vec<[f64; 2]>]) -> Overlay {
     Overlay::from_subj_and_clip_custom(subject, clip, OverlayOptions::ogc(), solver)
 }
 
-/// Contours with the same union, in which fewer cross: those of small neighbouring pieces overlap almost wholly, each with
-/// each, and of a group of them little more than the outline is left, of groups of groups again. So what crosses is as much as
-/// the outlines have corners, and not the square of the contours.
+/// Returns contours with the same union, of which fewer cross. Contours of small neighbouring pieces overlap almost
+/// completely, so the union of a group is little more than its outline, and likewise for groups of groups. Then the
+/// number of crossings is like the number of corners of the outlines, not the square of the number of contours.
 fn united_by_neighbors(contours: Contours) -> Contours {
     let middle = |contour: &[[f64; 2]], k: usize| {
         let (low, high) =

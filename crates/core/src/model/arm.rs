@@ -37,11 +37,11 @@ pub struct Arm {
     pub name: String,
     /// Base to tip.
     pub joints: [Joint; 2],
-    /// What each joint carries.
+    /// The link that each joint carries.
     pub links: [Link; 2],
     /// Joint 1 in plane coordinates.
     pub base: Point,
-    /// From joint 1 to joint 2 in link 1's frame.
+    /// Vector from joint 1 to joint 2 in link 1's frame.
     pub offset: Vector,
     /// The tip in link 2's frame.
     pub tip: Point,
@@ -52,14 +52,14 @@ pub struct Arm {
     /// Masses and efforts, if they are known.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub dynamics: Option<Dynamics>,
-    /// Links of the robot that are in the way of its other links.
+    /// Links of the robot that can collide with its other links.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub self_obstacles: Vec<SelfObstacle>,
 }
 
 impl Arm {
-    /// An arm whose joint 2 and tip lie on the x axis of the links at zero, joint 1 at the origin: joint 2 at `reaches[0]` from
-    /// joint 1, the tip at `reaches[1]` from joint 2, metres.
+    /// Creates an arm whose joint 2 and tip lie on the x axis of the links at zero, with joint 1 at the origin. Joint 2
+    /// is at `reaches[0]` from joint 1, and the tip at `reaches[1]` from joint 2, metres.
     #[must_use]
     pub fn new(joints: [Joint; 2], links: [Link; 2], reaches: [f64; 2]) -> Self {
         let plane = Plane { u: Vector3::x(), v: Vector3::y(), normal: Vector3::z() };
@@ -78,7 +78,7 @@ impl Arm {
         }
     }
 
-    /// Two bars of these lengths and this width with round ends, metres, on joints that turn without end.
+    /// Creates an arm of two bars of these lengths and this width with round ends, metres, on continuous joints.
     ///
     /// ```
     /// let arm = cplan_core::model::Arm::rr([1.0, 0.8], 0.06).expect("an arm");
@@ -86,18 +86,18 @@ impl Arm {
     /// ```
     ///
     /// # Errors
-    /// As [`Link::bar`].
+    /// Same as for [`Link::bar`].
     pub fn rr(lengths: [f64; 2], width: f64) -> Result<Self, ConvexError> {
         let links = [Link::bar("link 1", lengths[0], width)?, Link::bar("link 2", lengths[1], width)?];
         Ok(Self::new([Joint::continuous("joint 1"), Joint::continuous("joint 2")], links, lengths))
     }
 
-    /// The same arm, put where `place` takes its root frame: turned, then moved.
+    /// Returns the same arm, moved to where `place` takes its root frame: turned, then translated.
     #[must_use]
     pub fn placed(&self, place: &Pose) -> Self {
         let (mut arm, turn) = (self.clone(), place.rotation);
         arm.base = place * self.base;
-        // Without a turn all numbers stay as they are.
+        // Without a turn all numbers stay unchanged.
         if turn.angle() != 0.0 {
             (arm.offset, arm.tip) = (turn * self.offset, turn * self.tip);
             let turned = Pose::from_parts(Translation2::identity(), turn);
@@ -118,19 +118,19 @@ impl Arm {
         arm
     }
 
-    /// The space of configurations.
+    /// Returns the space of configurations.
     #[must_use]
     pub fn topology(&self) -> Topology {
         Topology { ranges: [self.joints[0].range, self.joints[1].range] }
     }
 
-    /// Returns whether both joints turn.
+    /// Returns true if both joints turn.
     #[must_use]
     pub fn only_turns(&self) -> bool {
         self.joints.iter().all(|joint| joint.joint_type.is_revolute())
     }
 
-    /// `RR`, `RP`, `PR` or `PP`.
+    /// Returns `RR`, `RP`, `PR` or `PP`.
     #[must_use]
     pub fn kind(&self) -> &'static str {
         match (self.joints[0].joint_type.is_revolute(), self.joints[1].joint_type.is_revolute()) {
@@ -141,13 +141,14 @@ impl Arm {
         }
     }
 
-    /// Whether both joints slide.
+    /// Returns true if both joints slide.
     #[must_use]
     pub fn is_gantry(&self) -> bool {
         !self.joints.iter().any(|joint| joint.joint_type.is_revolute())
     }
 
-    /// Pose of link 1 (`index` 0), of link 2 (1), or of link 2 while joint 1 stays at zero (2): how it lies to link 1.
+    /// Returns the pose of link 1 (`index` 0), of link 2 (1), or of link 2 while joint 1 stays at zero (2), which is
+    /// its pose relative to link 1.
     #[must_use]
     pub fn pose(&self, index: usize, q: Configuration) -> Pose {
         let q = if index == 2 { Configuration::new(0.0, q[1]) } else { q };
@@ -158,14 +159,14 @@ impl Arm {
         first * Translation2::from(self.offset) * motion(self.joints[1].joint_type, q[1])
     }
 
-    /// Both link poses.
+    /// Returns both link poses.
     #[must_use]
     pub fn poses(&self, q: Configuration) -> [Pose; 2] {
         let [first, second, _] = self.pair_poses(q);
         [first, second]
     }
 
-    /// The poses by which a pair's part is placed, by [`super::Pair::link`].
+    /// Returns the poses for a pair's part, indexed by [`super::Pair::link`].
     #[must_use]
     pub fn pair_poses(&self, q: Configuration) -> [Pose; 3] {
         let second = Translation2::from(self.offset) * motion(self.joints[1].joint_type, q[1]);
@@ -173,8 +174,8 @@ impl Arm {
         [first, first * second, at_zero * second]
     }
 
-    /// A length that bounds how far the outlines and the tip reach from joint 1 with both joints at zero; the size of
-    /// the arm, to which tolerances are relative. Metres, positive.
+    /// Returns a bound on the distance of the outlines and the tip from joint 1 with both joints at zero, metres,
+    /// positive. It is the size of the arm, to which tolerances are relative.
     #[must_use]
     pub fn reach(&self) -> f64 {
         let of = |link: usize| self.links[link].parts.iter().map(|p| p.shape.reach_from(Point::origin()));
@@ -183,19 +184,20 @@ impl Arm {
         (first.max(self.offset.norm() + second)).max(f64::MIN_POSITIVE)
     }
 
-    /// Where the tip is.
+    /// Returns the place of the tip.
     #[must_use]
     pub fn tip_at(&self, q: Configuration) -> Point {
         self.pose(1, q) * self.tip
     }
 
-    /// Where joint 2 is (for a prismatic one: its origin at zero, carried by link 1).
+    /// Returns the place of joint 2 (for a prismatic one: its origin at zero, carried by link 1).
     #[must_use]
     pub fn elbow_at(&self, q1: f64) -> Point {
         self.pose(0, Configuration::new(q1, 0.0)) * Point::from(self.offset)
     }
 
-    /// Velocity of the point `p` of link `index` (link frame) per unit of each joint's rate: the two Jacobian columns.
+    /// Returns the velocity of the point `p` of link `index` (link frame) per unit of each joint's rate: the two
+    /// Jacobian columns.
     #[must_use]
     pub fn jacobian(&self, index: usize, p: Point, q: Configuration) -> [Vector; 2] {
         let poses = self.poses(q);

@@ -1,4 +1,4 @@
-//! A convex part on the joint that moves it: for which values of the joint it meets a piece.
+//! Finds the values of a joint at which a convex part that it moves meets a piece.
 
 use super::{Joint, JointType};
 use cplan_geometry::{
@@ -26,21 +26,21 @@ impl Carried {
         Self { joint_type, features: Features::new(shape), track }
     }
 
-    /// How it moves.
+    /// Returns the joint's kind of motion.
     #[must_use]
     pub fn joint_type(&self) -> JointType {
         self.joint_type
     }
 
-    /// The part that is carried.
+    /// Returns the part that is carried.
     #[must_use]
     pub fn shape(&self) -> &Convex {
         self.features.shape()
     }
 
-    /// The joint's values at which the part comes within `grow` of the piece, when the joint sits at `pivot` on a link
-    /// turned by `heading` (a unit vector); pushed on `out`. Exact up to [`cplan_geometry::ROUNDING`]. Angles are as in
-    /// [`Hits::Within`], stretches one interval. Limits are not applied. `O(n m)`.
+    /// Appends to `out` the joint's values at which the part comes within `grow` of the piece, when the joint sits at
+    /// `pivot` on a link turned by `heading` (a unit vector). Exact up to [`cplan_geometry::ROUNDING`]. For angles see
+    /// [`Hits::Within`]; lengths form one interval. Limits are not applied. `O(n m)`.
     pub fn hits(&self, pivot: Point, heading: Vector, piece: &Features, grow: f64, out: &mut Vec<[f64; 2]>) -> Hits {
         match self.joint_type {
             JointType::Revolute { sign } => {
@@ -79,7 +79,8 @@ pub fn on_axis(joint: &Joint, hits: Hits, intervals: &[[f64; 2]], mut f: impl Fn
             for &[start, end] in intervals {
                 let mut shift = if period.is_finite() { ((lower - end) / period).ceil() * period } else { 0.0 };
                 while start + shift <= upper {
-                    // Where the first copy ends at the limit itself, rounding may put it before: the next one may count.
+                    // If the first copy ends at the limit itself, rounding may put it before the limit, so the next one
+                    // may count.
                     if end + shift >= lower {
                         f([(start + shift).max(lower), (end + shift).min(upper)]);
                     }
@@ -90,7 +91,7 @@ pub fn on_axis(joint: &Joint, hits: Hits, intervals: &[[f64; 2]], mut f: impl Fn
     }
 }
 
-/// A shape, in link 1's frame, that holds a part of link 2 whatever joint 2 does.
+/// Returns a shape, in link 1's frame, that contains a part of link 2 at all values of joint 2.
 #[must_use]
 pub fn swept(shape: &Convex, joint: &Joint, offset: Vector) -> Convex {
     let elbow = Point::from(offset);

@@ -1,4 +1,4 @@
-//! A scene prepared for contact equations: for which values of a joint a part comes near to a piece.
+//! A scene prepared for contact equations, which give the values of a joint at which a part comes near to a piece.
 
 use super::{Carried, JointType, Pair, Scene, swept};
 use crate::space::Configuration;
@@ -8,20 +8,21 @@ use std::collections::HashMap;
 use std::f64::consts::PI;
 use std::ops::Range;
 
-/// A scene prepared for contact equations: what slices, slabs, walls and C-obstacles are all made of.
+/// A scene prepared for contact equations, on which slices, slabs, walls and C-obstacles are based.
 ///
-/// Pairs are numbered as in [`Scene::pairs`]. Every interval is closed, exact up to [`cplan_geometry::ROUNDING`], and of joint
-/// values: *unwrapped* for a revolute joint (start in `[-pi, pi)`, end possibly beyond `pi`, to be repeated by whole
-/// turns), as they are for a prismatic one. Limits are not applied; [`Contacts::slice`] does that.
+/// Pairs are numbered as in [`Scene::pairs`]. Every interval is closed, exact up to [`cplan_geometry::ROUNDING`], and
+/// consists of joint values. Values of a revolute joint are *unwrapped*: the start is in `[-pi, pi)`, the end may be
+/// beyond `pi`, and the interval repeats by whole turns. Values of a prismatic joint are unchanged. Limits are not
+/// applied; [`Contacts::slice`] does that.
 #[derive(Debug, Clone)]
 pub struct Contacts<'a> {
     scene: &'a Scene,
     pairs: Vec<Prepared>,
     parts: Vec<PreparedPart>,
     pieces: Vec<PreparedPiece>,
-    /// The first part and the first pair of link 2; those of link 2 as it lies to link 1 are among them.
+    /// The first part and the first pair of link 2, including those for link 2 relative to link 1.
     second: (usize, usize),
-    /// Where joint 2 is with joint 1 at zero, and the direction of link 1's x axis.
+    /// Place of joint 2 with joint 1 at zero, and the direction of link 1's x axis.
     at_zero: (Point, Vector),
 }
 
@@ -29,13 +30,13 @@ pub struct Contacts<'a> {
 #[derive(Debug, Clone, Copy)]
 struct Prepared {
     link: u32,
-    /// Into the parts.
+    /// Index into the parts.
     part: u32,
-    /// Into the pieces.
+    /// Index into the pieces.
     piece: u32,
 }
 
-/// A piece, and how far it reaches from the base, metres.
+/// A piece, with its greatest distance from the base, metres.
 #[derive(Debug, Clone)]
 struct PreparedPiece {
     features: Features,
@@ -45,12 +46,12 @@ struct PreparedPiece {
 /// A part, prepared for the joint that carries it.
 #[derive(Debug, Clone)]
 struct PreparedPart {
-    /// As in [`Pair::link`].
+    /// Same as [`Pair::link`].
     link: usize,
     carried: Carried,
-    /// Reach from the base of all that the part can occupy, metres.
+    /// Greatest distance from the base of all places that the part can occupy, metres.
     reach: f64,
-    /// Link 2 only: the part with all its positions under joint 2, as carried by joint 1.
+    /// For link 2 only: the part with all its positions under joint 2, as carried by joint 1.
     sweep: Option<Carried>,
     /// The numbers of the pairs that the part is in.
     pairs: Range<usize>,
@@ -59,7 +60,7 @@ struct PreparedPart {
 }
 
 impl PreparedPart {
-    /// The part of some pairs, which are the next from the number `from` on.
+    /// Prepares the part of some pairs, which are numbered consecutively from `from` on.
     fn new(scene: &Scene, pairs: &[Pair], from: usize) -> Self {
         let arm = scene.arm();
         let [first, second] = &arm.joints;
@@ -121,75 +122,77 @@ impl<'a> Contacts<'a> {
         &self.pieces[pair.piece as usize].features
     }
 
-    /// What moves in pair `index`, and the joint that moves it.
+    /// Returns the moving shape of pair `index`, with the joint that moves it.
     #[must_use]
     pub fn moving(&self, index: usize) -> &Carried {
         &self.part(self.pairs[index]).carried
     }
 
-    /// What stands still in pair `index`.
+    /// Returns the fixed shape of pair `index`.
     #[must_use]
     pub fn standing(&self, index: usize) -> &Features {
         self.piece(self.pairs[index])
     }
 
-    /// The number of the part in pair `index`, among those that can meet something.
+    /// Returns the number of the part in pair `index`, among the parts that can meet something.
     #[must_use]
     pub fn part_of(&self, index: usize) -> usize {
         self.pairs[index].part as usize
     }
 
-    /// Numbers of the parts of link 2; those of link 1 come before.
+    /// Returns the numbers of the parts of link 2; those of link 1 come before.
     #[must_use]
     pub fn second_link_parts(&self) -> Range<usize> {
         self.second.0..self.parts.len()
     }
 
-    /// The numbers of the pairs, ascending, in which a part of link 2 can come within `grow` of something with joint 2 at `elbow`, and
-    /// of some others.
+    /// Returns numbers of pairs, ascending: all in which a part of link 2 can come within `grow` of something with
+    /// joint 2 at `elbow`, and possibly some others.
     pub fn near(&self, part: usize, elbow: Point, grow: f64, found: &mut Vec<u32>) {
         let part = &self.parts[part];
         part.near(if part.link == 2 { self.at_zero.0 } else { elbow }, grow, found);
     }
 
-    /// Where joint 2 is for pair `index`, of link 2, and the direction of link 1's x axis, when the elbow is at `here`: there, except for
-    /// what joint 1 carries, too.
+    /// Returns the place of joint 2 for pair `index`, of link 2, and the direction of link 1's x axis, when the elbow
+    /// is at `here`. That is `here`, except for obstacles that joint 1 carries, too.
     #[must_use]
     pub fn frame(&self, index: usize, here: (Point, Vector)) -> (Point, Vector) {
         if self.pairs[index].link == 2 { self.at_zero } else { here }
     }
 
-    /// The scene that was prepared.
+    /// Returns the scene that was prepared.
     #[must_use]
     pub fn scene(&self) -> &'a Scene {
         self.scene
     }
 
-    /// Values of joint 1 at which pair `index`, of link 1, comes within `grow` of contact.
+    /// Finds the values of joint 1 at which pair `index`, of link 1, comes within `grow` of contact.
     ///
     /// # Panics
-    /// If the pair is of link 2, or there is none of that number.
+    /// If the pair is of link 2, or there is no pair of that number.
     pub fn first_link(&self, index: usize, grow: f64, out: &mut Vec<[f64; 2]>) -> Hits {
         let pair = self.pairs[index];
         assert_eq!(pair.link, 0, "a pair of link 1");
         self.part(pair).carried.hits(self.scene.arm().base, Vector::x(), self.piece(pair), grow, out)
     }
 
-    /// Values of joint 2 at which pair `index`, of link 2, comes within `grow` of contact while joint 1 is at `q1`.
+    /// Finds the values of joint 2 at which pair `index`, of link 2, comes within `grow` of contact while joint 1 is at
+    /// `q1`.
     ///
     /// # Panics
-    /// If the pair is of link 1, or there is none of that number.
+    /// If the pair is of link 1, or there is no pair of that number.
     pub fn second_link(&self, index: usize, q1: f64, grow: f64, out: &mut Vec<[f64; 2]>) -> Hits {
         let (elbow, heading) = self.elbow(q1);
         self.at_elbow(index, elbow, heading, grow, out)
     }
 
-    /// Values of joint 1 outside which pair `index`, of link 2, keeps farther than `grow` from contact whatever joint 2
-    /// does: those at which the part's sweep meets the piece. For a revolute joint 2 the sweep is the disc about the
-    /// elbow that holds the part, for a prismatic one a capsule that holds it over the joint's whole range.
+    /// Finds the values of joint 1 outside which pair `index`, of link 2, keeps farther than `grow` from contact at
+    /// every value of joint 2. They are those at which the part's sweep meets the piece. For a revolute joint 2 the
+    /// sweep is the disc about the elbow that holds the part. For a prismatic one it is a capsule that holds the part
+    /// over the joint's whole range.
     ///
     /// # Panics
-    /// If the pair is of link 1, or there is none of that number.
+    /// If the pair is of link 1, or there is no pair of that number.
     pub fn reach_range(&self, index: usize, grow: f64, out: &mut Vec<[f64; 2]>) -> Hits {
         let pair = self.pairs[index];
         if pair.link == 2 {
@@ -199,15 +202,15 @@ impl<'a> Contacts<'a> {
         sweep.hits(self.scene.arm().base, Vector::x(), self.piece(pair), grow, out)
     }
 
-    /// Numbers of the pairs of link 2; those of link 1 come before.
+    /// Returns the numbers of the pairs of link 2; those of link 1 come before.
     #[must_use]
     pub fn second_link_pairs(&self) -> Range<usize> {
         self.second.1..self.pairs.len()
     }
 
-    /// Farthest that a point of pair `index`'s part which is within `clearance` of the piece can move, metres, while
-    /// joint 1 moves by at most `step` and joint 2 not at all. About a revolute joint a point's chord grows with its
-    /// distance from the base, and a point near the piece is no farther out than the piece is.
+    /// Returns the farthest, in metres, that a point of pair `index`'s part which is within `clearance` of the piece
+    /// can move, while joint 1 moves by at most `step` and joint 2 not at all. About a revolute joint a point's chord
+    /// grows with its distance from the base, and a point near the piece is no farther out than the piece is.
     #[must_use]
     pub fn motion(&self, index: usize, step: f64, clearance: f64) -> f64 {
         let pair = self.pairs[index];
@@ -218,20 +221,22 @@ impl<'a> Contacts<'a> {
         self.chord(self.part(pair).reach.min(touched), step)
     }
 
-    /// Farthest that any point of a part can move, metres, while joint 1 moves by at most `step` and joint 2 not at all.
+    /// Returns the farthest that any point of a part can move, metres, while joint 1 moves by at most `step` and joint
+    /// 2 not at all.
     #[must_use]
     pub fn motion_of(&self, part: usize, step: f64) -> f64 {
         let part = &self.parts[part];
         if part.link == 2 { 0.0 } else { self.chord(part.reach, step) }
     }
 
-    /// How far from the base the part of pair `index` is at most, whatever joint 2 does, while joint 1 stands at zero, metres.
+    /// Returns the greatest distance of the part of pair `index` from the base, at any value of joint 2, while joint 1
+    /// stays at zero, metres.
     #[must_use]
     pub fn reach(&self, index: usize) -> f64 {
         self.part(self.pairs[index]).reach
     }
 
-    /// Farthest that a point at distance `reach` from the base moves with joint 1, metres.
+    /// Returns the farthest that a point at distance `reach` from the base moves with joint 1, metres.
     fn chord(&self, reach: f64, step: f64) -> f64 {
         match self.scene.arm().joints[0].joint_type {
             JointType::Prismatic { .. } => step,
@@ -239,7 +244,8 @@ impl<'a> Contacts<'a> {
         }
     }
 
-    /// Farthest that a point of pair `index`'s part moves per unit of the joint that carries its link, metres.
+    /// Returns the farthest that a point of pair `index`'s part moves per unit of the joint that carries its link,
+    /// metres.
     #[must_use]
     pub fn lever(&self, index: usize) -> f64 {
         let part = &self.part(self.pairs[index]).carried;
@@ -249,16 +255,16 @@ impl<'a> Contacts<'a> {
         }
     }
 
-    /// Where joint 2 is at `q1`, and the direction of link 1's x axis.
+    /// Returns the place of joint 2 at `q1`, and the direction of link 1's x axis.
     #[must_use]
     pub fn elbow(&self, q1: f64) -> (Point, Vector) {
         elbow(self.scene, q1)
     }
 
-    /// [`Contacts::second_link`] with the elbow at hand.
+    /// Same as [`Contacts::second_link`], for a given elbow.
     ///
     /// # Panics
-    /// If the pair is of link 1, or there is none of that number.
+    /// If the pair is of link 1, or there is no pair of that number.
     pub fn at_elbow(&self, index: usize, elbow: Point, heading: Vector, grow: f64, out: &mut Vec<[f64; 2]>) -> Hits {
         let pair = self.pairs[index];
         assert_ne!(pair.link, 0, "a pair of link 2");
@@ -267,7 +273,7 @@ impl<'a> Contacts<'a> {
     }
 }
 
-/// Where joint 2 is at `q1`, and the direction of link 1's x axis.
+/// Returns the place of joint 2 at `q1`, and the direction of link 1's x axis.
 fn elbow(scene: &Scene, q1: f64) -> (Point, Vector) {
     let pose = scene.arm().pose(0, Configuration::new(q1, 0.0));
     (pose * Point::from(scene.arm().offset), pose * Vector::x())

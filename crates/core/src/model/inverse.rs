@@ -6,35 +6,35 @@ use cplan_geometry::{Point, Vector, cross};
 use nalgebra::Rotation2;
 use std::f64::consts::TAU;
 
-/// Distances below this, metres, count as none: whether the tip can be reached, and whether a joint's value matters.
-/// A nanometre, far above the rounding of coordinates of some metres and far below any robot's accuracy.
+/// Distances below this, metres, count as zero when the code decides if the tip can be reached, and if a joint's value
+/// affects it. A nanometre is far above the rounding of coordinates of some metres and far below any robot's accuracy.
 const REACHED: f64 = 1e-9;
 
-/// Values beyond a limit by no more than this (radians or metres) are taken as the limit: they are rounding.
+/// Values beyond a limit by at most this (radians or metres) are moved to the limit, because the excess is rounding.
 const LIMIT_ROUNDING: f64 = 1e-9;
 
-/// Solutions of the inverse kinematics, limits not regarded.
+/// Solutions of the inverse kinematics, without regard to limits.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Inverse {
-    /// At most two; none when the tip is out of reach.
+    /// At most two; empty when the tip is out of reach.
     pub branches: Vec<Configuration>,
-    /// What does not matter for the tip there, so that `branches` are only one or two of infinitely many: those with the
-    /// preferred value of what is free.
+    /// The freedom that does not affect the tip there. Then `branches` are only one or two of infinitely many
+    /// solutions: those with the preferred value of the free quantity.
     pub free: Option<Freedom>,
 }
 
-/// What of the joints does not matter for the tip.
+/// A freedom of the joints that does not affect the tip.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Freedom {
-    /// The value of this joint, 0 or 1: the tip is on its axis, or of joint 1 so is the target.
+    /// The value of this joint, 0 or 1: the tip is on its axis, or for joint 1 the target is.
     Joint(usize),
-    /// How an angle is shared among the two, which turn about one axis.
+    /// The share of an angle between the two joints, which turn about one axis.
     Share,
     /// Everything: the tip is always at the target.
     Both,
 }
 
-/// All configurations that put the arm's tip at `target`, limits not regarded, angles up to whole turns.
+/// Computes all configurations that put the arm's tip at `target`, ignoring limits, angles up to whole turns.
 ///
 /// RR: two elbow angles from the law of cosines; RP and PR: a quadratic; PP: a linear system. Where infinitely many
 /// solve it (the tip on an axis of rotation), those with the `preferred` value of the free joint. Forward kinematics
@@ -65,12 +65,12 @@ pub fn inverse(arm: &Arm, target: Point, preferred: Configuration) -> Inverse {
     inverse
 }
 
-/// The angle of a vector.
+/// Returns the angle of a vector.
 fn angle(v: Vector) -> f64 {
     v.y.atan2(v.x)
 }
 
-/// `q1` such that `R(s1 q1)` turns `arm` towards `d`; the preferred value where both vanish.
+/// Returns a `q1` such that `R(s1 q1)` turns `arm` towards `d`; the preferred value where both vanish.
 fn turning(sign: f64, arm: Vector, d: Vector, preferred: f64) -> (f64, bool) {
     let free = arm.norm() <= REACHED && d.norm() <= REACHED;
     (if free { preferred } else { sign * (angle(d) - angle(arm)) }, free)
@@ -104,7 +104,7 @@ fn turn_turn(d: Vector, (s1, o): (f64, Vector), (s2, t): (f64, Vector), preferre
             free = Some(Freedom::Joint(0));
         }
         let q = Configuration::new(q1, s2 * phi);
-        // Stretched or folded, both branches are one.
+        // For a stretched or folded arm, both branches are the same.
         if branches.is_empty() || cosine.abs() < 1.0 {
             branches.push(q);
         }
@@ -150,7 +150,8 @@ fn slide_turn(d: Vector, direction: Vector, (sign, t): (f64, Vector), preferred:
     inverse
 }
 
-/// Half the chord that a line at `distance` from the centre cuts off a circle of `radius`; none if they do not meet.
+/// Returns half the chord that a line at `distance` from the centre cuts off a circle of `radius`; `None` if they do
+/// not meet.
 fn half_chord(radius: f64, distance: f64) -> Option<f64> {
     if distance > radius + REACHED {
         return None;
@@ -163,8 +164,9 @@ fn both(middle: f64, root: f64) -> Vec<f64> {
 }
 
 impl Inverse {
-    /// All solutions within the limits: of each branch with all its turns, or of all values of what is free. On circles each is
-    /// there once. Where everything is free all configurations are solutions, for which the preferred one stands.
+    /// Returns all solutions within the limits: each branch with all its turns, or all values of the free quantity. On
+    /// circles each solution appears once. Where everything is free, all configurations are solutions, and the
+    /// preferred one represents them.
     #[must_use]
     pub fn solutions(&self, arm: &Arm) -> Vec<Segment> {
         let joints = &arm.joints;
@@ -187,7 +189,7 @@ impl Inverse {
     }
 }
 
-/// All that two turning joints on one axis share the angle of `q` in other ways, within the limits.
+/// Returns all segments in which two revolute joints on one axis share the angle of `q` differently, within the limits.
 fn shares(arm: &Arm, q: Configuration) -> Vec<Segment> {
     let [s1, s2] = arm.joints.each_ref().map(|joint| match joint.joint_type {
         JointType::Revolute { sign } => sign,
@@ -208,7 +210,7 @@ fn shares(arm: &Arm, q: Configuration) -> Vec<Segment> {
     turns.filter_map(line).collect()
 }
 
-/// The values that stand for `value` on an axis: every copy by whole turns of a revolute joint that is within the
+/// Returns the values equivalent to `value` on an axis: for a revolute joint every copy by whole turns within the
 /// limits, on a circle the one in `[-pi, pi)`. Values that rounding put beyond a limit count as the limit.
 #[must_use]
 pub fn within(range: JointRange, revolute: bool, value: f64) -> Vec<f64> {

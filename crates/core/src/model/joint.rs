@@ -5,22 +5,22 @@ use cplan_geometry::Vector;
 use cplan_text::told_apart;
 use serde::{Deserialize, Serialize};
 
-/// Top speed of a joint that turns, without one of its own; rad/s.
+/// Default top speed of a revolute joint, rad/s.
 pub const TURNING_SPEED: f64 = 1.0;
 
-/// The same of one that slides; m/s.
+/// Default top speed of a prismatic joint, m/s.
 pub const SLIDING_SPEED: f64 = 0.25;
 
-/// Seconds to top speed, without a limit on the acceleration.
+/// Default time to top speed, seconds, for a joint without a limit on the acceleration.
 pub const TIME_TO_TOP_SPEED: f64 = 0.25;
 
-/// Greatest acceleration of a joint that has none, by its top speed.
+/// Returns the assumed greatest acceleration of a joint without one, from its top speed.
 #[must_use]
 pub fn assumed_acceleration(velocity: f64) -> f64 {
     (velocity / TIME_TO_TOP_SPEED).min(f64::MAX)
 }
 
-/// How a joint moves its link in the plane.
+/// A joint's kind of motion in the plane.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum JointType {
@@ -31,13 +31,13 @@ pub enum JointType {
     },
     /// Slides along this unit direction, given in plane coordinates at the zero configuration.
     Prismatic {
-        /// Of unit length.
+        /// Direction, of unit length.
         direction: Vector,
     },
 }
 
 impl JointType {
-    /// Whether the joint turns.
+    /// Returns true if the joint turns.
     #[must_use]
     pub fn is_revolute(self) -> bool {
         matches!(self, JointType::Revolute { .. })
@@ -50,7 +50,7 @@ impl JointType {
 pub struct Joint {
     /// Name in the URDF.
     pub name: String,
-    /// How it moves.
+    /// The kind of motion.
     pub joint_type: JointType,
     /// The values it can take.
     pub range: JointRange,
@@ -58,24 +58,25 @@ pub struct Joint {
     pub velocity: f64,
     /// Greatest acceleration, per second squared; positive.
     pub acceleration: f64,
-    /// Greatest jerk, per second cubed; positive. None: the acceleration may jump.
+    /// Greatest jerk, per second cubed; positive. `None` if the acceleration may jump.
     pub jerk: Option<f64>,
 }
 
 impl Joint {
-    /// A joint that turns counter-clockwise from `lower` to `upper`, radians; at 1 rad/s, which [`Joint::at_most`] changes.
+    /// Creates a revolute joint that turns counter-clockwise from `lower` to `upper`, radians, at 1 rad/s.
+    /// [`Joint::at_most`] changes the speed.
     #[must_use]
     pub fn turning(name: &str, lower: f64, upper: f64) -> Self {
         Self::moving(name, JointType::Revolute { sign: 1.0 }, JointRange::Interval { lower, upper }, TURNING_SPEED)
     }
 
-    /// A joint that turns counter-clockwise without end.
+    /// Returns a joint that turns counter-clockwise without end.
     #[must_use]
     pub fn continuous(name: &str) -> Self {
         Self::moving(name, JointType::Revolute { sign: 1.0 }, JointRange::Circle, TURNING_SPEED)
     }
 
-    /// A joint that slides along a direction of length 1, from `lower` to `upper`, metres; at 0.25 m/s.
+    /// Creates a prismatic joint along a direction of length 1, from `lower` to `upper`, metres, at 0.25 m/s.
     #[must_use]
     pub fn sliding(name: &str, direction: Vector, lower: f64, upper: f64) -> Self {
         Self::moving(name, JointType::Prismatic { direction }, JointRange::Interval { lower, upper }, SLIDING_SPEED)
@@ -86,39 +87,39 @@ impl Joint {
         Self { name: name.into(), joint_type, range, velocity, acceleration, jerk: None }
     }
 
-    /// The same joint with this top speed and greatest acceleration, radians or metres and seconds.
+    /// Returns the same joint with this top speed and greatest acceleration, in radians or metres and seconds.
     #[must_use]
     pub fn at_most(self, velocity: f64, acceleration: f64) -> Self {
         Self { velocity, acceleration, ..self }
     }
 
-    /// Gives joints other limits on their jerk, if any are given.
+    /// Sets other jerk limits of joints, if any are given.
     pub fn override_jerks(joints: &mut [Joint; 2], jerks: Option<[Option<f64>; 2]>) {
         for (joint, jerk) in joints.iter_mut().zip(jerks.into_iter().flatten()) {
             joint.jerk = jerk;
         }
     }
 
-    /// Unit of the joint's value: `rad` or `m`.
+    /// Returns the unit of the joint's value: `rad` or `m`.
     #[must_use]
     pub fn unit(&self) -> &'static str {
         if self.joint_type.is_revolute() { "rad" } else { "m" }
     }
 
-    /// Unit of what moves it: `N m` or `N`.
+    /// Returns the unit of the joint's effort: `N m` or `N`.
     #[must_use]
     pub fn effort_unit(&self) -> &'static str {
         if self.joint_type.is_revolute() { "N m" } else { "N" }
     }
 
-    /// A value with its unit, angles in both units: `0.3491 rad (20.00 deg)`.
+    /// Returns a value with its unit, angles in both units: `0.3491 rad (20.00 deg)`.
     #[must_use]
     pub fn shown(&self, value: f64) -> String {
         let [shown] = self.told_apart([value]);
         shown
     }
 
-    /// The same of several values: those that differ look different.
+    /// Returns several values with their units, with enough digits that different values look different.
     #[must_use]
     pub fn told_apart<const N: usize>(&self, values: [f64; N]) -> [String; N] {
         let mut texts = told_apart(values, 4);

@@ -4,17 +4,17 @@ use super::Heights;
 use cplan_geometry::{Convex, ConvexError, Point};
 use serde::{Deserialize, Serialize};
 
-/// Where a link's outline comes from.
+/// The source of a link's outline.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum OutlineSource {
     /// The URDF's `<collision>` geometry.
     Collision,
-    /// The URDF's `<visual>` geometry, for want of collision geometry.
+    /// The URDF's `<visual>` geometry, since there is no collision geometry.
     Visual,
-    /// A capsule between the joints, which the user asked for.
+    /// A capsule between the joints, as requested by the user.
     Bar,
-    /// Nothing: the link cannot collide.
+    /// No outline: the link cannot collide.
     None,
 }
 
@@ -23,16 +23,17 @@ pub enum OutlineSource {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Part {
-    /// Projection on the plane, or what covers it: what is free of this is free.
+    /// Projection on the plane, or a shape that covers it. A configuration that is free for this shape is free for the
+    /// part.
     pub shape: Convex,
-    /// A shape within the projection, where `shape` is larger than that: proofs that something is in the way rest on it.
+    /// A shape inside the real part, if `shape` is larger than that. Proofs of collisions use it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub inner: Option<Convex>,
-    /// The number of the shape that it is, or is a part of, among those of the URDF link that have a size; of what is carried the number of the
-    /// payload's piece.
+    /// Number of the shape that this is, or is a part of, among the shapes of the URDF link that have a size. For a
+    /// payload, the number of the payload's piece.
     #[serde(default, skip_serializing_if = "is_first")]
     pub number: usize,
-    /// Whether it is the URDF link's `<visual>` geometry, which has no `<collision>` geometry.
+    /// True if this is the URDF link's `<visual>` geometry, because the link has no `<collision>` geometry.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub is_visual: bool,
     /// Extent along the plane's normal in the root frame.
@@ -45,7 +46,7 @@ fn is_first(number: &usize) -> bool {
     *number == 0
 }
 
-/// Everything that one joint moves and the next does not, fixed children included.
+/// All parts that one joint moves and the next does not, fixed children included.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Link {
@@ -53,12 +54,12 @@ pub struct Link {
     pub name: String,
     /// The outline: a union of convex parts.
     pub parts: Vec<Part>,
-    /// Where the outline comes from.
+    /// The source of the outline.
     pub source: OutlineSource,
 }
 
 impl Link {
-    /// A link of these shapes, at all heights; no shapes for one that cannot collide.
+    /// Creates a link of these shapes, at all heights. Without shapes it cannot collide.
     #[must_use]
     pub fn of(name: &str, shapes: impl IntoIterator<Item = Convex>) -> Self {
         let part =
@@ -68,7 +69,7 @@ impl Link {
         Self { name: name.into(), parts, source }
     }
 
-    /// A bar with round ends along x from the joint, metres; without a width it is a line.
+    /// Returns a bar with round ends along x from the joint, metres; without a width it is a line.
     ///
     /// ```
     /// use cplan_core::model::Link;

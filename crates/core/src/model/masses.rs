@@ -1,4 +1,4 @@
-//! Masses and efforts of an arm: plain values beside its limits, which the crate `dynamics` computes with.
+//! Masses and efforts of an arm: plain values, which the crate `dynamics` computes with.
 
 use cplan_geometry::{Point, Vector};
 use serde::{Deserialize, Serialize};
@@ -24,14 +24,14 @@ impl Body {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Dynamics {
-    /// What each joint carries up to the next, in the link's frame.
+    /// The bodies between a joint and the next, in the link's frame.
     pub bodies: [Body; 2],
     /// Acceleration of free fall in plane coordinates, m/s2.
     pub gravity: Vector,
     /// Greatest torque (N m) or force (N) of each joint.
     pub effort: [f64; 2],
-    /// Joints whose greatest acceleration nobody gives.
+    /// True for joints whose greatest acceleration is not given.
     pub assumed: [bool; 2],
-    /// Whether motions have to keep within the efforts.
+    /// True if motions must keep within the efforts.
     pub limits: bool,
 }

@@ -5,10 +5,10 @@ use cplan_geometry::{Convex, Interval, Point, Pose, Vector, merge_in_place, perp
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-/// Times of courses beyond this are a mistake, seconds: as long as the longest motion that is timed.
+/// Greatest time in a course, seconds: as long as the longest motion that is timed. A larger time is a mistake.
 pub const LATEST: f64 = 1e6;
 
-/// Where the frame of a mover is at a time.
+/// The pose of a mover's frame at a time.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Stop {
@@ -16,23 +16,24 @@ pub struct Stop {
     pub time: f64,
     /// The origin of its own frame, plane coordinates.
     pub at: Point,
-    /// How the frame is turned against the plane's, radians. From one stop to the next it turns by their difference, whole turns included.
+    /// Angle of the frame in the plane, radians. From one stop to the next it turns by their difference, whole turns
+    /// included.
     pub angle: f64,
 }
 
-/// How something moves: straight and evenly from stop to stop. It waits at the first stop until its time, and stays at the last; or leaves that at a
-/// constant velocity, for ever, as what lies on a conveyor does.
+/// The motion of an obstacle: straight and uniform from stop to stop. It waits at the first stop until its time. It
+/// stays at the last stop, or leaves it at a constant velocity for ever, like an object on a conveyor.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "CourseRecord", into = "CourseRecord")]
 pub struct Course {
     stops: Vec<Stop>,
-    /// From the last stop on, metres a second.
+    /// Velocity from the last stop on, metres a second.
     velocity: Vector,
-    /// What follows from both.
+    /// The legs that follow from both.
     legs: Vec<Leg>,
 }
 
-/// What a [`Course`] is made of.
+/// The data of a [`Course`].
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct CourseRecord {
@@ -54,24 +55,24 @@ impl TryFrom<CourseRecord> for Course {
     }
 }
 
-/// Why stops make no course.
+/// A defect of a course's stops.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum CourseError {
-    /// There are none.
+    /// There are no stops.
     #[error("a course needs a stop")]
     Empty,
-    /// A time that is not later than the one before, or negative, or beyond [`LATEST`].
+    /// A time that is not later than the previous one, or negative, or beyond [`LATEST`].
     #[error("stop {} is at {time} s; times begin at 0 or later, increase, and end before {LATEST:e}", stop + 1)]
     Time {
-        /// Which, from 0.
+        /// Number of the stop, from 0.
         stop: usize,
-        /// Its time.
+        /// The stop's time.
         time: f64,
     },
-    /// A place, angle or velocity that is no number, or larger than makes sense.
+    /// A place, angle or velocity that is not finite, or too large.
     #[error("stop {} has a place or a velocity that is none", stop + 1)]
     Place {
-        /// Which, from 0.
+        /// Number of the stop, from 0.
         stop: usize,
     },
 }
@@ -79,62 +80,63 @@ pub enum CourseError {
 /// A stretch of a course in which neither velocity changes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Leg {
-    /// When it begins, seconds.
+    /// Time of the beginning, seconds.
     pub from: f64,
-    /// When it ends; infinite for the last.
+    /// Time of the end; infinite for the last leg.
     pub to: f64,
-    /// Where it begins.
+    /// Pose at its beginning.
     pub start: Stop,
-    /// Of the frame's origin, metres a second.
+    /// Velocity of the frame's origin, metres a second.
     pub velocity: Vector,
-    /// Radians a second.
+    /// Angular velocity, radians a second.
     pub turn: f64,
 }
 
 impl Leg {
-    /// Where the frame is at a time of the leg.
+    /// Returns the frame's pose at a time of the leg.
     #[must_use]
     pub fn pose(&self, time: f64) -> Pose {
         let since = time - self.from;
         Pose::new((self.start.at + self.velocity * since).coords, self.start.angle + self.turn * since)
     }
 
-    /// Whether nothing moves in it.
+    /// Returns true if nothing moves in it.
     #[must_use]
     pub fn is_still(&self) -> bool {
         self.turn == 0.0 && self.velocity == Vector::zeros()
     }
 
-    /// Farthest that a point moves in a second that is no farther than `reach` from the frame's origin, metres.
+    /// Returns the farthest that a point within `reach` of the frame's origin moves in a second, metres.
     #[must_use]
     pub fn speed(&self, reach: f64) -> f64 {
         self.velocity.norm() + self.turn.abs() * reach
     }
 }
 
-/// What a mover does within a span of time, as seen from where it is in the middle of it.
+/// The motion of a mover within a span of time, relative to its pose in the middle of the span.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Drift {
-    /// Where the frame is in the middle.
+    /// Pose of the frame in the middle.
     pub middle: Pose,
-    /// Of its origin then, metres a second, ...
+    /// Velocity of its origin then, metres a second, ...
     velocity: Vector,
-    /// ... and how it turns, radians a second, ...
+    /// ... and angular velocity, radians a second, ...
     turn: f64,
-    /// ... for so long to either side, seconds.
+    /// ... for this time to either side, seconds.
     half: f64,
-    /// The same for no known direction: metres a second, and radians a second. Of spans in which the velocity changes.
+    /// Bounds on speeds in unknown directions: metres a second, and radians a second. For spans in which the velocity
+    /// changes.
     any: [f64; 2],
 }
 
 impl Drift {
-    /// Displacement per half the span of the point that is at `p` in the middle, to first order.
+    /// Returns the displacement, per half of the span, of the point that is at `p` in the middle, to first order.
     #[must_use]
     pub fn of(&self, p: Point) -> Vector {
         (self.velocity + perpendicular(p - self.origin()) * self.turn) * self.half
     }
 
-    /// Bound on what the displacement of that point deviates from [`Drift::of`] by, metres.
+    /// Returns a bound on the difference between the displacement of that point and [`Drift::of`], metres.
     #[must_use]
     pub fn beyond(&self, p: Point) -> f64 {
         let reach = (p - self.origin()).norm();
@@ -142,7 +144,7 @@ impl Drift {
         turned * turned * reach / 2.0 + (self.any[0] + self.any[1] * reach) * self.half
     }
 
-    /// Farthest that a point moves that is no farther than `reach` from the frame's origin, metres.
+    /// Returns the farthest that a point within `reach` of the frame's origin moves, metres.
     #[must_use]
     pub fn farthest(&self, reach: f64) -> f64 {
         (self.velocity.norm() + self.any[0] + (self.turn.abs() + self.any[1]) * reach) * self.half
@@ -154,10 +156,10 @@ impl Drift {
 }
 
 impl Course {
-    /// From stop to stop, and on from the last at `velocity`.
+    /// Creates a course from stop to stop, which continues after the last one at `velocity`.
     ///
     /// # Errors
-    /// [`CourseError`]: the first that there is.
+    /// [`CourseError`]: the first one found.
     pub fn new(stops: Vec<Stop>, velocity: Vector) -> Result<Self, CourseError> {
         if stops.is_empty() {
             return Err(CourseError::Empty);
@@ -178,39 +180,39 @@ impl Course {
         Ok(Self { stops, velocity, legs })
     }
 
-    /// At a constant velocity from the beginning, metres a second, not turning.
+    /// Creates a course at a constant velocity from the beginning, metres a second, without a turn.
     ///
     /// # Errors
-    /// Numbers that are not finite.
+    /// If numbers are not finite.
     pub fn conveyor(at: [f64; 2], velocity: [f64; 2]) -> Result<Self, CourseError> {
         Self::new(vec![Stop { time: 0.0, at: at.into(), angle: 0.0 }], velocity.into())
     }
 
-    /// The stops, in the order of time; at least one.
+    /// Returns the stops, in the order of time; at least one.
     #[must_use]
     pub fn stops(&self) -> &[Stop] {
         &self.stops
     }
 
-    /// How it leaves the last stop, metres a second.
+    /// Returns the velocity after the last stop, metres a second.
     #[must_use]
     pub fn velocity(&self) -> Vector {
         self.velocity
     }
 
-    /// Its legs from time 0 on, in order; the last never ends.
+    /// Returns the legs from time 0 on, in order; the last never ends.
     #[must_use]
     pub fn legs(&self) -> &[Leg] {
         &self.legs
     }
 
-    /// Where the frame is at a time from 0 on.
+    /// Returns the frame's pose at a time from 0 on.
     #[must_use]
     pub fn pose(&self, time: f64) -> Pose {
         self.leg(time).pose(time)
     }
 
-    /// What it does from one time to another.
+    /// Returns the motion from one time to another.
     #[must_use]
     pub fn drift(&self, from: f64, to: f64) -> Drift {
         let (middle, half) = (f64::midpoint(from, to), (to - from) / 2.0);
@@ -224,20 +226,20 @@ impl Course {
         Drift { middle, velocity: Vector::zeros(), turn: 0.0, half, any }
     }
 
-    /// Whether it ever turns.
+    /// Returns true if it ever turns.
     #[must_use]
     pub fn turns(&self) -> bool {
         self.legs.iter().any(|leg| leg.turn != 0.0)
     }
 
-    /// The same on a clock that begins at a time from 0 on.
+    /// Returns the same course on a clock that begins at a time from 0 on.
     #[must_use]
     pub fn since(&self, time: f64) -> Self {
         let here = self.pose(time);
         let later = self.stops.iter().filter(|stop| stop.time > time);
         let mut stops: Vec<Stop> = later.map(|stop| Stop { time: stop.time - time, ..*stop }).collect();
         if time >= self.stops[0].time {
-            // Whole turns count, which poses know nothing of.
+            // Whole turns count, which a pose does not contain.
             let leg = self.leg(time);
             let angle = leg.start.angle + leg.turn * (time - leg.from);
             stops.insert(0, Stop { time: 0.0, at: here.translation.vector.into(), angle });
@@ -246,7 +248,8 @@ impl Course {
         Self { stops, velocity: self.velocity, legs }
     }
 
-    /// The times at which the frame's origin is at a point, or no farther from there than this and at its nearest, metres: in order.
+    /// Returns the times at which the frame's origin is at a point, or nearest to it within this distance, metres; in
+    /// order.
     #[must_use]
     pub fn passes(&self, at: Point, within: f64) -> Vec<Interval> {
         let of = |leg: &Leg| {
@@ -271,7 +274,7 @@ impl Course {
     }
 }
 
-/// The legs of a course from time 0 on.
+/// Returns the legs of a course from time 0 on.
 fn legs(stops: &[Stop], velocity: Vector) -> Vec<Leg> {
     let first = stops[0];
     let mut legs = Vec::with_capacity(stops.len() + 1);
@@ -290,18 +293,18 @@ fn legs(stops: &[Stop], velocity: Vector) -> Vec<Leg> {
     legs
 }
 
-/// An obstacle that moves. What it does does not depend on the arm.
+/// An obstacle that moves. Its motion does not depend on the arm.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Mover {
-    /// Its name, heights and shape, in its own frame.
+    /// Name, heights and shape, in its own frame.
     pub obstacle: Obstacle,
-    /// Where that frame is in time.
+    /// Motion of that frame.
     pub course: Course,
 }
 
 impl Mover {
-    /// It as an obstacle where it is at a time.
+    /// Returns the obstacle at its place at a time.
     #[must_use]
     pub fn at(&self, time: f64) -> Obstacle {
         let pose = self.course.pose(time);
@@ -385,7 +388,7 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(300))]
 
-        /// Where a point of the mover really is, against what its drift allows; also across stops.
+        /// Compares the true place of a point of the mover with the bound of its drift; also across stops.
         #[test]
         fn points_stay_where_their_drift_lets_them(
             at in prop::array::uniform4(prop::array::uniform3(-2.0..2.0_f64)), times in prop::array::uniform4(0.1..1.0_f64),

@@ -1,4 +1,4 @@
-//! Why a configuration is not free.
+//! Reasons why a configuration is not free.
 
 use super::{Contact, Pair, Scene};
 use crate::space::Configuration;
@@ -9,26 +9,27 @@ use std::borrow::Cow;
 /// A contact, or a distance below the clearance.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Obstruction {
-    /// The shapes, and how they lie to each other.
+    /// The shapes, with their distance.
     pub contact: Contact,
-    /// Whether they meet, exactly decided; else they are nearer than the clearance.
+    /// True if they meet, as decided exactly; otherwise they are nearer than the clearance.
     pub touches: bool,
 }
 
-/// Depths below this, metres, are called touching.
+/// Depths below this, metres, are reported as touching.
 const SHALLOW: f64 = 1e-9;
 
-/// Depths of this and more, metres, are shown with four decimals, which would show nothing of smaller ones.
+/// Depths of at least this, metres, are shown with four decimals, which would be zero for smaller ones.
 const DEEP: f64 = 1e-3;
 
 impl Scene {
-    /// Why `q` is not free of what stands: of each link (or payload) and obstacle the worst pair of shapes. Empty if it is.
+    /// Returns the reasons why `q` is not free of static obstacles: for each link (or payload) and obstacle the worst
+    /// pair of shapes. Empty if `q` is free.
     #[must_use]
     pub fn obstructions(&self, q: Configuration) -> Vec<Obstruction> {
         self.worst(q, self.pairs().iter().map(|&pair| (pair, Cow::Borrowed(self.piece(pair)))))
     }
 
-    /// The same of what stands and of what moves, at a time.
+    /// Returns the reasons for static and moving obstacles, at a time.
     #[must_use]
     pub fn obstructions_at(&self, q: Configuration, time: f64) -> Vec<Obstruction> {
         let standing = self.pairs().iter().map(|&pair| (pair, Cow::Borrowed(self.piece(pair))));
@@ -64,7 +65,7 @@ impl Scene {
         worst
     }
 
-    /// An obstruction in words: `link "forearm" hits obstacle "shelf", 0.0120 m deep`.
+    /// Returns an obstruction in words: `link "forearm" hits obstacle "shelf", 0.0120 m deep`.
     #[must_use]
     pub fn explain(&self, obstruction: &Obstruction) -> String {
         let Contact { pair, separation } = obstruction.contact;

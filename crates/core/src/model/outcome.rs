@@ -4,19 +4,19 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use std::fmt;
 
-/// An answer: found, proven that there is none, or neither, each with what belongs to it.
+/// An answer: found, proven infeasible, or unknown, each with its own data.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Outcome<F, I, U = String> {
-    /// There is one, and it is certified: `F` says which.
+    /// Found and certified: the solution is in `F`.
     Found(F),
-    /// There is none: proven by `I`.
+    /// Proven infeasible by `I`.
     Infeasible(I),
-    /// Neither: `U` says why.
+    /// Unknown: the reason is in `U`.
     Unknown(U),
 }
 
 impl<F, I, U> Outcome<F, I, U> {
-    /// Which of the three.
+    /// Returns the kind of the answer.
     #[must_use]
     pub fn status(&self) -> Status {
         match self {
@@ -26,7 +26,7 @@ impl<F, I, U> Outcome<F, I, U> {
         }
     }
 
-    /// The same, borrowed.
+    /// Borrows the answer.
     #[must_use]
     pub fn as_ref(&self) -> Outcome<&F, &I, &U> {
         match self {
@@ -36,7 +36,7 @@ impl<F, I, U> Outcome<F, I, U> {
         }
     }
 
-    /// Returns the same answer with what `with` makes of what was found.
+    /// Returns the same answer with the found value converted by `with`.
     #[must_use]
     pub fn map<G>(self, with: impl FnOnce(F) -> G) -> Outcome<G, I, U> {
         match self {
@@ -46,19 +46,19 @@ impl<F, I, U> Outcome<F, I, U> {
         }
     }
 
-    /// Returns what was found, if that is the answer.
+    /// Returns the found value, if that is the answer.
     #[must_use]
     pub fn found(&self) -> Option<&F> {
         if let Outcome::Found(found) = self { Some(found) } else { None }
     }
 
-    /// Returns what proves that there is none, if that is the answer.
+    /// Returns the proof that there is no solution, if that is the answer.
     #[must_use]
     pub fn infeasible(&self) -> Option<&I> {
         if let Outcome::Infeasible(proof) = self { Some(proof) } else { None }
     }
 
-    /// Returns why neither is known, if that is the answer.
+    /// Returns the reason if the answer is unknown.
     #[must_use]
     pub fn unknown(&self) -> Option<&U> {
         if let Outcome::Unknown(why) = self { Some(why) } else { None }
@@ -81,7 +81,7 @@ impl Status {
     /// All, in the order in which they are counted.
     pub const ALL: [Status; 3] = [Status::Found, Status::Infeasible, Status::Unknown];
 
-    /// The word for it in results, tables and files.
+    /// Returns the word for it in results, tables and files.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {

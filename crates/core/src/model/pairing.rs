@@ -1,20 +1,20 @@
-//! Which pairs of shapes of a scene can meet.
+//! Decides which pairs of shapes of a scene can meet.
 
 use super::payload_parts::Meetable;
 use super::{Arm, Carrier, Heights, Mover, Obstacle, Pair, Part, SelfObstacle, Workspace};
 use cplan_geometry::{Convex, separation};
 
-/// Whether heights meet, where rounding leaves it open.
+/// Treatment of heights where rounding leaves open whether they meet.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Meet {
-    /// They do: for what is to be free.
+    /// They meet: conservative, for claims that a configuration is free.
     Perhaps,
-    /// They do not: for proofs that something is in the way.
+    /// They do not meet: for proofs that the arm collides.
     Surely,
 }
 
 impl Meet {
-    /// Returns whether a part of the arm, or of an object that it carries, shares a height with an obstacle.
+    /// Returns true if a part of the arm, or of an object that it carries, shares a height with an obstacle.
     pub fn holds(self, is_carried: bool, part: Heights, obstacle: Heights) -> bool {
         match (self, is_carried) {
             (Self::Perhaps, false) => part.meet(obstacle),
@@ -25,42 +25,42 @@ impl Meet {
     }
 }
 
-/// Which pairs a scene takes, and which it leaves out.
+/// The rule that decides which pairs a scene includes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Reading {
-    /// Which heights can meet.
+    /// Treatment of heights.
     pub meet: Meet,
-    /// Pieces of what stands that are farther from joint 1 are no part of a pair, metres.
+    /// Greatest distance of static pieces from joint 1, metres; farther ones are in no pair.
     pub farthest: f64,
 }
 
 impl Reading {
-    /// Takes all pairs that may meet.
+    /// The rule that includes all pairs that may meet.
     pub const ALL: Self = Self { meet: Meet::Perhaps, farthest: f64::INFINITY };
 
-    /// Returns whether a contact proves something.
+    /// Returns true if a contact proves a collision.
     pub fn is_evidence(&self) -> bool {
         self.meet == Meet::Surely
     }
 
-    /// Returns whether a piece is perhaps nothing without rounding, and so no evidence.
+    /// Returns true if a piece may be empty without rounding, and so is no evidence.
     pub fn takes_for_nothing(&self, piece: &Convex) -> bool {
         self.is_evidence() && piece.is_sliver()
     }
 }
 
-/// What an obstacle of a scene is.
+/// The kind of an obstacle of a scene.
 #[derive(Clone, Copy)]
 pub(super) enum Kind<'a> {
-    /// It stays where it is.
+    /// A static obstacle.
     Standing,
-    /// It moves.
+    /// A moving obstacle.
     Moving(&'a Mover),
-    /// It is a link of the robot.
+    /// A link of the robot.
     Own(&'a SelfObstacle),
 }
 
-/// Returns all obstacles in the order of their numbers: those of the workspace, those that move, links of the robot.
+/// Returns all obstacles in the order of their numbers: static ones, moving ones, links of the robot.
 pub(super) fn obstacles<'a>(arm: &'a Arm, workspace: &'a Workspace) -> impl Iterator<Item = (Kind<'a>, &'a Obstacle)> {
     let standing = workspace.obstacles.iter().map(|obstacle| (Kind::Standing, obstacle));
     let moving = workspace.movers.iter().map(|mover| (Kind::Moving(mover), &mover.obstacle));
@@ -68,25 +68,25 @@ pub(super) fn obstacles<'a>(arm: &'a Arm, workspace: &'a Workspace) -> impl Iter
     standing.chain(moving).chain(own)
 }
 
-/// What decides which pairs a scene has.
+/// The data that decide which pairs a scene has.
 pub(super) struct Pairing<'a> {
-    /// The arm, with what it carries.
+    /// The arm, with its payload.
     pub arm: &'a Arm,
     pub workspace: &'a Workspace,
     pub reading: Reading,
-    /// Number of parts of link 2 that are its own; others are carried.
+    /// Number of link 2's own parts; those after them belong to the payload.
     pub own_parts: usize,
-    /// What each carried part can meet.
+    /// The pieces that each carried part can meet.
     pub carried: &'a [Meetable],
     /// Obstacles that link 2 itself is free to meet.
     pub allowed_contacts: &'a [usize],
 }
 
 impl Pairing<'_> {
-    /// Returns the pairs with what stands and with what moves, each ordered by link, part, obstacle and piece.
+    /// Returns the pairs with static and with moving obstacles, each ordered by link, part, obstacle and piece.
     pub fn pairs(&self) -> [Vec<Pair>; 2] {
         let left_out = self.left_out();
-        // What is made of pieces comes after them, all for one piece of the payload after all for another.
+        // Shapes derived from pieces come after the pieces: one full set of pieces per piece of the payload.
         let is_kept = |pair: &Pair| left_out.get(pair.obstacle).is_none_or(|all| !all[pair.piece % all.len()]);
         let (mut pairs, mut moving, mut folding) = (Vec::new(), Vec::new(), Vec::new());
         let parts = |link: usize| self.arm.links[link].parts.iter().enumerate().map(move |(part, p)| (link, part, p));
@@ -114,16 +114,16 @@ impl Pairing<'_> {
         [pairs, moving]
     }
 
-    /// Returns whether a part of a link and an obstacle can meet, by their heights and by who carries them.
+    /// Returns true if a part of a link and an obstacle can meet, by their heights and their carriers.
     fn can_meet(&self, link: usize, part: &Part, is_carried: bool, kind: Kind, obstacle: &Obstacle) -> bool {
         let Kind::Own(own) = kind else { return self.reading.meet.holds(is_carried, part.heights, obstacle.heights) };
-        // Links of a robot lie on each other.
+        // Links of a robot lie on top of each other.
         (link == 1 || own.carrier == Carrier::Base)
             && part.heights.surely_meet(obstacle.heights)
             && (is_carried || !own.ignores(&part.body))
     }
 
-    /// Returns, for each obstacle, which of its pieces are in no pair; nothing at all if every piece may be.
+    /// Returns, for each obstacle, true for each piece that is in no pair; nothing at all if every piece may be in one.
     fn left_out(&self) -> Vec<Vec<bool>> {
         let Reading { farthest, .. } = self.reading;
         if farthest.is_infinite() && !self.reading.is_evidence() {

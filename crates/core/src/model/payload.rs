@@ -1,4 +1,4 @@
-//! Something that the arm carries.
+//! The object that the arm carries.
 
 use super::{Arm, Heights};
 use crate::space::Configuration;
@@ -6,13 +6,13 @@ use cplan_geometry::{Convex, Point, Pose};
 use nalgebra::{Isometry2, Translation2};
 use serde::{Deserialize, Serialize};
 
-/// How an object hangs on the arm.
+/// The connection of an object with the arm.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Grip {
-    /// It turns with link 2: its pose in link 2's frame.
+    /// The object turns with link 2; its pose in link 2's frame.
     Rigid(Pose),
-    /// A wrist keeps its orientation in the plane, whatever the joints do.
+    /// A wrist keeps the object's orientation in the plane, at all joint values.
     Level {
         /// The orientation, radians.
         angle: f64,
@@ -22,7 +22,7 @@ pub enum Grip {
 }
 
 impl Grip {
-    /// Where what hangs so is at `q`: the pose of its frame in the plane.
+    /// Returns the pose of the object's frame in the plane at `q`.
     #[must_use]
     pub fn pose(&self, arm: &Arm, q: Configuration) -> Pose {
         match *self {
@@ -42,39 +42,40 @@ impl Grip {
 pub struct Payload {
     /// The object's name.
     pub object: String,
-    /// Its outline as a union of convex pieces, in its own frame.
+    /// Outline as a union of convex pieces, in its own frame.
     pub pieces: Vec<Convex>,
-    /// Its extent along the plane's normal while it is carried.
+    /// Extent along the plane's normal while it is carried.
     pub heights: Heights,
-    /// How it is held.
+    /// Connection with the arm.
     pub grip: Grip,
-    /// Kilograms, spread evenly over the pieces.
+    /// Mass in kilograms, spread evenly over the pieces.
     #[serde(default)]
     pub mass: f64,
-    /// What it may touch, though not press into by more than [`Payload::penetration_allowance`]: what it rests on. Obstacles by their
-    /// number in the workspace.
+    /// Obstacles on which it rests, by their number in the workspace. It may touch them, but must not press into them
+    /// by more than [`Payload::penetration_allowance`].
     pub supports: Vec<usize>,
 }
 
-/// Depth to which a payload may press into what supports it, as a share of the arm's reach: above the rounding of
-/// coordinates that people write down, below what any gripper yields.
+/// Depth to which a payload may press into its supports, as a share of the arm's reach. It is above the rounding of
+/// coordinates that people write down, and below the compliance of any gripper.
 const PENETRATION_ALLOWANCE: f64 = 1e-4;
 
 impl Payload {
-    /// Greatest *penetration depth* of a payload in its supports, metres: by so much each corner of it is moved inwards, halfway between the
-    /// sides there, and what is left stays off them. So sides press in by that times the sine of half the angle at their ends.
+    /// Returns the greatest *penetration depth* of a payload in its supports, metres. Each corner of the payload is
+    /// moved inwards by this distance, along the bisector of its sides, and the smaller shape must stay off the
+    /// supports. So sides press in by at most this times the sine of half the angle at their ends.
     #[must_use]
     pub fn penetration_allowance(arm: &Arm) -> f64 {
         PENETRATION_ALLOWANCE * arm.reach()
     }
 
-    /// Where the object is at `q`: the pose of its frame in the plane.
+    /// Returns the pose of the object's frame in the plane at `q`.
     #[must_use]
     pub fn pose(&self, arm: &Arm, q: Configuration) -> Pose {
         self.grip.pose(arm, q)
     }
 
-    /// The grip that holds an object lying at `pose` with the arm at `q`, so that link 2 turns it.
+    /// Returns the grip of an object at `pose` with the arm at `q`, so that link 2 turns it.
     #[must_use]
     pub fn rigid_grip(arm: &Arm, q: Configuration, pose: &Pose) -> Grip {
         Grip::Rigid(arm.pose(1, q).inv_mul(pose))

@@ -1,4 +1,5 @@
-//! What is carried, as parts of link 2: whole, and for its supports smaller by what it may press into them.
+//! The payload as parts of link 2: the whole shape, and for its supports a shape that is smaller by the penetration
+//! allowance.
 
 use super::pairing::{Kind, Reading, obstacles};
 use super::{Arm, Carrier, Grip, Part, Payload, Workspace};
@@ -6,25 +7,25 @@ use cplan_geometry::{Convex, Point, drawn_in};
 use nalgebra::{Isometry2, Translation2};
 use std::ops::Range;
 
-/// Which share of what a payload may press into its supports its corners are moved by: a little less, so that a checker that moves them farther
-/// has room.
+/// Share of the penetration allowance by which corners are moved: a little less than 1, so that a checker that moves
+/// them farther has room.
 const AT_MOST: f64 = 1.0 - 1e-3;
 
-/// What a payload's part can meet.
+/// The obstacles that a payload's part can meet.
 #[derive(Clone, Copy, PartialEq)]
 pub enum Meets {
-    /// Everything but the payload's supports.
+    /// Everything except the payload's supports.
     Others,
-    /// The supports: the part is smaller by what it may press into them.
+    /// The supports: the part is smaller by the penetration allowance.
     Supports,
 }
 
-/// Which pieces of each obstacle, and of each mover after them, something can meet.
+/// The ranges of pieces that a part can meet, for each obstacle and then for each mover.
 pub(super) type Meetable = Vec<Range<usize>>;
 
 impl Payload {
-    /// It as parts of link 2, each with what it can meet, numbered by the pieces that they are of; what is made of the obstacles' pieces for it is added to
-    /// `differences`.
+    /// Returns the payload as parts of link 2, each with the pieces that it can meet. Parts are numbered by their
+    /// pieces. Shapes derived from the obstacles' pieces are added to `differences`.
     pub(super) fn on_link(
         &self,
         arm: &Arm,
@@ -44,7 +45,8 @@ impl Payload {
             let mut meetable = Vec::new();
             for (number, (kind, obstacle)) in obstacles(arm, workspace).enumerate() {
                 let own = obstacle.pieces.len();
-                // How something level lies to what joint 1 carries is not known: it is covered all round, which is no evidence.
+                // The angle between a level payload and obstacles that joint 1 carries is unknown. So the payload is
+                // covered by a disc, which is no evidence.
                 let is_folding = matches!(kind, Kind::Own(own) if own.carrier == Carrier::FirstJoint);
                 let is_turned = level.is_some() && is_folding;
                 let meets = self.meets(part_meets, number) && !(is_turned && reading.is_evidence());
@@ -53,7 +55,8 @@ impl Payload {
                     meetable.push(0..if meets { own } else { 0 });
                     continue;
                 }
-                // What moves has its pieces in its own frame, which does not turn where something level is carried.
+                // A moving obstacle has its pieces in its own frame, which does not turn while something level is
+                // carried.
                 let seen = |level: &Convex| match kind {
                     Kind::Moving(mover) => level.at(&Isometry2::rotation(-mover.course.stops()[0].angle)),
                     Kind::Standing | Kind::Own(_) => level.clone(),
@@ -76,12 +79,12 @@ impl Payload {
         parts
     }
 
-    /// Its pieces, and smaller ones for its supports, in its own frame.
+    /// Returns its pieces, and smaller ones for its supports, in its own frame.
     pub fn parts(&self, arm: &Arm) -> impl Iterator<Item = (Convex, Meets)> {
         self.parts_read(arm, &Reading::ALL).into_iter().map(|(_, shape, kind)| (shape, kind))
     }
 
-    /// The same, after the number of the piece that each is of.
+    /// Returns the same parts, each after the number of its piece.
     fn parts_read(&self, arm: &Arm, reading: &Reading) -> Vec<(usize, Convex, Meets)> {
         let mut parts: Vec<_> =
             self.pieces.iter().enumerate().map(|(number, piece)| (number, piece.clone(), Meets::Others)).collect();
@@ -96,7 +99,7 @@ impl Payload {
         parts
     }
 
-    /// Whether its parts of that kind can meet an obstacle.
+    /// Returns true if its parts of that kind can meet an obstacle.
     pub fn meets(&self, kind: Meets, obstacle: usize) -> bool {
         match kind {
             Meets::Others => !self.supports.contains(&obstacle),
@@ -106,7 +109,7 @@ impl Payload {
 }
 
 impl Meets {
-    /// How much nearer than the clearance the part may come to what it meets.
+    /// Returns the distance by which the part may come nearer than the clearance.
     pub fn nearer(self, clearance: f64) -> f64 {
         match self {
             Meets::Others => 0.0,

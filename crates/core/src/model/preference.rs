@@ -5,34 +5,34 @@ use crate::space::Configuration;
 use cplan_geometry::{Point, SimplePolygon};
 use serde::{Deserialize, Serialize};
 
-/// Where a preference holds.
+/// The configurations for which a preference holds.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Region {
-    /// These configurations; on circles their copies too.
+    /// These configurations, and on circles their copies.
     Configurations(SimplePolygon),
     /// The configurations whose tip lies in this polygon of the workspace, metres.
     Tip(SimplePolygon),
 }
 
-/// A region of the world that field planners may treat differently: softly, unlike an obstacle. Other planners do not
-/// look at it.
+/// A region of the world that field planners may treat differently. Unlike an obstacle it is no strict constraint.
+/// Other planners ignore it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Preference {
     /// The user's name for it, or `preference 3`.
     pub name: String,
-    /// The region in which it holds.
+    /// The configurations to which it applies.
     pub region: Region,
-    /// Strength of the drift in the field equation, per grid cell; finite. With fields whose drift follows their own slope
-    /// a positive one makes the region less attractive, a negative one more.
+    /// Strength of the drift in the field equation, per grid cell; finite. With fields whose drift follows their own
+    /// slope a positive value makes the region less attractive, a negative one more attractive.
     pub epsilon: f64,
     /// Direction of the drift in joint space, of length 1; for fields that are oriented by region.
     pub direction: Option<[f64; 2]>,
 }
 
 impl Preference {
-    /// Whether it holds at `q`. Exact, boundaries included, up to the rounding of the tip's place.
+    /// Returns true if it holds at `q`. Exact, boundaries included, up to the rounding of the tip's place.
     #[must_use]
     pub fn holds_at(&self, arm: &Arm, q: Configuration) -> bool {
         match &self.region {

@@ -6,7 +6,7 @@ use crate::space::{Configuration, GoalSet};
 use cplan_geometry::Point;
 use serde::{Deserialize, Serialize};
 
-/// Where to go.
+/// A destination.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Goal {
@@ -14,13 +14,13 @@ pub enum Goal {
     Joints(Configuration),
     /// Any configuration that puts the tip here.
     Tip(Point),
-    /// Any configuration that puts the tip into this rectangle: lower left and upper right corner. Of arms that do not slide along both
-    /// axes the middle alone ([`Goal::of_arm`]).
+    /// Any configuration that puts the tip into this rectangle: lower left and upper right corner. For arms that do not
+    /// slide along both axes only its middle counts ([`Goal::of_arm`]).
     Area([Point; 2]),
 }
 
 impl Goal {
-    /// Where the tip is to be, of a rectangle its middle; none of joint values.
+    /// Returns the target place of the tip, for a rectangle its middle; `None` for joint values.
     #[must_use]
     pub fn tip(&self) -> Option<Point> {
         match self {
@@ -30,7 +30,7 @@ impl Goal {
         }
     }
 
-    /// The place for the tip that is nearest to where it is; none of joint values.
+    /// Returns the target place of the tip that is nearest to its present place; `None` for joint values.
     #[must_use]
     pub fn nearest_tip(&self, is: Point) -> Option<Point> {
         match self {
@@ -40,47 +40,48 @@ impl Goal {
     }
 }
 
-/// Why a scene, a start and goals make no problem.
+/// A defect of a scene, a start and goals.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum MotionProblemError {
-    /// The start lies outside a joint's limits, or is no number.
+    /// The start lies outside a joint's limits, or is not a number.
     #[error("the start is outside the limits of joint \"{joint}\": {value}")]
     StartOutside {
         /// The joint's name in the URDF.
         joint: String,
-        /// Radians or metres.
+        /// The joint's value, radians or metres.
         value: f64,
     },
-    /// At the start the arm meets an obstacle, or is nearer to one than the clearance; of what moves, where it is at time 0.
+    /// The arm meets an obstacle at the start, or is nearer to one than the clearance. Moving obstacles are at their
+    /// place at time 0.
     #[error("the start is not free: {why}")]
     StartBlocked {
-        /// Which link, which obstacle, how deep.
+        /// The link, the obstacle, and the depth.
         why: String,
     },
-    /// There is nowhere to go.
+    /// There is no goal.
     #[error("there is no goal")]
     NoGoal,
-    /// A goal lies outside a joint's limits, or is no number.
+    /// A goal lies outside a joint's limits, or is not a number.
     #[error("goal {} is outside the limits of joint \"{joint}\": {value}", goal + 1)]
     GoalOutside {
-        /// Which of the goals, from 0.
+        /// Number of the goal, from 0.
         goal: usize,
         /// The joint's name.
         joint: String,
-        /// Radians or metres.
+        /// The joint's value, radians or metres.
         value: f64,
     },
     /// A goal that is a single configuration is not free.
     #[error("goal {} is not free: {why}", goal + 1)]
     GoalBlocked {
-        /// Which of the goals, from 0.
+        /// Number of the goal, from 0.
         goal: usize,
-        /// Which link, which obstacle, how deep.
+        /// The link, the obstacle, and the depth.
         why: String,
     },
 }
 
-/// What a user asks: a scene, a start, and goals any of which will do.
+/// A user's query: a scene, a start, and alternative goals.
 ///
 /// The start lies within the joint limits and is free. There is at least one goal; goals lie within the limits. Single
 /// configurations among them are free; of a segment only a part may be.
@@ -93,8 +94,8 @@ pub struct MotionProblem {
 }
 
 impl MotionProblem {
-    /// From a start to any of the goals: a configuration, a segment of them, or a set. `O(n)` distances in the scene's pairs
-    /// for the start and for each goal.
+    /// Creates a problem from a start to any of the goals: a configuration, a segment of them, or a set. `O(n)`
+    /// distances in the scene's pairs for the start and for each goal.
     ///
     /// # Errors
     /// When the start or a goal is outside the limits or not free, or there is no goal.
@@ -126,38 +127,39 @@ impl MotionProblem {
         Ok(Self { scene, start, goals })
     }
 
-    /// The same of what is known to be valid, or whose start and goals nobody will look at.
+    /// Creates a problem without checks. For a start and goals that are known to be valid, or that are never used.
     #[must_use]
     #[doc(hidden)]
     pub fn trusted(scene: Scene, start: Configuration, goals: impl Into<GoalSet>) -> Self {
         Self { scene, start, goals: goals.into() }
     }
 
-    /// Arm and obstacles.
+    /// Returns arm and obstacles.
     #[must_use]
     pub fn scene(&self) -> &Scene {
         &self.scene
     }
 
-    /// The same without start and goals.
+    /// Returns the scene without start and goals.
     #[must_use]
     pub fn into_scene(self) -> Scene {
         self.scene
     }
 
-    /// Where the arm is.
+    /// Returns the arm's start configuration.
     #[must_use]
     pub fn start(&self) -> Configuration {
         self.start
     }
 
-    /// The configurations of which reaching any will do.
+    /// Returns the alternative goals: reaching any of them is enough.
     #[must_use]
     pub fn goals(&self) -> &GoalSet {
         &self.goals
     }
 
-    /// The arm, to give its joints other limits on speed, acceleration, jerk and effort, on which start and goals do not depend.
+    /// Gives access to the arm, to change its joints' limits on speed, acceleration, jerk and effort. Start and goals
+    /// do not depend on them.
     pub fn arm_mut(&mut self) -> &mut super::Arm {
         self.scene.arm_mut()
     }

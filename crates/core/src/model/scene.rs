@@ -11,23 +11,23 @@ use cplan_geometry::{Convex, Separation, separation};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 
-/// A part of a link and a piece of an obstacle that can meet: their heights do. Indices into the scene.
+/// A part of a link and a piece of an obstacle that can meet, because they share a height. Indices into the scene.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Pair {
-    /// 0 or 1; 2 for link 2 as it lies to link 1, and the obstacle is carried by joint 1.
+    /// 0 or 1 for the link; 2 for link 2 relative to link 1, with an obstacle that joint 1 carries.
     pub link: usize,
-    /// Into the link's parts.
+    /// Index into the link's parts.
     pub part: usize,
-    /// Into the workspace's obstacles; beyond these, into what moves; beyond that, into the arm's self obstacles.
+    /// Index into the workspace's obstacles, followed by the moving obstacles, followed by the arm's self obstacles.
     pub obstacle: usize,
-    /// Into the obstacle's pieces; beyond these, what is made of them for a payload.
+    /// Index into the obstacle's pieces, followed by the shapes derived from them for a payload.
     pub piece: usize,
 }
 
-/// A pair and how its shapes lie to each other.
+/// A pair with its distance.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Contact {
-    /// The shapes that are looked at.
+    /// The pair of shapes.
     pub pair: Pair,
     /// Their signed distance and its direction.
     pub separation: Separation,
@@ -46,37 +46,39 @@ pub struct Scene {
     payload: Option<Payload>,
     /// Obstacles that link 2 itself is free to meet.
     allowed_contacts: Vec<usize>,
-    /// Parts of link 2 that are the arm's own; those that follow are the payload's.
+    /// Number of link 2's own parts; those that follow are the payload's.
     own_parts: usize,
     reading: Reading,
     pairs: Vec<Pair>,
-    /// The same with what moves.
+    /// The pairs with moving obstacles.
     moving: Vec<Pair>,
-    /// For each obstacle, mover and self obstacle, in this order: what a level payload makes of its pieces, and of supports what is met of them.
+    /// For each obstacle, mover and self obstacle, in this order: the shapes derived from its pieces for a level
+    /// payload, and the smaller pieces of supports.
     differences: Vec<Vec<Convex>>,
 }
 
-/// More pairs out of reach are left out of a search: with fewer it is as fast.
+/// A search omits the pairs out of reach if there are more than this; with fewer it is as fast.
 const MANY_OUT_OF_REACH: usize = 200;
 
-/// By which share rounding may make a distance too large or a reach too small, and much more.
+/// Share by which rounding may make a distance too large or a reach too small, with a wide margin.
 const ROUNDING: f64 = 1e-9;
 
 impl Scene {
     /// Puts the arm into the workspace.
     ///
     /// # Errors
-    /// When a number of either makes no sense: see [`SceneError`].
+    /// If a number of either makes no sense: see [`SceneError`].
     pub fn new(arm: Arm, workspace: Workspace) -> Result<Self, SceneError> {
         Self::handling(arm, workspace, None, &[])
     }
 
-    /// Puts the arm with a payload into the workspace. Link 2 itself is free to meet the `allowed_contacts` obstacles, which it has
-    /// just let go of or is about to take; what moves has the numbers after those of the obstacles. A payload presses into its supports by no more than [`Payload::penetration_allowance`], its corners
-    /// included. No clearance is kept there: in every distance a support is farther away by it than it is.
+    /// Puts the arm with a payload into the workspace. Link 2 itself is free to meet the `allowed_contacts` obstacles,
+    /// which it has just released or is about to take; moving obstacles are numbered after the static ones. A payload
+    /// presses into its supports by at most [`Payload::penetration_allowance`], its corners included. No clearance is
+    /// kept there: in every distance, a support counts as farther away by the clearance.
     ///
     /// # Errors
-    /// As [`Scene::new`]; when what is carried is held at no finite place, or an obstacle's number is none.
+    /// Same as for [`Scene::new`]; also if the payload's pose is not finite, or there is no obstacle of a given number.
     pub fn handling(
         arm: Arm,
         workspace: Workspace,
@@ -87,14 +89,14 @@ impl Scene {
         Ok(Self::handling_trusted(arm, workspace, payload, allowed_contacts))
     }
 
-    /// [`Scene::new`] of what is known to be valid.
+    /// Same as [`Scene::new`], without checks.
     #[must_use]
     #[doc(hidden)]
     pub fn trusted(arm: Arm, workspace: Workspace) -> Self {
         Self::handling_trusted(arm, workspace, None, &[])
     }
 
-    /// [`Scene::handling`] of what is known to be valid.
+    /// Same as [`Scene::handling`], without checks.
     #[must_use]
     #[doc(hidden)]
     pub fn handling_trusted(
@@ -106,7 +108,7 @@ impl Scene {
         Self::assembled(arm, workspace, payload, allowed_contacts, Reading::ALL)
     }
 
-    /// The scene of what is known to be valid.
+    /// Creates the scene without checks.
     fn assembled(
         mut arm: Arm,
         workspace: Workspace,
@@ -127,15 +129,15 @@ impl Scene {
         Self { arm, workspace, payload, allowed_contacts, own_parts, reading, pairs, moving, differences }
     }
 
-    /// The same scene for proofs that something is in the way: where an outline covers more than it stands for, the shape within, what is as
-    /// high as each other for certain, and no pieces that are nothing without rounding.
+    /// Returns the scene for proofs of collisions. It uses inner shapes where an outline covers more than the real
+    /// part, only heights that certainly meet, and no pieces that may be empty without rounding.
     #[must_use]
     pub fn inner(&self) -> Cow<'_, Self> {
         let parts = || self.arm.links.iter().flat_map(|link| &link.parts);
         let all = || obstacles(&self.arm, &self.workspace).map(|(_, obstacle)| obstacle);
         let is_level = self.payload.as_ref().is_some_and(|payload| matches!(payload.grip, Grip::Level { .. }));
         let is_covered = is_level && self.arm.self_obstacles.iter().any(|own| own.carrier == Carrier::FirstJoint);
-        // Whether links of the robot meet is always known.
+        // The heights of the robot's links are always known.
         let is_known = |is_carried: bool, part: &Part| {
             let meets = |meet: Meet, obstacle: &Obstacle| meet.holds(is_carried, part.heights, obstacle.heights);
             self.workspace.all().all(|obstacle| meets(Meet::Perhaps, obstacle) == meets(Meet::Surely, obstacle))
@@ -163,14 +165,15 @@ impl Scene {
         ))
     }
 
-    /// The same scene with other shapes for the arm's own parts and for the pieces of obstacles; each part stays one part,
-    /// each obstacle one obstacle, and what is carried stays as it is.
+    /// Returns the scene with other shapes for the arm's own parts and for the pieces of obstacles. Each part stays one
+    /// part, each obstacle stays one obstacle, and the payload is unchanged.
     #[must_use]
     pub fn reshaped(&self, reshape: impl Fn(&mut Part), pieces: impl FnMut(&Obstacle) -> Vec<Convex>) -> Self {
         self.remade(reshape, pieces, self.reading)
     }
 
-    /// The same scene with other heights for the arm's self obstacles, given the URDF link's name and those that it has.
+    /// Returns the scene with other heights for the arm's self obstacles. The function gets the URDF link's name and
+    /// its present heights.
     #[must_use]
     pub fn with_self_heights(&self, heights: impl Fn(&str, Heights) -> Heights) -> Self {
         self.changed(|arm, _| {
@@ -180,8 +183,8 @@ impl Scene {
         })
     }
 
-    /// The same scene without the pairs with what stands farther from joint 1 than anything of the arm gets, clearance included; none where these are
-    /// few, or something is carried. Each part, obstacle and piece keeps its number.
+    /// Returns the scene without the pairs of static obstacles that are out of the arm's reach, clearance included.
+    /// Returns `None` if these are few, or if there is a payload. Each part, obstacle and piece keeps its number.
     #[must_use]
     pub fn within_reach(&self) -> Option<Self> {
         if self.payload.is_some() || self.pairs.len() <= MANY_OUT_OF_REACH {
@@ -213,8 +216,8 @@ impl Scene {
         })
     }
 
-    /// The same scene with a change of the arm (without what it carries) or the workspace, which nobody checks. What moves keeps its
-    /// number, and so does what is carried.
+    /// Returns the scene with a change of the arm (without its payload) or the workspace, without checks. Moving
+    /// obstacles and the payload keep their numbers.
     #[must_use]
     #[doc(hidden)]
     pub fn changed(&self, change: impl FnOnce(&mut Arm, &mut Workspace)) -> Self {
@@ -228,16 +231,16 @@ impl Scene {
         Self::assembled(arm, workspace, self.payload.clone(), &self.allowed_contacts, reading)
     }
 
-    /// The same scene with another distance to keep, metres.
+    /// Returns the scene with another distance to keep, metres.
     ///
     /// # Errors
-    /// When it is negative or not finite.
+    /// If the distance is negative or not finite.
     pub fn with_clearance(self, clearance: f64) -> Result<Self, SceneError> {
         check_clearance(clearance)?;
         Ok(self.changed(|_, workspace| workspace.clearance = clearance))
     }
 
-    /// The same scene at a time: what moves stands where it is then, after all that stands.
+    /// Returns the scene at a time: moving obstacles become static at their places then, after all static ones.
     #[must_use]
     pub fn frozen(&self, time: f64) -> Self {
         if self.workspace.movers.is_empty() {
@@ -246,23 +249,23 @@ impl Scene {
         self.changed(|_, Workspace { obstacles, movers, .. }| obstacles.extend(movers.drain(..).map(|m| m.at(time))))
     }
 
-    /// The same scene on a clock that begins at this time.
+    /// Returns the scene on a clock that begins at this time.
     #[must_use]
     pub fn since(mut self, time: f64) -> Self {
         self.workspace.movers.iter_mut().for_each(|mover| mover.course = mover.course.since(time));
         self
     }
 
-    /// The same scene with one obstacle more, which stands.
+    /// Returns the scene with one more static obstacle.
     #[must_use]
     pub fn with_standing(&self, obstacle: Obstacle) -> Self {
         let (mut scene, standing) = (self.clone(), self.workspace.obstacles.len());
-        // What moves has the numbers after those of what stands.
+        // Moving obstacles are numbered after the static ones.
         scene.allowed_contacts.iter_mut().filter(|number| **number >= standing).for_each(|number| *number += 1);
         scene.changed(|_, workspace| workspace.obstacles.push(obstacle))
     }
 
-    /// What it was made of: the arm without what it carries, and the workspace, to make another scene of them.
+    /// Returns the arm without its payload, and the workspace, from which another scene can be made.
     #[must_use]
     pub fn into_parts(mut self) -> (Arm, Workspace) {
         self.arm.links[1].parts.truncate(self.own_parts);
@@ -275,80 +278,83 @@ impl Scene {
         &self.allowed_contacts
     }
 
-    /// The arm, with what it carries.
+    /// Returns the arm, with its payload.
     #[must_use]
     pub fn arm(&self) -> &Arm {
         &self.arm
     }
 
-    /// What surrounds it.
+    /// Returns the workspace.
     #[must_use]
     pub fn workspace(&self) -> &Workspace {
         &self.workspace
     }
 
-    /// The arm, to give its joints other limits on speed, acceleration, jerk and effort: the pairs do not depend on them.
+    /// Gives access to the arm, to change its joints' limits on speed, acceleration, jerk and effort. The pairs do not
+    /// depend on them.
     pub fn arm_mut(&mut self) -> &mut Arm {
         &mut self.arm
     }
 
-    /// What the arm carries, if anything.
+    /// Returns the payload, if any.
     #[must_use]
     pub fn payload(&self) -> Option<&Payload> {
         self.payload.as_ref()
     }
 
-    /// The link's own outline, without what it carries.
+    /// Returns the link's own outline, without the payload.
     #[must_use]
     pub fn own_parts(&self, link: usize) -> &[Part] {
         let parts = &self.arm.links[link].parts;
         if link == 1 { &parts[..self.own_parts] } else { parts }
     }
 
-    /// All pairs that can meet, ordered by link, part, obstacle, piece.
+    /// Returns all pairs that can meet, ordered by link, part, obstacle, piece.
     #[must_use]
     pub fn pairs(&self) -> &[Pair] {
         &self.pairs
     }
 
-    /// Pairs of a part and something that moves and can meet it at all, in the same order. All other questions are about what stands.
+    /// Returns the pairs of a part and a moving obstacle that can meet, in the same order. All other methods are about
+    /// static obstacles.
     #[must_use]
     pub fn moving_pairs(&self) -> &[Pair] {
         &self.moving
     }
 
-    /// What moves in a pair, if it is one of [`Scene::moving_pairs`].
+    /// Returns the moving obstacle of a pair, if the pair is one of [`Scene::moving_pairs`].
     #[must_use]
     pub fn mover(&self, pair: Pair) -> Option<&Mover> {
         self.workspace.movers.get(pair.obstacle.wrapping_sub(self.workspace.obstacles.len()))
     }
 
-    /// The link of a pair's part.
+    /// Returns the link of a pair's part.
     #[must_use]
     pub fn link(&self, pair: Pair) -> &Link {
         &self.arm.links[pair.link.min(1)]
     }
 
-    /// The link part of a pair, in its link's frame.
+    /// Returns the link part of a pair, in its link's frame.
     #[must_use]
     pub fn part(&self, pair: Pair) -> &Convex {
         &self.link(pair).parts[pair.part].shape
     }
 
-    /// The obstacle piece of a pair, or what is made of it for a payload, in plane coordinates; of what moves, in its own frame.
+    /// Returns the obstacle piece of a pair, or the shape derived from it for a payload, in plane coordinates. For a
+    /// moving obstacle it is in the obstacle's own frame.
     #[must_use]
     pub fn piece(&self, pair: Pair) -> &Convex {
         let own = &self.obstacle(pair.obstacle).pieces;
         own.get(pair.piece).unwrap_or_else(|| &self.differences[pair.obstacle][pair.piece - own.len()])
     }
 
-    /// All pieces of something that moves, in its own frame, as [`Pair::piece`] counts them.
+    /// Returns all pieces of a moving obstacle, in its own frame, as [`Pair::piece`] counts them.
     pub fn pieces_of_mover(&self, mover: usize) -> impl Iterator<Item = &Convex> {
         let made = &self.differences[self.workspace.obstacles.len() + mover];
         self.workspace.movers[mover].obstacle.pieces.iter().chain(made)
     }
 
-    /// Signed distance of every pair at `q`, in the order of [`Scene::pairs`].
+    /// Returns the signed distance of every pair at `q`, in the order of [`Scene::pairs`].
     pub fn separations(&self, q: Configuration) -> impl Iterator<Item = Contact> + '_ {
         let poses = self.arm.pair_poses(q);
         self.pairs.iter().map(move |&pair| Contact {
@@ -357,29 +363,30 @@ impl Scene {
         })
     }
 
-    /// The pair with the least signed distance at `q`; none when nothing can meet.
+    /// Returns the pair with the least signed distance at `q`; `None` if nothing can meet.
     #[must_use]
     pub fn closest(&self, q: Configuration) -> Option<Contact> {
         self.separations(q).min_by(|a, b| a.separation.distance.total_cmp(&b.separation.distance))
     }
 
-    /// Least signed distance between arm and obstacles at `q`, metres; infinite when nothing can meet.
+    /// Returns the least signed distance between arm and obstacles at `q`, metres; infinite when nothing can meet.
     #[must_use]
     pub fn clearance(&self, q: Configuration) -> f64 {
         self.closest(q).map_or(f64::INFINITY, |c| c.separation.distance)
     }
 
-    /// Whether a pair's part is the payload's.
+    /// Returns true if a pair's part belongs to the payload.
     #[must_use]
     pub fn is_payload(&self, pair: Pair) -> bool {
         pair.link > 0 && pair.part >= self.own_parts
     }
 
-    /// The piece of the obstacle that a pair is about, in its place, whatever is made of it for a payload.
+    /// Returns the original piece of the obstacle in a pair, at its place, even if the pair uses a shape derived from
+    /// it for a payload.
     #[must_use]
     pub fn obstacle_piece(&self, pair: Pair) -> &Convex {
         let pieces = &self.obstacle(pair.obstacle).pieces;
-        // What is made of them comes after them, all for one piece of the payload after all for another.
+        // Derived shapes come after the pieces: one full set of pieces per piece of the payload.
         &pieces[pair.piece % pieces.len()]
     }
 }

@@ -1,35 +1,36 @@
-//! What arm, obstacles and what is carried must be to make a scene.
+//! The conditions that arm, obstacles and payload must satisfy to make a scene.
 
 use super::{Arm, Body, Dynamics, Grip, Heights, Joint, JointType, Obstacle, Payload, Plane, Workspace};
 use crate::space::JointRange;
 use cplan_geometry::{Convex, Point, Pose, separation};
 
-/// Unit vectors may be off by this: far above the rounding of what is normalised, far below any robot's accuracy.
+/// Tolerance for the length of unit vectors: far above the rounding of normalised vectors, far below any robot's
+/// accuracy.
 const UNIT_ROUNDING: f64 = 1e-9;
 
-/// Share of its farthest point's distance by which rounding may move a shape's corners.
+/// Share of a shape's greatest distance from the origin by which rounding may move its corners.
 const SHAPE_ROUNDING: f64 = 1e-9;
 
-/// Why arm and workspace make no scene.
+/// A defect of arm and workspace.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum SceneError {
-    /// A joint's range is empty, not finite, or longer than makes sense.
+    /// A joint's range is empty, not finite, or too long.
     #[error("joint \"{joint}\": no range from {lower} to {upper}")]
     Range {
         /// The joint's name in the URDF.
         joint: String,
-        /// The least value, as it was given.
+        /// The least value as given.
         lower: f64,
-        /// The greatest value, as it was given.
+        /// The greatest value as given.
         upper: f64,
     },
-    /// A joint slides, and yet its values are said to repeat with whole turns.
+    /// A joint is prismatic, but its values are stated to repeat with whole turns.
     #[error("joint \"{joint}\" slides: it needs a range, not a circle")]
     SlidesOnCircle {
         /// The joint's name in the URDF.
         joint: String,
     },
-    /// A turning joint's sign is neither 1 nor -1, or a sliding one's direction not of length 1.
+    /// A revolute joint's sign is neither 1 nor -1, or a prismatic one's direction is not of length 1.
     #[error("joint \"{joint}\": a sign is 1 or -1, a direction of length 1")]
     JointType {
         /// The joint's name in the URDF.
@@ -40,21 +41,21 @@ pub enum SceneError {
     Limit {
         /// The joint's name in the URDF.
         joint: String,
-        /// The quantity that is limited, in words.
+        /// The limited quantity, in words.
         limit: &'static str,
-        /// The limit, as it was given.
+        /// The limit as given.
         value: f64,
     },
-    /// A coordinate of the arm is not a number, or larger than makes sense.
+    /// A coordinate of the arm is not a number, or too large.
     #[error("the arm's {what} is no place within 1e15 m")]
     NotFinite {
-        /// The point that has it, in words.
+        /// The point with that coordinate, in words.
         what: &'static str,
     },
     /// The plane's vectors are not of length 1 and at right angles.
     #[error("the plane's vectors are not of length 1 and at right angles")]
     Plane,
-    /// A shape is larger than makes sense, or far away.
+    /// A shape is too large, or too far away.
     #[error("\"{of}\": its shape is not within 1e15 m")]
     Size {
         /// Name of the obstacle or link.
@@ -63,29 +64,29 @@ pub enum SceneError {
     /// A mass, an inertia, an effort or the gravity is negative or not finite, or there is no effort at all.
     #[error("masses, efforts and gravity make no sense: {what}")]
     Dynamics {
-        /// Of what.
+        /// The quantity.
         what: String,
     },
-    /// What proofs are to rest on is not within the outline.
+    /// The inner shape, on which proofs rest, is not within the outline.
     #[error("\"{of}\": its inner shape is not within its outline")]
     Inner {
         /// Name of the link.
         of: String,
     },
-    /// Something ends below where it begins, or at no number.
+    /// A height range has no finite numbers, or ends below its beginning.
     #[error("\"{of}\": no heights from {lower} to {upper}")]
     Heights {
         /// Name of the obstacle, link or payload.
         of: String,
-        /// The lower end, as it was given.
+        /// The lower end as given.
         lower: f64,
-        /// The upper end, as it was given.
+        /// The upper end as given.
         upper: f64,
     },
     /// The distance to keep is negative, too large or not finite.
     #[error("the clearance must be from 0 to {LARGEST:e} m, is {clearance:?}")]
     Clearance {
-        /// The distance, as it was given.
+        /// The distance as given.
         clearance: f64,
     },
     /// A preference's strength is not finite, or its direction not of length 1.
@@ -94,31 +95,32 @@ pub enum SceneError {
         /// The preference's name in the world.
         name: String,
     },
-    /// What is carried is held at no place, or larger than makes sense.
+    /// The payload's pose is not finite, or the payload is too large.
     #[error("payload \"{object}\": its grip is no place and angle within 1e15 m, or its shape larger")]
     Grip {
         /// The object's name in the world.
         object: String,
     },
-    /// There is no obstacle of this number whose contact to allow, or to rest on.
+    /// There is no obstacle of this number, which is an allowed contact or a support.
     #[error("there is no obstacle number {number} among {count}")]
     NoObstacle {
-        /// The number that was given; the first obstacle is 0.
+        /// The number as given; the first obstacle is 0.
         number: usize,
-        /// How many there are.
+        /// Number of obstacles.
         count: usize,
     },
-    /// What is carried keeps its orientation, and something moves that turns.
+    /// The payload keeps its orientation, and a moving obstacle turns.
     #[error("payload \"{object}\" is held level, and \"{mover}\" turns")]
     TurnsAboutLevel {
         /// The object's name in the world.
         object: String,
-        /// The name of what turns.
+        /// The name of the turning obstacle.
         mover: String,
     },
 }
 
-/// The first defect of what is to make a scene. `O(n)` in parts, obstacles and preferences; shapes are valid by their type.
+/// Returns the first defect of the parts of a scene. `O(n)` in parts, obstacles and preferences; shapes are valid by
+/// their type.
 pub(super) fn check(
     arm: &Arm,
     workspace: &Workspace,
@@ -164,7 +166,7 @@ fn check_arm(arm: &Arm) -> Result<(), SceneError> {
         }
     }
     let Plane { u, v, normal } = arm.plane;
-    // Heights may be measured either way.
+    // Heights may be measured in either direction.
     let off = [u.norm() - 1.0, v.norm() - 1.0, normal.norm() - 1.0, u.dot(&v), u.dot(&normal), v.dot(&normal)];
     if !off.iter().all(|off| off.abs() <= UNIT_ROUNDING) {
         return Err(SceneError::Plane);
@@ -197,7 +199,8 @@ fn is_mass(value: f64) -> bool {
     (0.0..=LARGEST).contains(&value)
 }
 
-/// Whether a shape covers another one, up to rounding: the discs at the corners of one lie as deep in the other as they are large.
+/// Returns true if a shape covers another one, up to rounding: each corner of the inner shape's core lies inside the
+/// shape by at least the inner shape's radius.
 fn covers(shape: &Convex, inner: &Convex) -> bool {
     let room = SHAPE_ROUNDING * shape.reach_from(Point::origin());
     let beyond = |corner: &Point| separation(shape, &Convex::point(*corner)).distance + inner.radius();
@@ -230,7 +233,7 @@ fn check_joint(joint: &Joint) -> Result<(), SceneError> {
     }
 }
 
-/// The range of a joint that makes sense: ends in order, finite and not too large.
+/// Checks that the ends of a joint's range are in order, finite and not too large.
 ///
 /// # Errors
 /// [`SceneError::Range`].
@@ -263,26 +266,27 @@ pub(super) fn check_clearance(clearance: f64) -> Result<(), SceneError> {
     if (0.0..=LARGEST).contains(&clearance) { Ok(()) } else { Err(SceneError::Clearance { clearance }) }
 }
 
-/// Numbers beyond which nothing is taken, metres: predicates and distances are far from overflowing, and sums of lengths in files,
-/// which are smaller, are within.
+/// Greatest number that is accepted, metres. Predicates and distances are then far from overflowing, and sums of
+/// lengths in files, which are smaller, stay below it.
 pub const LARGEST: f64 = 1e15;
 
-/// A turning joint's range at most, radians: intervals are repeated turn after turn, and a hundred turns are enough for any wrist.
+/// Greatest range of a revolute joint, radians. Intervals are repeated turn after turn, and a hundred turns are enough
+/// for any wrist.
 pub const LONGEST_TURN: f64 = 1e3;
 
-/// Whether all are finite, and no larger than makes sense.
+/// Returns true if all are finite, and not too large.
 #[must_use]
 pub fn are_small(values: impl IntoIterator<Item = f64>) -> bool {
     values.into_iter().all(|value| value.abs() <= LARGEST)
 }
 
-/// Whether all of a shape is where numbers make sense.
+/// Returns true if all numbers of a shape are finite, and not too large.
 #[must_use]
 pub fn is_small(shape: &Convex) -> bool {
     are_small(shape.core().iter().flat_map(|p| [p.x, p.y]).chain([shape.radius()]))
 }
 
-/// Whether a pose moves and turns, and nothing else.
+/// Returns true if a pose is a rigid motion.
 #[must_use]
 pub fn is_pose(pose: &Pose) -> bool {
     are_small(pose.translation.vector.iter().copied()) && (pose.rotation.as_ref().norm() - 1.0).abs() <= UNIT_ROUNDING

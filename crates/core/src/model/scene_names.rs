@@ -4,10 +4,10 @@ use super::{Obstacle, Pair, Scene, SelfObstacle};
 use std::ops::Range;
 
 impl Scene {
-    /// The obstacle of a number: of the workspace, one that moves (in its own frame), or a link of the robot.
+    /// Returns the obstacle of a number: a static one, a moving one (in its own frame), or a link of the robot.
     ///
     /// # Panics
-    /// If there is none of that number.
+    /// If there is no obstacle of that number.
     #[must_use]
     pub fn obstacle(&self, number: usize) -> &Obstacle {
         let standing = self.workspace().obstacles.len();
@@ -18,20 +18,20 @@ impl Scene {
         moving.unwrap_or_else(|| &self.arm().self_obstacles[number - standing - self.workspace().movers.len()].obstacle)
     }
 
-    /// The arm's self obstacle of a number; none if that is another obstacle.
+    /// Returns the arm's self obstacle of a number; `None` if that is another obstacle.
     #[must_use]
     pub fn self_obstacle(&self, number: usize) -> Option<&SelfObstacle> {
         self.arm().self_obstacles.get(number.checked_sub(self.self_obstacles().start)?)
     }
 
-    /// Numbers of the arm's self obstacles: after those of the obstacles and of what moves.
+    /// Returns the numbers of the arm's self obstacles: after those of the static and the moving obstacles.
     #[must_use]
     pub fn self_obstacles(&self) -> Range<usize> {
         let first = self.workspace().obstacles.len() + self.workspace().movers.len();
         first..first + self.arm().self_obstacles.len()
     }
 
-    /// Of a link of the robot in layers the number of the first; of another obstacle its own number.
+    /// Returns the number of the first layer for a link of the robot in layers; for another obstacle its own number.
     #[must_use]
     pub fn first_layer(&self, number: usize) -> usize {
         let name = &self.obstacle(number).name;
@@ -39,26 +39,26 @@ impl Scene {
         if number < self.self_obstacles().start { number } else { layers.next().unwrap_or(number) }
     }
 
-    /// The pair in words: `link "forearm" and obstacle "shelf"`.
+    /// Returns the pair in words: `link "forearm" and obstacle "shelf"`.
     #[must_use]
     pub fn describe(&self, pair: Pair) -> String {
         format!("{} and {}", self.describe_part(pair), self.describe_obstacle(pair.obstacle))
     }
 
-    /// Names an obstacle: `obstacle "shelf"`, `link "base_link"`.
+    /// Describes an obstacle: `obstacle "shelf"`, `link "base_link"`.
     #[must_use]
     pub fn describe_obstacle(&self, number: usize) -> String {
         let kind = if self.self_obstacles().contains(&number) { "link" } else { "obstacle" };
         format!("{kind} \"{}\"", self.obstacle(number).name)
     }
 
-    /// The name of what a part can meet in a pair.
+    /// Returns the name of the obstacle in a pair.
     #[must_use]
     pub fn obstacle_name(&self, pair: Pair) -> &str {
         &self.obstacle(pair.obstacle).name
     }
 
-    /// What a pair's part belongs to, in words: `link "forearm" (body "gripper")`, `payload "part"`.
+    /// Returns the owner of a pair's part, in words: `link "forearm" (body "gripper")`, `payload "part"`.
     #[must_use]
     pub fn describe_part(&self, pair: Pair) -> String {
         let link = self.link(pair);

@@ -1,14 +1,14 @@
-//! Scenes and problems as data: what they are made of. Reading makes them anew, by the constructors that check.
+//! Scenes and problems as data. Reading rebuilds them by the constructors, which check the data.
 
 use super::{Arm, MotionProblem, MotionProblemError, Payload, Scene, SceneError, Workspace};
 use crate::space::{Configuration, GoalSet};
 use serde::{Deserialize, Serialize};
 
-/// What a [`Scene`] is made of.
+/// The data of a [`Scene`].
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct SceneRecord {
-    /// Without what it carries.
+    /// The arm without its payload.
     arm: Arm,
     workspace: Workspace,
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -35,7 +35,7 @@ impl TryFrom<SceneRecord> for Scene {
     }
 }
 
-/// What a [`MotionProblem`] is made of.
+/// The data of a [`MotionProblem`].
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct MotionRecord {

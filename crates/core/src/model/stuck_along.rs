@@ -1,16 +1,16 @@
-//! Whether all configurations on a segment are blocked.
+//! Decides if all configurations on a segment are blocked.
 
 use super::{Contact, JointType, Obstruction, Pair, Scene};
 use crate::space::{Configuration, Segment};
 use cplan_geometry::Point;
 
-/// Configurations looked at before the question is left open.
+/// Greatest number of configurations that are checked before the search gives up.
 const MOST_LOOKS: usize = 1000;
 
-/// A segment is halved so often at most.
+/// Greatest number of halvings of a segment.
 const MOST_HALVINGS: u32 = 20;
 
-/// Share of the lengths involved by which shapes must be deeper in each other than they can move: far above the rounding of
+/// Share of the lengths involved by which the depth of a collision must exceed the motion: far above the rounding of
 /// either.
 const ROUNDING: f64 = 1e-12;
 
@@ -19,16 +19,17 @@ const ROUNDING: f64 = 1e-12;
 pub struct BlockedStretch {
     /// The configurations of that part.
     pub stretch: Segment,
-    /// What is wrong in its middle, and not undone anywhere in it.
+    /// The obstruction in its middle, which persists in all of the part.
     pub obstruction: Obstruction,
 }
 
 impl Scene {
-    /// The proof that no configuration on a segment is free, in its order: stretches that cover it, neighbours with the same
-    /// obstruction joined. None if there is a free one, or if it cannot be told.
+    /// Returns the proof that no configuration on a segment is free: stretches that cover the segment in order, with
+    /// neighbours of the same obstruction joined. Returns `None` if there is a free configuration, or if the search
+    /// cannot decide.
     ///
-    /// A pair that is deeper within reach of each other than a point of the arm moves from the middle of a stretch to its ends
-    /// stays there; other stretches are halved.
+    /// A pair collides on a whole stretch if it is deeper in collision in the middle than a point of the arm moves from
+    /// there to the ends. Other stretches are halved.
     #[must_use]
     pub fn blocked_along(&self, segment: &Segment) -> Option<Vec<BlockedStretch>> {
         let mut waiting = vec![(0.0, 1.0, 0)];
@@ -71,8 +72,8 @@ impl Scene {
         Some(joined.collect())
     }
 
-    /// Farthest that a point of a pair's part moves while the joints move by at most `moves` from `q`, and the greatest length
-    /// that counts in it: joint 2 first, then joint 1 from wherever that has put the part.
+    /// Returns the farthest that a point of a pair's part moves while the joints move by at most `moves` from `q`, and
+    /// the greatest length in that computation: joint 2 first, then joint 1 from every place that joint 2 reaches.
     fn farthest_motion(&self, pair: Pair, q: Configuration, moves: [f64; 2]) -> (f64, f64) {
         let arm = self.arm();
         let part = self.part(pair);

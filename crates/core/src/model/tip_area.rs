@@ -6,8 +6,8 @@ use crate::space::{Configuration, GoalSet, Segment};
 use cplan_geometry::Point;
 
 impl Goal {
-    /// The same as an arm takes it: a rectangle without extent is a place, and so is one for an arm that does not slide along both axes, whose
-    /// tip goes to its middle.
+    /// Returns the goal in the form that suits the arm. A rectangle without extent becomes a place. So does every
+    /// rectangle for an arm that does not slide along both axes: its tip goes to the middle.
     #[must_use]
     pub fn of_arm(self, arm: &Arm) -> Self {
         match self {
@@ -17,7 +17,8 @@ impl Goal {
     }
 }
 
-/// Whether both joints slide, along different lines: then a rectangle of the tip is a parallelogram of configurations.
+/// Returns true if both joints are prismatic with different directions. Then a rectangle of the tip is a parallelogram
+/// of configurations.
 fn slides(arm: &Arm) -> bool {
     match arm.joints.each_ref().map(|joint| joint.joint_type) {
         [JointType::Prismatic { direction: a }, JointType::Prismatic { direction: b }] => a.perp(&b) != 0.0,
@@ -25,8 +26,8 @@ fn slides(arm: &Arm) -> bool {
     }
 }
 
-/// What is to be reached for the tip to come to a rectangle, of an arm that slides along both axes: the rim as far as it lies within the
-/// limits, since no path comes inside but through it; and the start, if the tip is inside already.
+/// Returns the goals for a tip rectangle, for an arm that slides along both axes. They are the rim within the limits,
+/// since every path from outside crosses it, and the start, if the tip is inside already.
 #[must_use]
 pub fn area_goals(arm: &Arm, [low, high]: [Point; 2], start: Configuration) -> GoalSet {
     let corners = [low, Point::new(high.x, low.y), high, Point::new(low.x, high.y)];

@@ -17,51 +17,50 @@ pub struct Heights {
     pub upper: f64,
 }
 
-/// Heights are sums of products of what the files say: they are known to this, metres, at least.
+/// Rounding of heights, which are sums of products of stated numbers: at least this, metres.
 const ROUNDING: f64 = 1e-9;
 
-/// Depth along the plane's normal to which an object may reach into what it rests on without a contact, metres: above the rounding of
-/// heights that drawings state and stacks add up, far below what any gripper yields.
+/// Depth along the plane's normal to which an object may reach into its support without a contact, metres. It is above
+/// the rounding of heights that drawings state and stacks add up, and far below the compliance of any gripper.
 pub const RESTING_TOLERANCE: f64 = 1e-6;
 
 impl Heights {
     /// The extent that holds all heights.
     pub const ALL: Heights = Heights { lower: f64::NEG_INFINITY, upper: f64::INFINITY };
 
-    /// From the lower of two floors to the higher of two tops.
+    /// Returns the extent from the lower of two floors to the higher of two tops.
     #[must_use]
     pub fn and(self, other: Heights) -> Heights {
         Heights { lower: self.lower.min(other.lower), upper: self.upper.max(other.upper) }
     }
 
-    /// Whether the two extents may share a height: touching counts, and so does what is apart by mere rounding.
+    /// Returns true if the two extents may share a height. Touching counts, and so does a gap within rounding.
     #[must_use]
     pub fn meet(self, other: Heights) -> bool {
         self.meet_within(other, ROUNDING)
     }
 
-    /// Whether the two extents share a height for certain, by more than rounding.
+    /// Returns true if the two extents certainly share a height, by more than rounding.
     #[must_use]
     pub fn surely_meet(self, other: Heights) -> bool {
         self.meet_within(other, -ROUNDING)
     }
 
-    /// Whether an object at these heights may be in contact with something at others: as [`Heights::meet`], but it rests on what its
-    /// bottom touches to within [`RESTING_TOLERANCE`].
+    /// Returns true if an object at these heights may be in contact with something at others. Same as
+    /// [`Heights::meet`], but an object rests on a surface that its bottom touches to within [`RESTING_TOLERANCE`].
     #[must_use]
     pub fn object_meets(self, other: Heights) -> bool {
         self.meet(other) && !self.is_above(other, RESTING_TOLERANCE - ROUNDING)
     }
 
-    /// Whether an object at these heights shares a height with something at others for certain, by more than rounding, and does not rest
-    /// on it.
+    /// Returns true if an object at these heights certainly shares a height with something at others, by more than
+    /// rounding, and does not rest on it.
     #[must_use]
     pub fn object_surely_meets(self, other: Heights) -> bool {
         self.surely_meet(other) && !self.is_above(other, RESTING_TOLERANCE + ROUNDING)
     }
 
-    /// Whether these heights begin where the others end, or less than `into` below that.
-    /// The heights of what lies at these, lifted by anything from `least` to `most`.
+    /// Returns the heights of an object at these heights, lifted by anything from `least` to `most`.
     #[must_use]
     pub fn lifted(self, [least, most]: [f64; 2]) -> Self {
         Self { lower: self.lower + least, upper: self.upper + most }
@@ -76,7 +75,7 @@ impl Heights {
     }
 }
 
-/// An obstacle's shape as the user gave it, for pictures and messages.
+/// An obstacle's shape as given by the user, for pictures and messages.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Shape {
@@ -86,7 +85,7 @@ pub enum Shape {
     Circle {
         /// The centre, plane coordinates.
         center: Point,
-        /// Its radius, metres; 0 for a point.
+        /// The radius, metres; 0 for a point.
         radius: f64,
     },
     /// A thin wall.
@@ -96,7 +95,7 @@ pub enum Shape {
 }
 
 impl Shape {
-    /// The shape moved by `pose`.
+    /// Returns the shape moved by `pose`.
     #[must_use]
     pub fn at(&self, pose: &Pose) -> Self {
         let moved = |points: &[Point]| points.iter().map(|p| pose * p).collect();
@@ -108,10 +107,11 @@ impl Shape {
         }
     }
 
-    /// Leaves the shape if it consists of just these pieces; else they are the shape, for pictures are to show what is judged.
+    /// Keeps the shape if it consists of exactly these pieces. Otherwise the pieces become the shape, because pictures
+    /// must show the outline that is judged.
     pub fn hold_to(&mut self, pieces: &[Convex]) {
         let own = match self {
-            // Predicates would overflow on others, of which no pieces are taken.
+            // Predicates would overflow on other polygons, which have no valid pieces.
             Shape::Polygon(corners) if are_small(corners.iter().flat_map(|p| [p.x, p.y])) => {
                 SimplePolygon::new(corners.clone()).map(|polygon| polygon.convex_pieces()).ok()
             }
@@ -125,7 +125,7 @@ impl Shape {
     }
 }
 
-/// The pieces of a thin wall.
+/// Returns the pieces of a thin wall.
 fn walls(points: &[Point]) -> Result<Vec<Convex>, ConvexError> {
     match points {
         [] | [_] => Ok(vec![Convex::new(points.to_vec(), 0.0)?]),
@@ -133,40 +133,41 @@ fn walls(points: &[Point]) -> Result<Vec<Convex>, ConvexError> {
     }
 }
 
-/// Something the arm must not touch.
+/// An object that the arm must not touch.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Obstacle {
     /// The user's name for it, or `obstacle 3`.
     pub name: String,
-    /// The shape as the user gave it.
+    /// The shape as given by the user.
     pub shape: Shape,
-    /// The same as a union of convex pieces, without any clearance.
+    /// The obstacle as a union of convex pieces, without any clearance.
     pub pieces: Vec<Convex>,
-    /// Where it is along the plane's normal.
+    /// Extent along the plane's normal.
     pub heights: Heights,
 }
 
-/// The obstacles, the distance to keep from them, and where to be rather than elsewhere.
+/// The obstacles, the distance to keep from them, and the preferred regions.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Workspace {
     /// The title of the world.
     pub name: String,
-    /// In the order of the file.
+    /// Static obstacles, in the order of the file.
     pub obstacles: Vec<Obstacle>,
-    /// Least distance to keep from every obstacle, metres. With 0 any proven distance above zero will do.
+    /// Least distance to keep from every obstacle, metres. With 0 any proven distance above zero is enough.
     pub clearance: f64,
-    /// Regions that field planners may prefer or avoid, in the order of the file; of several that hold the last counts.
+    /// Regions that field planners may prefer or avoid, in the order of the file; where several apply, the last one
+    /// counts.
     pub preferences: Vec<Preference>,
-    /// Obstacles that move. What has no time knows nothing of them: planners, configuration spaces, paths and proofs. Motions are put in time
-    /// among them (the crate `engine`) and judged in time (`certify_in_time` of the crate `motion`).
+    /// Moving obstacles. Everything without a time ignores them: planners, configuration spaces, paths and proofs. The
+    /// crate `engine` times motions among them, and `certify_in_time` of the crate `motion` judges motions in time.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub movers: Vec<Mover>,
 }
 
 impl Obstacle {
-    /// A simple polygon, either orientation, at all heights. Corners in metres, in order round the shape.
+    /// Creates a simple polygon of either orientation, at all heights. Corners in metres, in order around the shape.
     ///
     /// # Errors
     /// Corners of no simple polygon.
@@ -176,7 +177,7 @@ impl Obstacle {
         Ok(Self { name: name.into(), shape, pieces, heights: Heights::ALL })
     }
 
-    /// A disc, metres.
+    /// Creates a disc, metres.
     ///
     /// # Errors
     /// Numbers that are not finite, and a negative radius.
@@ -186,7 +187,7 @@ impl Obstacle {
         Ok(Self { name: name.into(), shape: Shape::Circle { center, radius }, pieces, heights: Heights::ALL })
     }
 
-    /// A thin wall through these points, metres: no area, still solid; a point if there is only one.
+    /// Creates a thin wall through these points, metres. It has no area, but is solid; with one point it is a point.
     ///
     /// # Errors
     /// No point at all, and numbers that are not finite.
@@ -198,7 +199,7 @@ impl Obstacle {
 }
 
 impl Obstacle {
-    /// Moves it by `pose`.
+    /// Moves the obstacle by `pose`.
     pub(super) fn move_by(&mut self, pose: &Pose) {
         self.shape = self.shape.at(pose);
         self.pieces.iter_mut().for_each(|piece| *piece = piece.at(pose));
@@ -210,19 +211,20 @@ fn points(coordinates: impl IntoIterator<Item = [f64; 2]>) -> Vec<Point> {
 }
 
 impl Workspace {
-    /// These obstacles, without a clearance to keep.
+    /// Creates a workspace of these obstacles, without a clearance to keep.
     #[must_use]
     pub fn new(obstacles: impl IntoIterator<Item = Obstacle>) -> Self {
         let obstacles = obstacles.into_iter().collect();
         Self { name: String::new(), obstacles, clearance: 0.0, preferences: Vec::new(), movers: Vec::new() }
     }
 
-    /// All obstacles as a scene numbers them: those that stay where they are, then those that move, in their own frames.
+    /// Returns all obstacles in the order of a scene's numbers: the static ones, then the moving ones in their own
+    /// frames.
     pub fn all(&self) -> impl Iterator<Item = &Obstacle> {
         self.obstacles.iter().chain(self.movers.iter().map(|mover| &mover.obstacle))
     }
 
-    /// Holds the shapes to what is judged: for what is read as data.
+    /// Makes the displayed shapes agree with the pieces that are judged. For workspaces that are read as data.
     pub fn hold_shapes(&mut self) {
         let moving = self.movers.iter_mut().map(|mover| &mut mover.obstacle);
         self.obstacles.iter_mut().chain(moving).for_each(|obstacle| obstacle.shape.hold_to(&obstacle.pieces));

@@ -1,4 +1,4 @@
-//! Joining configurations to cells of a grid.
+//! Joins configurations to cells of a grid.
 
 use super::Query;
 use super::grid_path::place;
@@ -6,17 +6,17 @@ use crate::cspace::Grid;
 use crate::space::{Configuration, Segment};
 use cplan_text::listed;
 
-/// How many rings of cells around a blocked one are searched for a free one. An outer grid blocks some cells whose
-/// configurations are free; farther than this a straight piece to the grid is a guess not worth a try.
+/// Number of rings of cells around a blocked one that are searched for a free one. An outer grid blocks some cells
+/// whose configurations are free. Farther away than this, a straight piece to the grid is a guess not worth a try.
 const RINGS: i64 = 3;
 
-/// Where a configuration, or a segment of goals, is joined to the grid.
+/// The cells at which a configuration, or a segment of goals, joins the grid.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Attachment {
-    /// The cell that contains the configuration if it is free, else the free cells of the nearest ring that has any,
-    /// nearest first; of a segment all free cells that hold any of it. At least one.
+    /// The cell that contains the configuration, if that cell is free. Otherwise the free cells of the nearest ring
+    /// that has any, nearest first. For a segment, all free cells that hold any of it. At least one.
     pub cells: Vec<usize>,
-    /// Whether it is the first case.
+    /// True if a free cell contains the configuration.
     pub contained: bool,
 }
 
@@ -30,7 +30,7 @@ pub struct Joined {
 }
 
 impl Joined {
-    /// Joins start and goals; the reason if the start or every goal cannot be.
+    /// Joins start and goals, or returns the reason if the start or every goal cannot be joined.
     pub fn new(grid: &Grid, query: &Query) -> Result<Self, String> {
         let start = attach(grid, query.start, "start")?;
         let (mut goals, mut reasons) = (Vec::new(), Vec::new());
@@ -46,18 +46,18 @@ impl Joined {
         Ok(Self { start, goals })
     }
 
-    /// The cells joined to any goal.
+    /// Returns the cells joined to any goal.
     pub fn sources(&self) -> Vec<usize> {
         self.goals.iter().flat_map(|(_, attachment)| attachment.cells.iter().copied()).collect()
     }
 }
 
-/// A piece as the grid has it: segments within the domain, a single configuration as it is.
+/// Returns a piece in the grid's form: a segment is cut to the domain, a single configuration stays unchanged.
 fn in_domain(grid: &Grid, piece: &Segment) -> Vec<Segment> {
     if piece.is_point() { vec![*piece] } else { piece.within_domain(&grid.topology).collect() }
 }
 
-/// Joins goals within the domain to the grid; the reason if they cannot be.
+/// Joins goals within the domain to the grid, or returns the reason if they cannot be joined.
 fn attach_goals(grid: &Grid, goals: &Segment) -> Result<Attachment, String> {
     let [from, to] = goals.ends();
     if goals.is_point() {
@@ -77,7 +77,7 @@ fn shown(q: Configuration) -> String {
     format!("({:.4}, {:.4})", q[0], q[1])
 }
 
-/// The cells that hold any of a segment in the domain, ascending.
+/// Returns the cells that contain a part of a segment in the domain, ascending.
 fn cells_along(grid: &Grid, goals: &Segment) -> Vec<usize> {
     let step = grid.step();
     let range = |k: usize, part: &Segment| {
@@ -91,7 +91,7 @@ fn cells_along(grid: &Grid, goals: &Segment) -> Vec<usize> {
         let mut sides = [[lower, f64::NEG_INFINITY], [lower + step[0], f64::INFINITY]];
         let [from, to] = goals.ends();
         if from[0] == to[0] {
-            // In this row whatever rounding makes of its sides.
+            // Rounding of its sides does not matter in this row.
             (sides[0][0], sides[1][0]) = (f64::NEG_INFINITY, f64::INFINITY);
         }
         let part = goals.within(sides[0], sides[1]);
@@ -100,7 +100,7 @@ fn cells_along(grid: &Grid, goals: &Segment) -> Vec<usize> {
     range(0, goals).flat_map(in_row).collect()
 }
 
-/// Joins `q` to the grid; the reason if it cannot be.
+/// Joins `q` to the grid, or returns the reason if it cannot be joined.
 fn attach(grid: &Grid, q: Configuration, name: &str) -> Result<Attachment, String> {
     if !grid.topology.contains(q) {
         return Err(format!("the {name} ({:.4}, {:.4}) lies outside the configuration space", q[0], q[1]));

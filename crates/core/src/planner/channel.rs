@@ -1,4 +1,4 @@
-//! Channels of cells: a roadmap's search over the cells of a decomposition, with costs that stand beside the portals.
+//! Channels of cells: a roadmap's search over the cells of a decomposition, with costs on the portals.
 
 use super::decomposition::{CellPortal, Decomposition};
 use super::roadmap::{Question, RoadmapSearch, Searched, search};
@@ -8,17 +8,17 @@ use cplan_geometry::Point;
 use petgraph::graph::{NodeIndex, UnGraph};
 use petgraph::visit::EdgeRef;
 
-/// Cells to pass, with the portals between them: one less than cells.
+/// Cells to pass, with the portals between them: one fewer than cells.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Channel {
     pub start: Point,
-    /// Any of these will do, all in the last cell.
+    /// Alternative goals, all in the last cell.
     pub goals: Segment,
     pub cells: Vec<usize>,
     pub portals: Vec<usize>,
 }
 
-/// Which portals each cell has, and what ways through them cost.
+/// The portals of each cell, and the costs of the routes through them.
 #[derive(Debug, Clone)]
 pub(super) struct Adjacency {
     /// Nodes are cells, edges are portals.
@@ -29,7 +29,7 @@ pub(super) struct Adjacency {
     pub middles: Vec<Point>,
 }
 
-/// Where a way leads to.
+/// The end of a passage.
 #[derive(Debug, Clone, Copy)]
 enum Place {
     /// The start, or a cell's centre.
@@ -39,7 +39,7 @@ enum Place {
 }
 
 impl Place {
-    /// The place nearest to `p`.
+    /// Returns the place nearest to `p`.
     fn nearest(self, p: Point) -> Point {
         match self {
             Place::At(point) => point,
@@ -48,17 +48,17 @@ impl Place {
     }
 }
 
-/// A way from place to place.
+/// A connection from place to place.
 #[derive(Debug, Clone, Copy)]
 struct Passage {
-    /// The portal's number; none within a cell.
+    /// The portal's number; `None` within a cell.
     portal: Option<usize>,
-    /// Length of the way over the portal's middle.
+    /// Length of the path over the portal's middle.
     cost: f64,
 }
 
 impl Adjacency {
-    /// Linear.
+    /// Builds the graph. Linear.
     pub fn new(decomposition: &Decomposition, centers: Vec<Point>) -> Self {
         let middles = decomposition.portals.iter().map(|portal| nalgebra::center(&portal.low, &portal.high)).collect();
         let cells = UnGraph::with_capacity(centers.len(), decomposition.portals.len());
@@ -75,16 +75,17 @@ impl Adjacency {
         adjacency
     }
 
-    /// From a point to another, or to the nearest of some goals.
+    /// Returns the passage from a point to another, or to the nearest of some goals.
     fn passage(&self, [from, to]: [Place; 2], portal: Option<usize>) -> Passage {
         let from = from.nearest(Point::origin());
         let last = portal.map_or(from, |portal| self.middles[portal]);
         Passage { portal, cost: (last - from).norm() + (to.nearest(last) - last).norm() }
     }
 
-    /// A channel from the start, given the cells that contain it, to any goal, and where the search came, in order: passing
-    /// from a cell to the next costs the way from the one's centre over the portal's middle to the other's, with the start and
-    /// the nearest goal for the centres of the end cells. By the usual search the cheapest, in `O(n log n)` for `n` cells.
+    /// Returns a channel from the start, given the cells that contain it, to any goal, and the places that the search
+    /// expanded, in order. A passage from a cell to the next costs the distance from the one's centre over the portal's
+    /// middle to the other's; for the end cells, the start and the nearest goal replace the centres. The default search
+    /// finds the cheapest channel, in `O(n log n)` for `n` cells.
     pub fn channel(
         &self,
         portals: &[CellPortal],
@@ -92,7 +93,7 @@ impl Adjacency {
         start_cells: &[usize],
         how: RoadmapSearch,
     ) -> (Option<Channel>, Vec<Configuration>) {
-        // Beside the cells that hold them the ends are nodes of their own, with the same portals.
+        // The ends are additional nodes, with the portals of the cells that hold them.
         let mut graph = self.cells.clone();
         let at_start = Place::At(terminals.start);
         let start = graph.add_node(at_start);
@@ -130,7 +131,7 @@ impl Adjacency {
         (way.map(|places| self.passed(portals, terminals, &graph, start, &places)), expanded)
     }
 
-    /// The channel that leads from place to place.
+    /// Returns the channel that leads from place to place.
     fn passed(
         &self,
         portals: &[CellPortal],

@@ -18,7 +18,7 @@ pub(super) struct Cell {
 }
 
 impl Cell {
-    /// Whether the closed cell contains `p`; exact.
+    /// Returns true if the closed cell contains `p`; exact.
     pub fn contains(&self, boundary: &Boundary, p: Point) -> bool {
         let is_free = |side: usize| {
             let (from, to) = boundary.ends(side);
@@ -27,7 +27,7 @@ impl Cell {
         self.left <= p.x && p.x <= self.right && is_free(self.floor) && is_free(self.ceiling)
     }
 
-    /// The part of a segment in the closed cell.
+    /// Returns the part of a segment in the closed cell.
     fn part(&self, boundary: &Boundary, segment: &Segment) -> Option<Segment> {
         let infinite = f64::INFINITY;
         let between = segment.within([self.left, -infinite], [self.right, infinite])?;
@@ -35,13 +35,13 @@ impl Cell {
         between.left_of(floor.0, floor.1)?.left_of(ceiling.0, ceiling.1)
     }
 
-    /// Ordinates of floor and ceiling at the abscissa `x`, rounded into the cell.
+    /// Returns the ordinates of floor and ceiling at the abscissa `x`, rounded into the cell.
     pub fn span(&self, boundary: &Boundary, x: f64) -> (f64, f64) {
         let [floor, ceiling] = [self.floor, self.ceiling].map(|side| boundary.ordinate(side, x));
         (floor, ceiling)
     }
 
-    /// Corners, counter-clockwise: three of a triangle, else four.
+    /// Returns the corners, counter-clockwise: three for a triangle, otherwise four.
     pub fn corners(&self, boundary: &Boundary) -> Vec<Point> {
         let (left, right) = (self.span(boundary, self.left), self.span(boundary, self.right));
         let mut corners = vec![
@@ -57,7 +57,7 @@ impl Cell {
         corners
     }
 
-    /// The centre of area, rounded into the cell.
+    /// Returns the centre of area, rounded into the cell.
     pub fn centroid(&self, boundary: &Boundary) -> Point {
         let (left, right) = (self.span(boundary, self.left), self.span(boundary, self.right));
         let (a, b) = (left.1 - left.0, right.1 - right.0);
@@ -78,7 +78,7 @@ pub(super) struct CellPortal {
     /// Lower and upper end, in closed free space exactly.
     pub low: Point,
     pub high: Point,
-    /// Whether the ends are vertices, not places on a side.
+    /// True for ends that are vertices, not places on a side.
     pub at_vertices: [bool; 2],
 }
 
@@ -93,7 +93,7 @@ impl Decomposition {
     /// Sweeps a vertical line over free space from left to right, `O(n log n)` for `n` vertices.
     ///
     /// All vertices of one abscissa are one event, so verticals through several vertices and vertical sides need no
-    /// special case: which portal joins which cells follows from the order of the vertices on the line alone, which is
+    /// special case. The cells that a portal joins follow from the order of the vertices on the line alone, which is
     /// exact.
     pub fn new(boundary: &Boundary) -> Self {
         let sides = boundary.sides.len();
@@ -108,12 +108,12 @@ impl Decomposition {
         sweep.result
     }
 
-    /// The cells that contain `p`, borders included. Exact; linear.
+    /// Returns the cells that contain `p`, borders included. Exact; linear.
     pub fn cells_at<'a>(&'a self, boundary: &'a Boundary, p: Point) -> impl Iterator<Item = usize> + 'a {
         (0..self.cells.len()).filter(move |&cell| self.cells[cell].contains(boundary, p))
     }
 
-    /// The cells that hold any of a segment, and what. Linear.
+    /// Returns the cells that contain a part of a segment, with that part. Linear.
     pub fn parts_of(&self, boundary: &Boundary, segment: &Segment) -> Vec<(u32, Segment)> {
         if segment.is_point() {
             let [at, _] = segment.corners();
@@ -124,8 +124,8 @@ impl Decomposition {
     }
 }
 
-/// Neighbouring vertices on the sweep line, and the sides next to them that go on: between those only sides lie that end
-/// at one of the vertices, or begin there.
+/// Neighbouring vertices on the sweep line, and the continuing sides next to them. All sides between those two end at
+/// one of the vertices, or begin there.
 #[derive(Debug, Clone, Copy)]
 struct Cluster {
     vertices: (usize, usize),
@@ -144,7 +144,7 @@ struct Gap {
 
 struct Sweep<'a> {
     boundary: &'a Boundary,
-    /// Sides that meet the line; none is vertical.
+    /// Sides that meet the sweep line; none is vertical.
     status: Status,
     /// The unfinished cell above each of them, if free space lies there.
     cell_above: Vec<u32>,
@@ -165,7 +165,7 @@ impl Sweep<'_> {
                 None => self.status.last_where(|side| boundary.place(side, at) == Orientation::CounterClockwise),
             };
             let above = self.status.above(highest.or(lowest).or(below));
-            // The side below is either that below the last cluster or ends there.
+            // The side below either is the one below the last cluster, or ends there.
             let joins = |last: &Cluster| {
                 below == last.below
                     || below.is_some_and(|side| boundary.sides[side].right_end() >= last.vertices.0)
@@ -217,7 +217,7 @@ impl Sweep<'_> {
         self.join(cluster, &left, &right);
     }
 
-    /// A new cell between two sides; none where that is an obstacle.
+    /// Begins a cell between two sides and returns its number; `NONE` if the area is an obstacle.
     fn begin(&mut self, floor: usize, ceiling: usize, x: f64) -> u32 {
         let sides = &self.boundary.sides;
         if !sides[floor].is_floor() || sides[ceiling].is_floor() || is_slit(self.boundary, floor, ceiling) {
@@ -227,10 +227,10 @@ impl Sweep<'_> {
         self.result.cells.len() as u32 - 1
     }
 
-    /// The gaps at a cluster, from bottom to top, between sides that have an end there as given.
+    /// Returns the gaps at a cluster, from bottom to top, between sides that end there; `end` selects the end.
     fn gaps(&self, cluster: Cluster, end: impl Fn(usize) -> usize) -> Vec<Gap> {
         let (first, last) = cluster.vertices;
-        // A side without an end here is between those that have one only where sides cross.
+        // A side without an end here lies between sides with one only where sides cross.
         let rank = |side: usize| end(side).checked_sub(first).map_or(0, |k| (k + 1).min(last - first + 1));
         let mut gaps = Vec::new();
         let mut floor = cluster.below;
@@ -251,7 +251,7 @@ impl Sweep<'_> {
         }
     }
 
-    /// A portal wherever a gap on the left and one on the right, both in ascending order, overlap.
+    /// Adds a portal wherever a gap on the left and one on the right, both in ascending order, overlap.
     fn join(&mut self, cluster: Cluster, left: &[Gap], right: &[Gap]) {
         let (mut i, mut j) = (0, 0);
         while i < left.len() && j < right.len() {
@@ -269,7 +269,7 @@ impl Sweep<'_> {
         }
     }
 
-    /// The portal between two cells from one rank to another.
+    /// Returns the portal between two cells from one rank to another.
     fn portal(&self, cluster: Cluster, cells: [usize; 2], low: usize, high: usize) -> CellPortal {
         let (first, last) = cluster.vertices;
         let vertices = &self.boundary.vertices;
@@ -289,7 +289,7 @@ impl Sweep<'_> {
     }
 }
 
-/// Whether two sides coincide, so that nothing lies between them.
+/// Returns true if two sides coincide, so that nothing lies between them.
 fn is_slit(boundary: &Boundary, floor: usize, ceiling: usize) -> bool {
     let (floor, ceiling) = (boundary.sides[floor], boundary.sides[ceiling]);
     (floor.from, floor.to) == (ceiling.to, ceiling.from)

@@ -1,7 +1,8 @@
-//! From cells to a path.
+//! Converts cells to a path.
 //!
-//! A field's path is the curve along it: within 0.05 cells of that (`simplify`), to the goal itself rather than the
-//! centre of its cell, and then certified as it is. What fails the certificate gets a finer grid.
+//! A field's path is the curve along it: within 0.05 cells of the curve (`simplify`), and to the goal itself rather
+//! than the centre of its cell. It is then certified without further changes. A path that fails the certificate gets a
+//! finer grid.
 
 use super::attach::{Attachment, Joined};
 use super::simplify::simplified;
@@ -10,14 +11,14 @@ use crate::cspace::Grid;
 use crate::space::{Configuration, Measure, Metric, Path};
 use cplan_harmonic::{Guide, Place, follow};
 
-/// Number `at` of the unbounded lattice along an axis as a row or column of the grid; nothing beyond a limit.
+/// Returns the row or column of number `at` of the unbounded lattice along an axis; `None` beyond a limit.
 pub fn place(grid: &Grid, axis: usize, at: i64) -> Option<usize> {
     let n = grid.cells[axis] as i64;
     let at = if grid.topology.ranges[axis].is_circle() { at.rem_euclid(n) } else { at };
     (0..n).contains(&at).then_some(at as usize)
 }
 
-/// The cell at a place of the unbounded lattice; none beyond a limit.
+/// Returns the cell at a place of the unbounded lattice; `None` beyond a limit.
 pub fn cell(grid: &Grid, [i, j]: Place) -> Option<usize> {
     Some(place(grid, 0, i)? * grid.cells[1] + place(grid, 1, j)?)
 }
@@ -25,21 +26,21 @@ pub fn cell(grid: &Grid, [i, j]: Place) -> Option<usize> {
 /// A polyline in lattice units: unwrapped, cell `(i, j)` covers `[i, i + 1] x [j, j + 1]`.
 pub type Line = Vec<[f64; 2]>;
 
-/// Lattice units of an unwrapped configuration.
+/// Converts an unwrapped configuration to lattice units.
 pub fn to_lattice(grid: &Grid, q: Configuration) -> [f64; 2] {
     let step = grid.step();
     [0, 1].map(|k| (q[k] - grid.topology.ranges[k].domain().0) / step[k])
 }
 
-/// The unwrapped configuration at a point in lattice units.
+/// Returns the unwrapped configuration at a point in lattice units.
 fn from_lattice(grid: &Grid, at: [f64; 2]) -> Configuration {
     let step = grid.step();
     let [a, b] = [0, 1].map(|k| grid.topology.ranges[k].domain().0 + at[k] * step[k]);
     Configuration::new(a, b)
 }
 
-/// The centres of neighbouring `cells`, unwrapped: the first is the copy nearest to `near`, and each next one lies one
-/// cell away, across a seam too.
+/// Returns the centres of neighbouring `cells`, unwrapped. The first is the copy nearest to `near`, and each next one
+/// lies one cell away, also across a seam.
 pub fn unwrap(grid: &Grid, cells: &[usize], near: Configuration) -> Line {
     let columns = grid.cells[1];
     let near = to_lattice(grid, near);
@@ -55,7 +56,7 @@ pub fn unwrap(grid: &Grid, cells: &[usize], near: Configuration) -> Line {
     for &cell in &cells[1..] {
         let next = split(cell);
         for k in [0, 1] {
-            // One step, or all the way round to the other side of a seam: which is one step too.
+            // One step, or the distance to the other side of a seam, which is one step too.
             at[k] += match next[k] as i64 - last[k] as i64 {
                 step @ -1..=1 => step as f64,
                 step => -step.signum() as f64,
@@ -67,8 +68,8 @@ pub fn unwrap(grid: &Grid, cells: &[usize], near: Configuration) -> Line {
     line
 }
 
-/// The goal that a path ending at `cell` goes to: of those joined there, and in the cell if they are along a segment, the
-/// nearest to `near` (the unwrapped centre of the cell), as its nearest copy.
+/// Returns the goal for a path that ends at `cell`: the nearest one to `near` (the unwrapped centre of the cell) among
+/// those joined there, as its nearest copy. For goals along a segment only the part in the cell counts.
 fn goal_at<'a>(
     grid: &Grid,
     joined: &'a Joined,
@@ -86,9 +87,9 @@ fn goal_at<'a>(
     here.min_by(|a, b| (a.0 - near).norm().total_cmp(&(b.0 - near).norm()))
 }
 
-/// The path from the exact start through the centres of `cells` (neighbours, the first joined to the start, the last to
-/// a goal) to the exact goal; pulled taut if wanted. The pieces between a configuration and a cell that does not contain
-/// it are not proven by the grid. Nothing if the cells are not such a chain.
+/// Returns the path from the exact start through the centres of `cells` (neighbours, the first joined to the start, the
+/// last to a goal) to the exact goal, taut on request. The grid does not prove the pieces between a configuration and a
+/// cell that does not contain it. `None` if the cells are not such a chain.
 pub fn path(grid: &Grid, query: &Query, joined: &Joined, cells: &[usize], kind: PathKind) -> Option<Path> {
     let line = unwrap(grid, cells, query.start);
     let goal = goal_at(grid, joined, *cells.last()?, from_lattice(grid, *line.last()?))?;
@@ -97,20 +98,20 @@ pub fn path(grid: &Grid, query: &Query, joined: &Joined, cells: &[usize], kind: 
     Some(between(grid, query.start, &line, goal.0))
 }
 
-/// How far a path may be off the curve along the field, in cells. Where the curve's radius is `r` cells, pieces are some
-/// `sqrt(r / 2.5)` cells long, and none deviates from the curve's direction by more than `1 / sqrt(10 r)`.
+/// Greatest distance of a path from the curve along the field, in cells. Where the curve's radius is `r` cells, pieces
+/// are some `sqrt(r / 2.5)` cells long, and their direction deviates from the curve's by at most `1 / sqrt(10 r)`.
 const OFF_THE_CURVE: f64 = 0.05;
 
-/// The field knows the goal's cell, not where in it the goal is. Along so many cells before it the path goes over from the
-/// curve to the centre of that cell to one to the goal, so that it arrives in the curve's direction.
+/// Number of cells before the goal over which the path blends. The field knows only the goal's cell. So the path blends
+/// from the curve to the centre of that cell into one to the goal itself, and arrives in the curve's direction.
 const ARRIVAL: f64 = 12.0;
 
-/// The path from the exact start along a field ([`follow`]) to the exact goal, no farther off the curve than
-/// `OFF_THE_CURVE` except for the `ARRIVAL`; or pulled taut. It stays in free cells, but for the pieces between a
+/// Returns the path from the exact start along a field ([`follow`]) to the exact goal, no farther off the curve than
+/// `OFF_THE_CURVE` except for the `ARRIVAL`; or a taut path. It stays in free cells, except for the pieces between a
 /// configuration and a cell that does not contain it. `home` is the cell joined to the start.
 ///
 /// # Errors
-/// Where the field does not lead to a goal.
+/// If the field does not lead to a goal.
 pub fn along<G: Guide>(
     grid: &Grid,
     query: &Query,
@@ -121,7 +122,7 @@ pub fn along<G: Guide>(
 ) -> Result<Path, G::Stuck> {
     let center = unwrap(grid, &[home], query.start)[0];
     let from = if joined.start.contained { within_cell(center, to_lattice(grid, query.start)) } else { center };
-    // Cells are counted from their corners here, from their centres there.
+    // Cells are counted from their corners here, from their centres in `follow`.
     let streamline = follow(guide, grid.step(), from.map(|x| x - 0.5))?;
     let mut line: Line = streamline.points.into_iter().map(|point| point.map(|x| x + 0.5)).collect();
     let end = streamline.place.map(|x| x as f64 + 0.5);
@@ -144,15 +145,15 @@ pub fn along<G: Guide>(
     Ok(between(grid, query.start, &line, goal.0))
 }
 
-/// A point of the closed cell about `center`, off the sides that it shares with cells after it: those may be blocked, or beyond a
-/// limit.
+/// Returns a point of the closed cell about `center`, away from the sides that it shares with the following cells,
+/// which may be blocked, or beyond a limit.
 fn within_cell(center: [f64; 2], at: [f64; 2]) -> [f64; 2] {
     const HALF: f64 = 0.5 - 1e-9;
     [0, 1].map(|k| at[k].clamp(center[k] - HALF, center[k] + HALF))
 }
 
-/// The line with its end moved to `goal`, and what is before it by the less the farther it is away; the line itself where
-/// that would leave the free cells.
+/// Returns the line with its end moved to `goal`. Points before the end move less the farther they are from it. Returns
+/// the line unchanged where it would leave the free cells.
 fn arriving(grid: &Grid, line: Line, goal: [f64; 2]) -> Line {
     let end = line[line.len() - 1];
     let by = [0, 1].map(|k| goal[k] - end[k]);
@@ -172,7 +173,7 @@ fn arriving(grid: &Grid, line: Line, goal: [f64; 2]) -> Line {
     if range > 0.0 && is_clear(&moved[first..]) { moved } else { line }
 }
 
-/// A line from the exact start to the exact goal.
+/// Returns a line from the exact start to the exact goal.
 fn completed(
     grid: &Grid,
     query: &Query,
@@ -180,7 +181,7 @@ fn completed(
     mut line: Line,
     (goal, attachment): (Configuration, &Attachment),
 ) -> Line {
-    // A configuration that is at an end of the line, up to rounding, takes its place.
+    // A configuration that equals an end of the line, up to rounding, replaces it.
     let (from, to) = (to_lattice(grid, query.start), to_lattice(grid, goal));
     if line.len() == 1 && joined.start.contained && attachment.contained {
         return vec![from, to];
@@ -197,7 +198,7 @@ fn completed(
     line
 }
 
-/// A line as a path between the configurations at its ends.
+/// Returns a line as a path between the configurations at its ends.
 fn between(grid: &Grid, start: Configuration, line: &[[f64; 2]], goal: Configuration) -> Path {
     let inner = line[1..line.len() - 1].iter().map(|&at| from_lattice(grid, at));
     Path::new(std::iter::once(start).chain(inner).chain([goal]).collect())

@@ -11,8 +11,8 @@ use cplan_interrupt::checkpoint;
 ///
 /// [`follow`]: cplan_harmonic::follow()
 ///
-/// Complete on the grid: whatever the length of a corridor, the field has no local maximum but the goals (see
-/// [`cplan_harmonic::harmonic`]), so no path is found only if there is none between the cells.
+/// Complete on the grid: for any length of a corridor, the field has no local maximum except the goals (see
+/// [`cplan_harmonic::harmonic`]). So if no path is found, no path exists between the cells.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Harmonic {
     /// [`PathKind::Own`] is the curve along the gradient.
@@ -50,7 +50,7 @@ impl Planner for Harmonic {
         checkpoint();
         let component = Component::new(map, wave);
         let size = |windows: usize| Size::Windows { cells: component.len(), windows };
-        // The nearest cell of the start that the wave came to.
+        // The nearest cell of the start that the wave reached.
         let Some(start) = joined.start.cells.iter().find_map(|&cell| component.position_of(cell)) else {
             let size = size(0);
             return Run {

@@ -2,8 +2,8 @@
 //!
 //! Both roadmap planners begin with `geometry::planar`, which takes polygons apart into vertices and sides. A path may
 //! touch obstacles, along sides too, but not squeeze between two that touch in a point: triangles and cells are
-//! neighbours through pieces of positive length only. Which of two paths a planner gives, its own or that one pulled
-//! taut, [`PathKind`] says. The `FieldPlanner` of the crate `fields` follows any field on a `cspace::ZonedGrid`, whose cells know the world's
+//! neighbours only through pieces of positive length. [`PathKind`] selects the planner's own path or a taut one. The
+//! `FieldPlanner` of the crate `fields` follows any field on a `cspace::ZonedGrid`, whose cells know the world's
 //! preferences.
 //!
 //! ```
@@ -55,31 +55,31 @@ use cplan_text::counted;
 use std::borrow::Cow;
 use std::sync::Arc;
 
-/// What is asked of a planner. Configurations are unwrapped values within the space (see [`crate::cspace`]).
+/// A query to a planner. Configurations are unwrapped values within the space (see [`crate::cspace`]).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Query {
-    /// Where the path begins.
+    /// First configuration of the path.
     pub start: Configuration,
-    /// Any of these will do; on a circle axis their copies too.
+    /// Alternative goals; on a circle axis also their copies.
     pub goals: GoalSet,
 }
 
-/// How a run ended.
+/// The outcome of a run.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Proposal {
     /// A path in the free space of the representation, starting at the start exactly and ending at a goal (or a copy of
     /// it) exactly.
     Found(Path),
-    /// The representation holds no path. Whether that proves anything depends on [`crate::cspace::Proves`].
+    /// The representation holds no path. [`crate::cspace::Proves`] tells what that proves.
     NoPath,
-    /// Neither: the reason, in words.
+    /// Unknown: the reason, in words.
     GaveUp(String),
 }
 
-/// Size of what a planner built.
+/// Size of the structure that a planner built.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Size {
-    /// A roadmap as far as it was looked at, or all cells and their adjacencies.
+    /// The visited part of a roadmap, or all cells and their adjacencies.
     Graph {
         /// Nodes, or cells.
         nodes: usize,
@@ -88,35 +88,35 @@ pub enum Size {
     },
     /// A field on a grid, solved piece by piece.
     Windows {
-        /// Free cells that were looked at.
+        /// Free cells that were visited.
         cells: usize,
         /// Sets of cells whose equations were solved together.
         windows: usize,
     },
     /// A field on a grid.
     Grid {
-        /// Free cells that were looked at.
+        /// Free cells that were visited.
         cells: usize,
         /// Passes over them (levels of a wavefront).
         sweeps: usize,
     },
     /// Values of joint 1 at which free values of joint 2 are known exactly.
     Slices {
-        /// How many such values there are.
+        /// Number of such values.
         slices: usize,
     },
-    /// Cells of a grid as far as a search came.
+    /// Cells of a grid that a search reached.
     Search {
-        /// Those whose neighbours were looked at.
+        /// Cells whose neighbours were examined.
         expanded: usize,
-        /// Those that were reached.
+        /// Cells that were reached.
         labelled: usize,
     },
-    /// Cells of a grid as far as a search came that began anew, round by round.
+    /// Cells of a grid reached by a search that restarts, round by round.
     Deepening {
-        /// How often it began.
+        /// Number of rounds.
         rounds: usize,
-        /// How many times a cell was expanded, in all rounds together.
+        /// Number of times that a cell was expanded, in all rounds together.
         expansions: usize,
         /// Cells that were reached.
         labelled: usize,
@@ -126,7 +126,7 @@ pub enum Size {
 }
 
 impl Size {
-    /// Its numbers, by name.
+    /// Returns the numbers, by name.
     #[must_use]
     pub fn figures(self) -> Vec<(&'static str, usize)> {
         match self {
@@ -178,7 +178,7 @@ pub struct ChannelPoints {
     pub middles: Vec<Configuration>,
 }
 
-/// What a graph of straight motions is.
+/// The kind of a graph of straight motions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum GraphKind {
     /// A visibility graph.
@@ -190,7 +190,7 @@ pub enum GraphKind {
 }
 
 impl GraphKind {
-    /// Returns which visibility graph it is, if it is one.
+    /// Returns the kind of visibility graph, if it is one.
     #[must_use]
     pub fn visibility(self) -> Option<VisibilityGraph> {
         if let Self::Visibility(graph) = self { Some(graph) } else { None }
@@ -200,25 +200,25 @@ impl GraphKind {
 /// Shape of the cells of a decomposition.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CellKind {
-    /// Trapezoids that a line leaves as it sweeps over free space.
+    /// Trapezoids from a line that sweeps over free space.
     Trapezoids,
     /// Triangles.
     Triangles,
 }
 
-/// What a planner saw on its way, for pictures.
+/// A record of the planner's search, for pictures.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Trace {
     /// Arcs of the reduced visibility graph.
     Roadmap {
-        /// Both ends of each.
+        /// Both ends of each arc.
         edges: Vec<[Configuration; 2]>,
-        /// Whether all arcs between corners are among them; otherwise they are those that the search looked at.
+        /// True if the arcs include all arcs between corners; otherwise they are those that the search examined.
         whole: bool,
     },
-    /// Free stretches of slices that the path passes one after the other: both ends of each.
+    /// Free stretches of slices on the path, one after the other: both ends of each.
     Slices {
-        /// Of each the least and the greatest value of joint 2.
+        /// The least and the greatest value of joint 2 of each stretch.
         free: Vec<[Configuration; 2]>,
     },
     /// Cells of the decomposition (corners, counter-clockwise) and the indices of those in the channel, in order.
@@ -229,69 +229,70 @@ pub enum Trace {
         cells: Arc<[Vec<Configuration>]>,
         /// Indices of the channel's cells.
         channel: Vec<usize>,
-        /// Where paths through the middle of the channel lead; empty where there are none of a fixed place.
+        /// Points on paths through the middle of the channel; empty if they have no fixed place.
         points: ChannelPoints,
-        /// Where the search came, in order, if that is to be seen.
+        /// Configurations that the search expanded, in order, if they are to be shown.
         expanded: Vec<Configuration>,
     },
     /// A graph of straight motions.
     Roads {
-        /// Both ends of each.
+        /// Both ends of each motion.
         edges: Vec<[Configuration; 2]>,
-        /// Where the search came, in order.
+        /// Configurations that the search expanded, in order.
         expanded: Vec<Configuration>,
-        /// Which graph it is.
+        /// The kind of graph.
         kind: GraphKind,
     },
     /// Boxes of a subdivision: lower and upper corner of each.
     Boxes {
-        /// No collision anywhere in them.
+        /// Boxes without any collision.
         free: Vec<[Configuration; 2]>,
-        /// Collision everywhere in them.
+        /// Boxes with collisions only.
         stuck: Vec<[Configuration; 2]>,
         /// Boxes that are neither proven free nor proven stuck.
         mixed: Vec<[Configuration; 2]>,
     },
-    /// Steps to the goal for every cell of the grid, of a forward search steps from the start; `u32::MAX` where it did not
-    /// come.
+    /// Steps to the goal for every cell of the grid, or steps from the start for a forward search; `u32::MAX` for cells
+    /// that were not reached.
     Wavefront {
         /// Shape of the grid.
         cells: [usize; 2],
-        /// One a cell.
+        /// One value per cell.
         labels: Vec<u32>,
-        /// Cells in the order in which a search expanded them; none of the wave, which comes to all cells of a label at once.
+        /// Cells in the order in which a search expanded them; empty for the wave, which reaches all cells of a label
+        /// at once.
         expanded: Vec<u32>,
-        /// Whether the search began at the start.
+        /// True if the search began at the start.
         forward: bool,
     },
-    /// Natural logarithm of the potential for every cell (0 at the goal, the lower the farther), minus infinity where
-    /// there is none.
+    /// Natural logarithm of the potential for every cell (0 at the goal, lower farther away), minus infinity where
+    /// there is no potential.
     Field {
         /// Shape of the grid.
         cells: [usize; 2],
-        /// One a cell.
+        /// One value per cell.
         potential: Vec<f64>,
     },
-    /// The harmonic potential of the cells that the goal can be reached from. Its logarithms are for pictures alone, and
-    /// computed when there is one ([`Trace::logarithms`]).
+    /// The harmonic potential of the cells from which the goal can be reached. Its logarithms are for pictures alone,
+    /// and are computed when a picture needs them ([`Trace::logarithms`]).
     Harmonic {
         /// The cells that the field covers.
         component: Component,
-        /// Not known where the start is none of them.
+        /// `None` if the start is in none of these cells.
         potential: Option<Potential>,
     },
-    /// A potential that paths descend, for every cell; infinite where there is none.
+    /// A potential that paths descend, for every cell; infinite where there is no potential.
     Potential {
         /// Shape of the grid.
         cells: [usize; 2],
-        /// One a cell.
+        /// One value per cell.
         heights: Vec<f64>,
     },
 }
 
 impl Trace {
-    /// Of a field that paths ascend: the shape of the grid, and the natural logarithm of the potential for every cell, minus infinity
-    /// where there is none. Linear in the number of cells.
+    /// Returns the shape of the grid and the natural logarithm of the potential for every cell, for a field that paths
+    /// ascend. The logarithm is minus infinity where there is no potential. Linear in the number of cells.
     #[must_use]
     pub fn logarithms(&self) -> Option<([usize; 2], Cow<'_, [f64]>)> {
         match self {
@@ -308,10 +309,10 @@ impl Trace {
     }
 }
 
-/// What a run has to add.
+/// A remark of a planner about a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Note {
-    /// The field was not relaxed to the tolerance asked for. No path is followed in it.
+    /// The field was not relaxed to the required tolerance. No path is followed in it.
     Unconverged {
         /// Passes over all cells, until the limit.
         sweeps: usize,
@@ -320,24 +321,24 @@ pub enum Note {
     },
     /// The path left local minima, which the forces alone do not leave.
     Escaped {
-        /// How, in words.
+        /// The method, in words.
         how: &'static str,
         /// Number of local minima.
         minima: usize,
         /// Number of moves that led out of them.
         moves: usize,
     },
-    /// The field was relaxed to the tolerance of its measure, which left values about the path too small to be seen by it. Then it
-    /// was relaxed to a relative tolerance.
+    /// The field was relaxed to the tolerance of its measure, but its values around the path were too small for that
+    /// measure. Then it was relaxed to a relative tolerance.
     Continued {
         /// Passes over all cells until the measure was met.
         first: usize,
         /// Passes after that.
         more: usize,
     },
-    /// Not relaxed to the tolerance, since the precision of a GPU goes no further.
+    /// The relaxation stopped before the tolerance, at the limit of a GPU's precision.
     Floor {
-        /// Passes over all cells, until only roundings changed.
+        /// Passes over all cells, until only rounding changed.
         sweeps: usize,
         /// Greatest relative change of a value in the last sweep.
         change: f64,
@@ -371,25 +372,26 @@ impl std::fmt::Display for Note {
 /// A planner's answer.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Run {
-    /// How it ended.
+    /// The outcome.
     pub outcome: Proposal,
-    /// For pictures.
+    /// The trace, for pictures.
     pub trace: Trace,
-    /// How much was built.
+    /// Size of the structure that was built.
     pub size: Size,
-    /// What to know about the outcome beyond it.
+    /// A remark about the outcome, if any.
     pub note: Option<Note>,
 }
 
 /// A planner: settings are the fields of the implementing type.
 ///
-/// What does not depend on the query is built once and can serve many queries. Deterministic: same input, same output.
+/// Structures that do not depend on the query are built once and can serve many queries. Deterministic: same input,
+/// same output.
 pub trait Planner {
     /// Name on the command line.
     const NAME: &'static str;
-    /// The representation it works on: that visibility needs polygons is a fact of the type.
+    /// The representation that it works on. The type states, for example, that visibility needs polygons.
     type Space;
-    /// What it prepares.
+    /// The structure that it prepares.
     type Map;
 
     /// Prepares a space for queries.

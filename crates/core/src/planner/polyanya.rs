@@ -1,6 +1,7 @@
 //! Shortest paths through triangulated free space.
 //!
-//! No search for petgraph, which asks a node for all its arcs at once: here arcs wait on the open list before they are known.
+//! This search does not use petgraph, which requests all arcs of a node at once. Here arcs wait on the open list before
+//! they are known.
 
 use super::NONE;
 use super::mesh::{Beyond, Bound, Cone, Crossing, Mesh, Tangency};
@@ -16,29 +17,29 @@ const PARALLEL: f64 = 1e-6;
 
 /// A* over the reduced visibility graph whose arcs are found while they are needed.
 ///
-/// The open list holds, beside nodes that have been reached, *cones*: what a node sees through an edge of the
-/// triangulation. A cone's estimate is a lower bound on the way through it, so a node's arcs are found in the order in
-/// which they matter, and most never. This is the search of Polyanya (Cui, Harabor, Grastien 2017), with cones
-/// bounded by lines through vertices rather than by rounded points, so that what is seen is decided exactly, and with
-/// turns as nodes of their own. It holds for any norm: pulling a path taut never makes it longer.
+/// The open list holds reached nodes and *cones*: the view from a node through an edge of the triangulation. A cone's
+/// estimate is a lower bound on the length of paths through it. So a node's arcs are found in the order in which they
+/// matter, and most never. This is the search of Polyanya (Cui, Harabor, Grastien 2017) with two changes. Cones are
+/// bounded by lines through vertices rather than by rounded points, so that visibility is decided exactly. Turns are
+/// nodes of their own. The search is correct for any norm: pulling a path taut never makes it longer.
 pub(super) struct Polyanya<'a> {
     mesh: &'a Mesh,
     measure: Measure,
     terminals: &'a Terminals,
-    /// Whether a triangle holds a goal.
+    /// True for triangles that hold a goal.
     has_goal: Vec<bool>,
     nodes: Vec<Node>,
     /// Least cost of each corner so far.
     reached: Vec<f64>,
     open: OpenList<Open>,
     cones: Vec<(Cone, u32)>,
-    /// Entries ever put on the open list.
+    /// Number of entries ever put on the open list.
     pushed: u32,
     /// Arcs found: ends.
     pub arcs: Vec<[Point; 2]>,
 }
 
-/// A point that is reached, and how.
+/// A reached point, and its predecessor.
 #[derive(Debug, Clone, Copy)]
 struct Node {
     at: Point,
@@ -50,16 +51,16 @@ struct Node {
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Step {
-    /// To look around at a node.
+    /// Look around at a node.
     Turn(u32),
-    /// To follow a cone, an index into [`Polyanya::cones`].
+    /// Follow a cone, an index into [`Polyanya::cones`].
     Look(u32),
     /// A goal, as a node.
     Arrive(u32),
 }
 
-/// An entry of the open list: whether it is an arrival, its number, and what to do. Of equal estimates an arrival comes
-/// first, then the latest.
+/// An entry of the open list: true for an arrival, its number, and the step to do. Among equal estimates an arrival
+/// comes first, then the latest entry.
 type Open = (Reverse<bool>, Reverse<u32>, Step);
 
 impl<'a> Polyanya<'a> {
@@ -80,13 +81,13 @@ impl<'a> Polyanya<'a> {
         }
     }
 
-    /// Nodes looked at: the start, goals in sight, corners.
+    /// Returns the number of visited nodes: the start, goals in sight, corners.
     pub fn nodes(&self) -> usize {
         let corners = self.reached.iter().filter(|cost| cost.is_finite()).count();
         corners + self.nodes.iter().filter(|node| node.corner == NONE).count()
     }
 
-    /// The shortest path from start to any goal; none if there is none. Waypoints are not collinear.
+    /// Returns the shortest path from start to any goal; `None` if there is no path. Waypoints are not collinear.
     pub fn path(&mut self) -> Option<Vec<Point>> {
         let start = self.terminals.start;
         self.nodes.push(Node { at: start, cost: 0.0, parent: NONE, corner: NONE });
@@ -117,12 +118,12 @@ impl<'a> Polyanya<'a> {
         None
     }
 
-    /// Whether a shorter way to the same corner has been found since.
+    /// Returns true if a shorter path to the same corner has been found since.
     fn is_stale(&self, Node { corner, cost, .. }: Node) -> bool {
         corner != NONE && self.reached[corner as usize] < cost
     }
 
-    /// Looks at what lies beyond a corner for one who turns there.
+    /// Adds the view beyond a corner for paths that turn there.
     fn turn(&mut self, number: u32) {
         let node = self.nodes[number as usize];
         if self.is_stale(node) {
@@ -171,7 +172,7 @@ impl<'a> Polyanya<'a> {
         }
     }
 
-    /// Notes that a node sees a corner.
+    /// Records that a node sees a corner.
     fn see(&mut self, root: u32, number: u32) {
         let corner = &self.mesh.corners()[number as usize];
         let node = self.nodes[root as usize];
@@ -188,7 +189,7 @@ impl<'a> Polyanya<'a> {
         }
     }
 
-    /// Ends at the goals in a triangle, at the nearest place of what a node sees of each.
+    /// Ends at the goals in a triangle, at the nearest visible place of each.
     fn find_goals(&mut self, root: u32, triangle: u32, sees: impl Fn(&Segment) -> Option<Segment>) {
         if !self.has_goal[triangle as usize] {
             return;
@@ -211,7 +212,7 @@ impl<'a> Polyanya<'a> {
         self.nodes.len() as u32 - 1
     }
 
-    /// A lower bound on the way by a node and through a cone; infinite at a wall.
+    /// Returns a lower bound on the length of paths by a node and through a cone; infinite at a wall.
     fn estimate(&self, root: u32, cone: &Cone) -> f64 {
         if self.mesh.is_wall(cone.edge) {
             return f64::INFINITY;
@@ -257,7 +258,8 @@ impl<'a> Polyanya<'a> {
     }
 }
 
-/// Where a ray meets the segment from `a` to `b`; `fallback` if it is drawn to that end, or nearly parallel.
+/// Returns the point where a ray meets the segment from `a` to `b`; `fallback` if it is drawn to that end, or nearly
+/// parallel.
 fn meeting(Bound { from, to }: Bound, [a, b]: [Point; 2], fallback: Point) -> Point {
     let (line, edge) = (to - from, b - a);
     let sine = cross(line, edge);

@@ -4,23 +4,23 @@ use super::grid_path::{Line, place};
 use crate::cspace::Grid;
 use cplan_interrupt::checkpoint;
 
-/// A segment counts as passing through a cell that it comes as near as this to (in cells), so that touching a corner is
-/// passing both sides of it. Far above the rounding of lattice coordinates (1e-11 for a hundred thousand cells), far
-/// below anything that matters to a path.
+/// Distance (in cells) within which a segment counts as passing through a cell, so that a segment through a corner
+/// passes both cells beside it. Far above the rounding of lattice coordinates (1e-11 for a hundred thousand cells), and
+/// far below anything that matters to a path.
 pub(super) const TOUCH: f64 = 1e-9;
 
-/// At most so many rounds of tightening; ...
+/// Greatest number of rounds of tightening; ...
 const ROUNDS: usize = 8;
-/// ... they end earlier when one gains less than this part of the length.
+/// ... they end earlier when one gains less than this share of the length.
 const GAIN: f64 = 1e-3;
 
-/// A shorter polyline with the same ends. Each of its segments passes only through free cells (touching counts), or is a
-/// piece of the given one. Never longer in any norm; with few corners. Some `n log n` looks at cells for a line that is
-/// `n` cells long.
+/// Returns a shorter polyline with the same ends. Each of its segments passes only through free cells (touching
+/// counts), or is a piece of the given one. Never longer in any norm; with few corners. Some `n log n` cell checks for
+/// a line that is `n` cells long.
 pub(super) fn shortcut(grid: &Grid, line: &[[f64; 2]]) -> Line {
     let mut best = farthest(grid, line);
     for _ in 0..ROUNDS {
-        // Backwards, from points between the corners too: that pulls the corners towards the obstacles.
+        // Backwards, and from points between the corners too: that pulls the corners towards the obstacles.
         let mut fine = refine(grid, &best);
         fine.reverse();
         let mut next = farthest(grid, &fine);
@@ -36,14 +36,14 @@ pub(super) fn shortcut(grid: &Grid, line: &[[f64; 2]]) -> Line {
     best
 }
 
-/// Length in the configuration space.
+/// Returns the length in the configuration space.
 fn length(grid: &Grid, line: &[[f64; 2]]) -> f64 {
     let step = grid.step();
     line.windows(2).map(|w| ((w[1][0] - w[0][0]) * step[0]).hypot((w[1][1] - w[0][1]) * step[1])).sum()
 }
 
-/// From each corner on to one far along the line that is in sight: twice as far as long as that is seen, then by
-/// bisection. The next corner is always taken.
+/// Returns a line that goes from each corner on to a far visible one along the line. The distance is doubled while the
+/// corner is visible, then bisected. The next corner always counts as visible.
 fn farthest(grid: &Grid, line: &[[f64; 2]]) -> Line {
     let mut corners = vec![line[0]];
     let mut at = 0;
@@ -61,7 +61,7 @@ fn farthest(grid: &Grid, line: &[[f64; 2]]) -> Line {
     corners
 }
 
-/// The line with further points on its clear segments, not more than a cell apart.
+/// Returns the line with further points on its clear segments, not more than a cell apart.
 fn refine(grid: &Grid, line: &[[f64; 2]]) -> Line {
     let mut points = vec![line[0]];
     for w in line.windows(2) {
@@ -76,12 +76,12 @@ fn refine(grid: &Grid, line: &[[f64; 2]]) -> Line {
     points
 }
 
-/// Whether all cells that the segment passes through or touches are free.
+/// Returns true if all cells that the segment passes through or touches are free.
 pub(super) fn is_clear(grid: &Grid, a: [f64; 2], b: [f64; 2]) -> bool {
     let d = [b[0] - a[0], b[1] - a[1]];
     let rows = covered(grid, 0, a[0], b[0]);
     rows.into_iter().all(|i| {
-        // Both ends of the piece within row i, with a little more.
+        // Both ends of the piece within row i, with some tolerance.
         let at = |edge: f64| a[1] + ((edge - a[0]) / d[0]).clamp(0.0, 1.0) * d[1];
         let (from, to) =
             if d[0].abs() <= TOUCH { (a[1], b[1]) } else { (at(i as f64 - TOUCH), at((i + 1) as f64 + TOUCH)) };
@@ -91,8 +91,8 @@ pub(super) fn is_clear(grid: &Grid, a: [f64; 2], b: [f64; 2]) -> bool {
     })
 }
 
-/// The rows or columns between two coordinates, touched ones included. Beyond a limit there are none to be touched: the
-/// ends are within it.
+/// Returns the rows or columns between two coordinates, touched ones included. All are within
+/// the limits, because the ends are.
 fn covered(grid: &Grid, axis: usize, from: f64, to: f64) -> std::ops::RangeInclusive<i64> {
     let (first, last) = ((from.min(to) - TOUCH).floor() as i64, (from.max(to) + TOUCH).floor() as i64);
     if grid.topology.ranges[axis].is_circle() {

@@ -1,12 +1,12 @@
-//! Leaving out points of a curve.
+//! Removes points of a curve.
 
 use super::grid_path::Line;
 use super::shortcut::is_clear;
 use crate::cspace::Grid;
 use cplan_interrupt::checkpoint;
 
-/// Some of a line's points, its ends among them, such that no point of it is farther than `tolerance` (in cells) from the
-/// piece that goes past it. A piece that goes past points passes only through free cells. Some `n log n` looks at points.
+/// Returns some of a line's points, its ends among them, such that no other point is farther than `tolerance` (in
+/// cells) from the new piece that passes it. New pieces pass only through free cells. Some `n log n` point checks.
 pub(super) fn simplified(grid: &Grid, line: &[[f64; 2]], tolerance: f64) -> Line {
     let mut kept = vec![line[0]];
     let mut at = 0;
@@ -16,7 +16,7 @@ pub(super) fn simplified(grid: &Grid, line: &[[f64; 2]], tolerance: f64) -> Line
             let (a, b) = (line[at], line[to]);
             line[at + 1..to].iter().all(|&p| distance(p, a, b) <= tolerance) && is_clear(grid, a, b)
         };
-        // Twice as far as long as that fits, then by bisection.
+        // The distance is doubled while it fits, then bisected.
         let (mut good, mut bad) = (at + 1, line.len());
         while good + 1 < bad {
             let ahead = (at + 2 * (good - at)).min(line.len() - 1);
@@ -29,7 +29,7 @@ pub(super) fn simplified(grid: &Grid, line: &[[f64; 2]], tolerance: f64) -> Line
     kept
 }
 
-/// Of a point from a segment.
+/// Returns the distance of a point from a segment.
 fn distance(p: [f64; 2], a: [f64; 2], b: [f64; 2]) -> f64 {
     let (d, r) = ([b[0] - a[0], b[1] - a[1]], [p[0] - a[0], p[1] - a[1]]);
     let square = d[0] * d[0] + d[1] * d[1];

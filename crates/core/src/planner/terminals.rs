@@ -1,4 +1,4 @@
-//! Where a path over polygonal regions begins and may end.
+//! Ends of paths over polygonal regions.
 
 use super::Query;
 use super::mesh::Mesh;
@@ -7,7 +7,7 @@ use crate::space::{Measure, Metric, Segment};
 use cplan_geometry::Point;
 use std::f64::consts::TAU;
 
-/// Places at which a segment of goals is tried, beside that nearest to the start.
+/// Number of places at which a segment of goals is tried, in addition to the one nearest to the start.
 const PLACES: usize = 17;
 
 /// Ends of the paths that answer a query.
@@ -17,13 +17,13 @@ pub struct Terminals {
     pub start: Point,
     /// All copies of all goals that lie in the window and, in part, in closed free space; at least one.
     pub goals: Vec<Segment>,
-    /// What of them is in which convex cell of free space: its number and the part; by number.
+    /// Parts of the goals in convex cells of free space, with the cell's number; sorted by number.
     pub parts: Vec<(u32, Segment)>,
 }
 
 impl Terminals {
-    /// The ends for a query, or in words why there are none. `parts` says which cells of closed free space hold any of a
-    /// segment.
+    /// Returns the ends for a query, or the reason in words if there are none. `parts_of` finds the cells of closed
+    /// free space that hold any of a segment.
     pub fn new(
         regions: &Regions,
         query: &Query,
@@ -53,7 +53,8 @@ impl Terminals {
         Ok(Self { start, goals, parts })
     }
 
-    /// Goals as places, those of a mesh's free space: a point as it is; of a segment some, and that nearest to the start.
+    /// Returns goals as places in a mesh's free space: a point unchanged, and for a segment some of its points and the
+    /// one nearest to the start.
     pub fn places<'a>(&'a self, mesh: &'a Mesh) -> impl Iterator<Item = Point> + 'a {
         let places = self.goals.iter().flat_map(|goals| {
             let count = if goals.is_point() { 1 } else { PLACES };
@@ -63,13 +64,13 @@ impl Terminals {
         places.map(Point::from).filter(|&at| mesh.triangles_at(at).next().is_some())
     }
 
-    /// What of the goals is in a cell.
+    /// Returns the parts of the goals in a cell.
     pub fn parts_in(&self, cell: u32) -> impl Iterator<Item = &(u32, Segment)> {
         let begin = self.parts.partition_point(|part| part.0 < cell);
         self.parts[begin..].iter().take_while(move |part| part.0 == cell)
     }
 
-    /// Distance from `p` to the nearest goal: a lower bound on the length of any way there.
+    /// Returns the distance from `p` to the nearest goal: a lower bound on the length of any path there.
     pub fn distance(&self, measure: Measure, p: Point) -> f64 {
         self.goals.iter().map(|goal| goal.distance(measure, p.coords)).fold(f64::INFINITY, f64::min)
     }
@@ -79,14 +80,14 @@ fn shown(p: Point) -> String {
     format!("({:.6}, {:.6})", p.x, p.y)
 }
 
-/// The copies of a piece, shifted by whole turns along circle axes, that are at least in part in the window; on intervals the
-/// piece as it is.
+/// Returns the copies of a piece, shifted by whole turns along circle axes, that are at least in part in the window; on
+/// intervals the piece itself.
 fn window_copies(regions: &Regions, piece: &Segment) -> Vec<Segment> {
     let [from, to] = piece.ends();
     let turns = |k: usize| {
         let (least, greatest) = (from[k].min(to[k]), from[k].max(to[k]));
         let (lower, upper) = regions.window[k];
-        // From where the copy's greater end is in the window to where its lesser end is.
+        // From the turn at which the copy's greater end is in the window to the turn at which its lesser end is.
         let copies = regions.topology.ranges[k].copies_within(least, (lower - (greatest - least), upper));
         copies.map(move |copy| ((copy - least) / TAU).round())
     };

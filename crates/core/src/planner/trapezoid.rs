@@ -1,6 +1,7 @@
 //! Paths by exact cell decomposition: trapezoids, a channel, a funnel path.
 //!
-//! `decomposition` makes the cells, `channel` finds some that lead to the goal, [`crate::space::funnel_path`] pulls the string taut.
+//! `decomposition` makes the cells, `channel` finds a sequence of them that leads to the goal, and
+//! [`crate::space::funnel_path`] pulls the path taut.
 
 use super::channel::{Adjacency, Channel};
 use super::decomposition::{CellPortal, Decomposition};
@@ -15,19 +16,21 @@ use cplan_geometry::{Orientation, Point, orientation};
 use std::ops::Range;
 use std::sync::Arc;
 
-/// The *trapezoidal decomposition*: finds a channel of cells from start to goal whenever there is one, and a path in it.
+/// The *trapezoidal decomposition*: finds a channel of cells from start to goal whenever there is one, and a path in
+/// it.
 ///
-/// Cells are joined where they share a piece of vertical of positive length (a *portal*). A* finds the channel, or another
-/// search; passing from a cell to the next costs the way from the one's centre over the portal's middle to the other's, with start and
-/// goal for the centres of the end cells (Latombe, *Robot Motion Planning*, 1991, section 5.1). The path is free but
-/// not the shortest, even when taut: another channel may hold a shorter one.
+/// Cells are joined where they share a piece of vertical of positive length (a *portal*). A*, or another search, finds
+/// the channel. A passage from a cell to the next costs the distance from the one's centre over the portal's middle to
+/// the other's; for the end cells, start and goal replace the centres (Latombe, *Robot Motion Planning*, 1991, section
+/// 5.1). The path is free but not the shortest, even when taut: another channel may hold a shorter one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Trapezoid {
-    /// [`PathKind::Taut`] is pulled within the channel, so that it may touch obstacles; [`PathKind::Own`] leads through the
-    /// middles of its portals and the centres of its cells: start, `Q1`, `C2`, `Q2`, ..., goal (Latombe); [`PathKind::Middles`]
-    /// leaves out the centres of cells that it crosses from one side to the other.
+    /// The kind of path. [`PathKind::Taut`] is pulled taut within the channel, so it may touch obstacles.
+    /// [`PathKind::Own`] leads through the middles of the channel's portals and the centres of its cells: start, `Q1`,
+    /// `C2`, `Q2`, ..., goal (Latombe). [`PathKind::Middles`] leaves out the centres of cells that it crosses from one
+    /// side to the other.
     pub path: PathKind,
-    /// How the adjacency of cells is searched.
+    /// The search method over the adjacency of cells.
     pub search: RoadmapSearch,
 }
 
@@ -86,7 +89,7 @@ impl Planner for Trapezoid {
                 }
             }
         };
-        // The usual search is not what a picture of cells is about.
+        // Pictures of cells do not show the expansions of the default search.
         let expanded = if self.search.is_usual() { Vec::new() } else { expanded };
         Run {
             outcome,
@@ -104,7 +107,7 @@ impl Planner for Trapezoid {
 }
 
 impl TrapezoidMap {
-    /// Centres and middles along a channel.
+    /// Returns the centres and middles along a channel.
     fn points(&self, channel: &Channel) -> ChannelPoints {
         let all = |points: &[Point], numbers: &[usize]| numbers.iter().map(|&number| points[number].coords).collect();
         ChannelPoints {
@@ -113,8 +116,9 @@ impl TrapezoidMap {
         }
     }
 
-    /// Through the middles of the portals, and the centres of the cells between them; `sparing`, only of those cells that are left by
-    /// the side that they are entered by: straight on would be along that side.
+    /// Returns the path through the middles of the portals and the centres of the cells between them. If `sparing`, it
+    /// visits the centre only of cells that are left by the side by which they are entered, since straight on would be
+    /// along that side.
     fn middle_path(&self, channel: &Channel, sparing: bool) -> Vec<Point> {
         let mut waypoints = vec![channel.start];
         for (k, &cell_portal) in channel.portals.iter().enumerate() {
@@ -129,7 +133,7 @@ impl TrapezoidMap {
         waypoints
     }
 
-    /// The shortest way within the channel.
+    /// Returns the shortest path within the channel.
     fn taut_path(&self, channel: &Channel) -> Vec<Point> {
         let cell_portal = |k: usize| self.decomposition.portals[channel.portals[k]];
         let portal = |k: usize| {
@@ -139,8 +143,8 @@ impl TrapezoidMap {
         let portals: Vec<Portal> = (0..channel.portals.len()).map(portal).collect();
         let goal = nearest_end(channel.start, &channel.goals, &portals);
         let path = turns(channel.start, goal, &portals);
-        // Where a portal ends in the middle of a side, its end is rounded into free space, and a string along the side
-        // turns there by a rounding error. A funnel path turns at vertices only: leave such turns out.
+        // Where a portal ends in the middle of a side, its end is rounded into free space, and a taut path along the
+        // side turns there by a rounding error. A funnel path turns only at vertices, so such turns are removed.
         let is_vertex = |turn: &Turn| {
             let CellPortal { low, at_vertices, .. } = cell_portal(turn.portal);
             at_vertices[usize::from(turn.at != low)]
@@ -164,7 +168,8 @@ impl TrapezoidMap {
         waypoints
     }
 
-    /// Whether one can go straight from `a` to `b` through some of the channel's portals; exact. Linear in their number.
+    /// Returns true if the straight line from `a` to `b` stays in the channel through these portals; exact. Linear in
+    /// their number.
     ///
     /// Vertices at the ends of the portals decide that: each side between is straight, and `a`, `b` and these vertices are
     /// on its free side.

@@ -1,11 +1,13 @@
 //! Shortest paths by visibility graph and A*.
 //!
 //! `mesh` triangulates free space and follows cones of sight from triangle to triangle. Cones are bounded by lines
-//! through vertices, so that exact predicates decide what is seen. `VisibilityMap::arcs` reads the whole reduced
-//! visibility graph off it. A query (`polyanya`) does not: it is A* over that graph, but keeps cones on the open list
-//! beside corners, each with a lower bound on the way through it, so that arcs are found in the order in which they
-//! matter (Polyanya). Other searches than that have the whole graph made. One search serves all metrics: shortest paths in any norm turn at the same corners, only lengths
-//! and bounds differ ([`crate::space::Measure`]).
+//! through vertices, so that exact predicates decide visibility. `VisibilityMap::arcs` reads the whole reduced
+//! visibility graph off it.
+//!
+//! A query (`polyanya`) does not need the whole graph. It is A* over that graph, but keeps both cones and corners on
+//! the open list, each with a lower bound on the length of paths through it. So arcs are found in the order in which
+//! they matter (Polyanya). All other searches build the whole graph. One search serves all metrics: shortest paths in
+//! any norm turn at the same corners, and only lengths and bounds differ ([`crate::space::Measure`]).
 
 mod full;
 
@@ -22,22 +24,22 @@ use cplan_interrupt::checkpoint;
 use petgraph::graph::NodeIndex;
 use serde::{Deserialize, Serialize};
 
-/// Which arcs a visibility graph has.
+/// The set of arcs of a visibility graph.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum VisibilityGraph {
-    /// Between convex corners of C-obstacles, those that are tangent at both ends: enough for shortest paths.
+    /// Arcs between convex corners of C-obstacles that are tangent at both ends: enough for shortest paths.
     #[default]
     Reduced,
-    /// By definition: between all corners of free space that see each other.
+    /// All arcs of the definition: between all corners of free space that see each other.
     Full,
 }
 
 impl VisibilityGraph {
-    /// Both, in the order of the command line's help.
+    /// Both sets, in the order of the command line's help.
     pub const ALL: [Self; 2] = [Self::Reduced, Self::Full];
 
-    /// Name on the command line and in results.
+    /// Returns the name on the command line and in results.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -51,20 +53,21 @@ impl VisibilityGraph {
 ///
 /// Nodes are the convex corners of C-obstacles, the start and all copies of the goals; arcs are the segments in closed
 /// free space that are tangent to the obstacle at each end that is a corner. A shortest path turns only at convex
-/// corners and only around them, so the arcs left out are on none (Latombe, *Robot Motion Planning*, 1991, section
+/// corners and only around them, so it uses none of the arcs left out (Latombe, *Robot Motion Planning*, 1991, section
 /// 4.1). A path may touch obstacles, but does not squeeze between two that touch in a corner: it is always a limit of
 /// paths in the interior of free space.
 ///
-/// Free space is triangulated (constrained Delaunay, `O(n log n)` for `n` corners and near-linear memory). What a corner
-/// sees is found by following its lines of sight from triangle to triangle, in time proportional to the triangles
-/// crossed; a query does so only as far as the estimate of A* asks for. Signs are exact, lengths rounded.
+/// Free space is triangulated (constrained Delaunay, `O(n log n)` for `n` corners and near-linear memory). The view
+/// from a corner is found by following its lines of sight from triangle to triangle, in time proportional to the
+/// triangles crossed. A query does so only as far as the estimate of A* requires. Signs are exact, lengths rounded.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Visibility {
-    /// What is shortest. Of motions that take equally long, the one that is shortest in Euclid's sense.
+    /// The quantity to minimise. Of motions that take equally long, the one with the least Euclidean length counts.
     pub metric: Metric,
-    /// How the graph is searched. The usual search makes no more of it than it needs; any other has it made as a whole.
+    /// The search method. The default search builds only the part of the graph that it needs; any other builds all of
+    /// it.
     pub search: RoadmapSearch,
-    /// Which arcs it has. The full graph is made as a whole.
+    /// The set of arcs. The full graph is always built completely.
     pub graph: VisibilityGraph,
 }
 
@@ -83,7 +86,7 @@ impl Planner for Visibility {
         VisibilityMap { mesh: Mesh::new(Boundary::new(&space.contours())) }
     }
 
-    /// The trace and the size are those of the part of the graph that the search looked at.
+    /// Returns a run whose trace and size are those of the part of the graph that the search visited.
     fn query(&self, space: &Regions, map: &VisibilityMap, query: &Query) -> Run {
         let terminals = match Terminals::new(space, query, |segment| map.mesh.parts_of(segment)) {
             Ok(terminals) => terminals,
@@ -111,20 +114,20 @@ impl Planner for Visibility {
 }
 
 impl VisibilityMap {
-    /// Number of convex corners.
+    /// Returns the number of convex corners.
     #[must_use]
     pub fn corners(&self) -> usize {
         self.mesh.corners().len()
     }
 
-    /// All arcs between corners: the ends of each. In time proportional to the triangles that lines of sight cross.
+    /// Returns the ends of each arc between corners. In time proportional to the triangles that lines of sight cross.
     #[must_use]
     pub fn arcs(&self) -> Vec<[Configuration; 2]> {
         let corners = self.mesh.corners();
         self.pairs().into_iter().map(|pair| pair.map(|number| corners[number as usize].at.coords)).collect()
     }
 
-    /// The corners at the ends of all arcs.
+    /// Returns the corners at the ends of all arcs.
     fn pairs(&self) -> Vec<[u32; 2]> {
         let corners = self.mesh.corners();
         let mut pairs = Vec::new();
@@ -132,7 +135,7 @@ impl VisibilityMap {
         for (number, corner) in (0..).zip(corners) {
             checkpoint();
             let is_tangent = |other: u32| corners[other as usize].tangency(corner.at) != Tangency::None;
-            // Each arc is found from the end on its left: corners are numbered in that order.
+            // Each arc is found from its left end: corners are numbered in that order.
             let arc = |half_edge: u32| {
                 let other = self.mesh.corner_at(half_edge).filter(|&other| other > number && is_tangent(other))?;
                 Some([number, other])
@@ -147,7 +150,7 @@ impl VisibilityMap {
 }
 
 impl Visibility {
-    /// A search of the whole graph.
+    /// Returns a search of the whole graph.
     fn whole(&self, map: &VisibilityMap, terminals: &Terminals) -> Run {
         let measure = Measure::from(self.metric);
         let asked = match self.graph {
@@ -170,7 +173,8 @@ impl Visibility {
 }
 
 impl VisibilityMap {
-    /// The whole graph with a query's ends: what start and corners see of goals, at the place that is nearest to each.
+    /// Returns the whole graph with a query's ends. For each goal it uses the place nearest to the start or corner that
+    /// sees it.
     fn asked(&self, measure: Measure, terminals: &Terminals) -> Asked {
         let (mesh, corners) = (&self.mesh, self.mesh.corners());
         let mut roadmap = Roadmap::new(measure);
@@ -202,20 +206,20 @@ impl VisibilityMap {
     }
 }
 
-/// What is seen from node to node, as it goes into a graph.
+/// A graph, to which visible goals are added node by node.
 struct Ends<'a> {
     mesh: &'a Mesh,
     measure: Measure,
     terminals: &'a Terminals,
     asked: &'a mut Asked,
-    /// Half-edges at vertices seen, ...
+    /// Half-edges at visible vertices; filled only with `notes`.
     seen: Vec<u32>,
-    /// ... where they are asked for.
+    /// True to collect `seen`.
     notes: bool,
 }
 
 impl Ends<'_> {
-    /// Joins a node with the goals that it sees in a cone, and notes the vertices if they are asked for.
+    /// Joins a node with the goals that it sees in a cone, and collects the vertices if they are needed.
     fn look(&mut self, root: NodeIndex, cone: Cone) {
         checkpoint();
         self.mesh.look(self.asked.at(root), cone, |crossing, cone| {
@@ -226,7 +230,7 @@ impl Ends<'_> {
         });
     }
 
-    /// Joins a node with what it sees of the goals in a triangle.
+    /// Joins a node with the visible goals in a triangle.
     fn meet_goals(&mut self, root: NodeIndex, triangle: u32, sees: impl Fn(&Segment) -> Option<Segment>) {
         for (_, part) in self.terminals.parts_in(triangle) {
             if let Some(seen) = sees(part) {

@@ -1,4 +1,4 @@
-//! Searches of a grid: the wavefront, whose labels are the distances from the goal, and the textbook searches beside it.
+//! Searches of a grid: the wavefront, whose labels are the distances from the goal, and other textbook searches.
 
 use super::attach::Joined;
 use super::{PathKind, Planner, Proposal, Query, Run, Size, Trace, grid_path};
@@ -10,25 +10,25 @@ use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::str::FromStr;
 
-/// How the cells of a grid are searched. All begin at the goal, like the wave, so that a label counts the moves to it; all
-/// but the wave can begin at the start.
+/// The search method for the cells of a grid. All methods begin at the goal, like the wave, so that a label counts the
+/// moves to it. All except the wave can also begin at the start.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum GridSearch {
-    /// Labels the goal's whole component, then descends: a path of fewest moves. All moves count alike.
+    /// Labels the goal's whole component, then descends: a path with the fewest moves. All moves count alike.
     #[default]
     Wave,
-    /// Breadth-first, until the start is met: fewest moves.
+    /// Breadth-first, until it meets the start: fewest moves.
     BreadthFirst,
-    /// Depth-first: some path.
+    /// Depth-first: any path.
     DepthFirst,
     /// Least cost, where a diagonal move counts as the square root of 2 straight ones.
     Dijkstra,
-    /// The same cost, led by the distance from the start.
+    /// The same cost, guided by the distance from the start.
     AStar,
-    /// The cell nearest to the start: some path, found soon.
+    /// The cell nearest to the start: any path, found soon.
     Greedy,
-    /// Depth first within a limit of moves, which grows until the start is met: fewest moves.
+    /// Depth-first within a limit of moves, which grows until it meets the start: fewest moves.
     IterativeDeepening,
 }
 
@@ -44,7 +44,7 @@ impl GridSearch {
         Self::IterativeDeepening,
     ];
 
-    /// Name on the command line.
+    /// Returns the name on the command line.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -58,7 +58,7 @@ impl GridSearch {
         }
     }
 
-    /// The order in which cells are expanded one by one; none for the wave, which has no need of one.
+    /// Returns the order in which cells are expanded one by one; `None` for the wave, which needs no order.
     fn order(self, ties: Ties) -> Option<Order> {
         match self {
             Self::Wave => None,
@@ -90,21 +90,22 @@ impl FromStr for GridSearch {
 }
 
 /// Labels cells with the number of moves to the nearest goal (0 there), over cells that share a side (or a corner too),
-/// and goes from the start down the labels until a goal is reached. With the default settings that is a path of cells
+/// and descends the labels from the start until it reaches a goal. With the default settings that is a path of cells
 /// shortest in the `L1` metric (Latombe 1991, the navigation function in that metric).
 ///
-/// Linear in the number of cells; Dijkstra and A\* times a logarithm, of as many cells as they look at; iterative deepening
-/// times the number of moves. Complete on the grid whatever the search: no path is found only if there is none between the cells. A diagonal move needs both cells beside
-/// it free, so eight neighbours connect no more cells than four.
+/// Linear in the number of cells. Dijkstra and A\* take an additional logarithm, over the cells that they visit;
+/// iterative deepening multiplies by the number of moves. Complete on the grid with every search: if no path is found,
+/// there is none between the cells. A diagonal move needs both cells beside it free, so eight neighbours connect no
+/// more cells than four.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Wavefront {
-    /// How cells are searched.
+    /// The search method for cells.
     pub search: GridSearch,
-    /// Which of equally promising cells A\* expands.
+    /// The rule by which A\* chooses among equally promising cells.
     pub ties: Ties,
-    /// From the start to a goal, rather than from the goals to the start; the wave has no choice.
+    /// True for a search from the start to a goal, rather than from the goals to the start; the wave ignores it.
     pub forward: bool,
-    /// To which cells a move leads.
+    /// The cells to which a move leads.
     pub neighborhood: Neighborhood,
     /// [`PathKind::Own`] is the staircase from cell to cell.
     pub path: PathKind,
@@ -151,8 +152,8 @@ impl Planner for Wavefront {
 }
 
 impl Wavefront {
-    /// The cells from the nearest of the start's that is connected with a goal, if one is; what the search saw; and how many
-    /// cells were looked at.
+    /// Returns the cells from the nearest start cell that is connected with a goal, if there is one; the record of the
+    /// search; and the number of cells visited.
     fn cells(&self, map: &FreeCells, joined: &Joined) -> (Option<Vec<usize>>, Trace, Size) {
         let sources = joined.sources();
         let Some(order) = self.search.order(self.ties) else {
@@ -180,16 +181,16 @@ impl Wavefront {
         (cells, trace, size)
     }
 
-    /// The cells found by a search that begins at the goals.
+    /// Returns the cells found by a search that begins at the goals.
     fn search_backward(&self, map: &FreeCells, joined: &Joined, order: Order) -> (Option<Vec<usize>>, Search) {
-        // A search that does not meet its target has labelled all that is connected with a goal, other cells of
-        // the start among them.
+        // A search that does not meet its target has labelled all cells that are connected with a goal, including other
+        // cells of the start.
         let search = Search::new(map, self.neighborhood, order, &joined.sources(), joined.start.cells[0]);
         (joined.start.cells.iter().find_map(|&cell| search.way_back(cell)), search)
     }
 
-    /// The cells found by a search that begins at the nearest of the start's cells that is connected with a goal; of the
-    /// nearest if no cell is connected.
+    /// Returns the cells found by a search that begins at the nearest start cell that is connected with a goal, or at
+    /// the nearest start cell if none is connected.
     fn search_forward(&self, map: &FreeCells, joined: &Joined, order: Order) -> (Option<Vec<usize>>, Search) {
         let goals = joined.sources();
         let from = |&cell: &usize| Search::to_any(map, self.neighborhood, order, &[cell], &goals);

@@ -4,7 +4,7 @@ use super::{Measure, Metric, Segment};
 use cplan_geometry::{Orientation, Point, orientation};
 use std::collections::VecDeque;
 
-/// A portal as seen by one who passes it: its ends to the left and to the right hand.
+/// A portal with its ends on the left and the right, as seen when passing it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Portal {
     /// The end to the left.

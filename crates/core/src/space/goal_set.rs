@@ -3,11 +3,11 @@
 use super::{Configuration, Measure, Metric, Segment, Topology};
 use serde::{Deserialize, Serialize};
 
-/// A set of configurations to reach any of: single ones, and straight segments of them.
+/// A set of alternative goals: single configurations, and straight segments of them.
 ///
-/// A goal of the tip leaves a joint free where the tip is on that joint's axis, or where the tip's goal is on the axis of joint
-/// 1: then all values of the joint within its limits will do, which is a segment. On a circle copies by whole turns belong to
-/// the set.
+/// A goal of the tip leaves a joint free if the tip is on that joint's axis, or if the tip's goal is on the axis of
+/// joint 1. Then all values of the joint within its limits are goals, which is a segment. On a circle, copies by whole
+/// turns belong to the set.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct GoalSet {

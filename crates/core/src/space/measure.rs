@@ -1,4 +1,4 @@
-//! A metric as shortest path searches use it.
+//! A metric in the form that shortest-path searches use.
 
 use super::{Metric, Segment};
 use cplan_geometry::{Point, Vector, cross};

@@ -15,8 +15,8 @@ pub enum Metric {
         /// A joint's weight, positive.
         weights: [f64; 2],
     },
-    /// The greatest of `|d1| / v1` and `|d2| / v2`: seconds at the joints' top speeds, each moving as fast as the other
-    /// lets it.
+    /// The greater of `|d1| / v1` and `|d2| / v2`: seconds at the joints' top speeds, in a motion of both joints
+    /// together.
     Time {
         /// A joint's top speed, positive; radians or metres a second.
         speeds: [f64; 2],
@@ -37,7 +37,7 @@ impl Metric {
     /// Returns the length of a path.
     #[must_use]
     pub fn length(self, path: &Path) -> f64 {
-        // Not `sum`: of nothing it is -0.
+        // Not `sum`, which is -0 for an empty path.
         path.segments().map(|(a, b)| self.norm(b - a)).fold(0.0, |length, piece| length + piece)
     }
 }

@@ -2,8 +2,8 @@
 
 use super::Configuration;
 
-/// A polyline in joint space, in *unwrapped* values: on a circle axis a waypoint may lie beyond a turn, so which way
-/// round a motion goes is never ambiguous. At least one waypoint.
+/// A polyline in joint space, in *unwrapped* values. On a circle axis a waypoint may lie beyond a turn, so the
+/// direction of a motion around it is never ambiguous. At least one waypoint.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Path {
     waypoints: Vec<Configuration>,
@@ -78,7 +78,7 @@ impl Path {
     /// Returns the Euclidean length in joint space (mixing rad and m).
     #[must_use]
     pub fn length(&self) -> f64 {
-        // Not `sum`: of nothing it is -0.
+        // Not `sum`, which is -0 for an empty path.
         self.segments().map(|(a, b)| (b - a).norm()).fold(0.0, |length, piece| length + piece)
     }
 }

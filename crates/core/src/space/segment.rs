@@ -100,7 +100,7 @@ impl Segment {
         })
     }
 
-    /// Returns true if any of it lies in a box, its sides included. Exact.
+    /// Returns true if any part of it lies in a box, sides included. Exact.
     #[must_use]
     pub fn meets(&self, lower: [f64; 2], upper: [f64; 2]) -> bool {
         let overlaps = |k: usize| {
@@ -113,7 +113,7 @@ impl Segment {
         if self.from[0] == self.to[0] || self.from[1] == self.to[1] {
             return true;
         }
-        // A slanted one misses a box that it overlaps along both axes if all corners lie to one side of it.
+        // A slanted segment misses a box that it overlaps along both axes if all corners lie on one side of it.
         let [a, b] = self.corners();
         let sides = [[lower[0], lower[1]], [upper[0], lower[1]], [upper[0], upper[1]], [lower[0], upper[1]]]
             .map(|[x, y]| orientation(a, b, Point::new(x, y)));
@@ -134,7 +134,7 @@ impl Segment {
         if measure.is_ellipse() {
             return self.at(foot);
         }
-        // The greater of two parts is least at an end, where one part vanishes, or where both count the same.
+        // The maximum of two terms is least at an end, where one term vanishes, or where both are equal.
         let share = |rate: f64, value: f64| if rate == 0.0 { 0.0 } else { value / rate };
         let shares = [
             foot,

@@ -12,7 +12,7 @@ const BEYOND_TAU: f64 = 2.449_293_598_294_706_4e-16;
 /// integer.
 fn whole_turns(turns: f64) -> [f64; 2] {
     let high = turns * TAU;
-    // What rounding left out of the product, exactly.
+    // The rounding error of the product, exactly.
     let left_out = turns.mul_add(TAU, -high);
     [high, left_out + turns * BEYOND_TAU]
 }
@@ -34,19 +34,19 @@ fn turned(value: f64, turns: f64) -> f64 {
     sum + (left_out + low)
 }
 
-/// The values one joint can take.
+/// The values that a joint can take.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum JointRange {
-    /// From `lower` to `upper`, both included. The range of a revolute joint may exceed a full turn: then poses repeat
-    /// within it, but configurations do not.
+    /// An interval from `lower` to `upper`, both included. The range of a revolute joint may exceed a full turn: then
+    /// poses repeat within it, but configurations do not.
     Interval {
         /// The least value of the joint.
         lower: f64,
         /// The greatest value of the joint.
         upper: f64,
     },
-    /// A joint without limits: values that differ by whole turns are one configuration.
+    /// A joint without limits: values that differ by whole turns are the same configuration.
     Circle,
 }
 
@@ -91,7 +91,7 @@ impl JointRange {
             return value;
         }
         let near = turned(value, -(value / TAU).round_ties_even());
-        // The quotient is rounded, too, so that one turn more may be needed beside the seam.
+        // The quotient is rounded, too, so one more turn may be needed near the seam.
         match near {
             near if near >= PI => turned(near, -1.0).max(-PI),
             near if near < -PI => Some(turned(near, 1.0)).filter(|wrapped| *wrapped < PI).unwrap_or(-PI),

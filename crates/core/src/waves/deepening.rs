@@ -1,7 +1,7 @@
-//! Iterative deepening (Korf 1985): depth first within a limit, again and again with a greater one.
+//! Iterative deepening (Korf 1985): depth-first search within a limit, repeated with greater limits.
 //!
-//! The textbook's search keeps no table and expands a cell once for each path that leads there. On a grid that never
-//! ends. Here each round expands a cell once, at its least number of moves, which the rounds before have found.
+//! The textbook search keeps no table and expands a cell once for each path that leads there, which takes exponential
+//! time on a grid. Here each round expands a cell once, at its least number of moves, which previous rounds have found.
 
 use super::search::{CELLS_BETWEEN_CHECKPOINTS, Cost, Search};
 use super::{FreeCells, Neighborhood, UNREACHED};
@@ -19,7 +19,7 @@ pub(super) fn deepen(
     sources: &[usize],
     targets: &BTreeSet<usize>,
 ) {
-    // The limit of the last round that has put a cell on the stack, and one.
+    // The limit of the last round that put the cell on the stack, plus one.
     let mut seen = vec![0_u32; search.parents.len()];
     let mut stack: Vec<usize> = Vec::new();
     for limit in 0.. {
@@ -33,7 +33,7 @@ pub(super) fn deepen(
                 checkpoint();
             }
             let depth = search.costs[cell].moves();
-            // Cells at the limit are expanded for the first time: nearer cells were expanded in the round before.
+            // Cells at the limit are expanded for the first time: nearer cells were expanded in the previous round.
             if depth == limit {
                 search.expanded.push(cell as u32);
             }

@@ -41,7 +41,7 @@ pub struct Move {
 pub struct FreeCells {
     cells: [usize; 2],
     circles: [bool; 2],
-    /// Words a row; each row begins in a word of its own.
+    /// Number of words per row; each row begins in a separate word.
     words: usize,
     /// Bits beyond the last column are 0.
     bits: Vec<u64>,
@@ -121,7 +121,7 @@ impl FreeCells {
         [before, after]
     }
 
-    /// Words a row.
+    /// Returns the number of words per row.
     pub(super) fn words(&self) -> usize {
         self.words
     }
@@ -152,7 +152,7 @@ impl FreeCells {
         runs
     }
 
-    /// Returns the first column in `from..to` that is free, or not free; `to` if there is none.
+    /// Returns the first column in `from..to` that is free, or not free; `to` if no column is.
     pub(super) fn next(&self, i: usize, from: usize, to: usize, free: bool) -> usize {
         if from >= to {
             return to;
@@ -176,7 +176,7 @@ impl FreeCells {
         let line = self.row(i);
         let mut start = end;
         while start > 0 {
-            // The bits of the word up to that of the column before, shifted to its top.
+            // The bits of the word up to that of the previous column, shifted to its top.
             let held = (start - 1) % 64 + 1;
             let ones = ((line[(start - 1) / 64] << (64 - held)).leading_ones() as usize).min(held);
             start -= ones;

@@ -1,7 +1,7 @@
-//! Steps to the goal: waves over the free cells of a grid, and the classical searches beside them.
+//! Steps to the goal: waves over the free cells of a grid, and other classical searches.
 //!
-//! A wave goes over rows where free cells come in long runs (`run_wave`), over tiles of 8 x 8 cells, a bit each, in mazes
-//! and noise (`tile_wave`), cell by cell where diagonal moves count (`queue_wave`).
+//! A wave proceeds by rows where free cells form long runs (`run_wave`), by tiles of 8 x 8 cells, one bit each, in
+//! mazes and noise (`tile_wave`), and cell by cell where diagonal moves count (`queue_wave`).
 
 mod deepening;
 mod free_cells;

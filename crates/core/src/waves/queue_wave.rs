@@ -3,11 +3,12 @@
 use super::{FreeCells, Neighborhood, UNREACHED};
 use cplan_interrupt::checkpoint;
 
-/// Labels of every cell that a wave from `sources` (free cells) reaches over the cells that share a side or a corner, and
-/// [`UNREACHED`] for all others.
+/// Labels every cell that a wave from `sources` (free cells) reaches over the cells that share a side or a corner, and
+/// all others with [`UNREACHED`].
 ///
-/// Which cells still wait is kept in bits beside the labels, which are written once each. Looking at a neighbour
-/// takes no branch: it is entered into the next front, and that is one longer afterwards only if it waited.
+/// Bits mark the cells that are not reached yet; the labels are written once each. Visiting a neighbour takes no
+/// branch: it is always written to the end of the next front, whose length increases only if the cell was not reached
+/// yet.
 pub(super) fn queue_wave_of_eight(free: &FreeCells, sources: &[usize]) -> Vec<u32> {
     let [rows, columns] = free.cells();
     let mut labels = vec![UNREACHED; rows * columns];
@@ -35,8 +36,8 @@ pub(super) fn queue_wave_of_eight(free: &FreeCells, sources: &[usize]) -> Vec<u3
     labels
 }
 
-/// Labels the cells of `front` (rows and columns) and enters those that they reach into `next`, which has room for all
-/// neighbours. How many there are.
+/// Labels the cells of `front` (rows and columns) and writes those that they reach to `next`, which has room for all
+/// neighbours. Returns the number of those.
 fn advance(
     free: &FreeCells,
     front: &[[u32; 2]],
@@ -47,7 +48,7 @@ fn advance(
 ) -> usize {
     let ([rows, columns], words) = (free.cells(), free.words());
     let mut reached = 0;
-    // Enters a cell if it waits and `allowed` is 1, not 0.
+    // Writes a cell if it is not reached yet and `allowed` is 1, not 0.
     let mut reach = |i: usize, j: usize, allowed: u64| {
         let word = &mut waiting[i * words + j / 64];
         let is_new = *word >> (j % 64) & allowed;

@@ -4,15 +4,16 @@ use super::{FreeCells, UNREACHED};
 use cplan_geometry::farthest;
 use std::ops::Range;
 
-/// Stretches wait in buckets of this many levels. Within one they are taken last in, first out, so that a stretch is
-/// worked on while the row that it came from is still in the cache; wider buckets make more labels that are too great at
-/// first and have to be written again.
+/// Number of levels per bucket of waiting stretches. Within a bucket the last one is taken first, so that a stretch is
+/// processed while the row that it came from is still in the cache. Wider buckets give more labels that are too great
+/// initially and must be written again.
 const BUCKET: usize = 16;
 
 /// Cost of handling a stretch beyond copying its cells, in cells (measured; about 100 ns).
 const STRETCH: usize = 64;
 
-/// The wave is given up when the work exceeds this many times the number of cells: by then a queue had done it.
+/// Greatest work, as a multiple of the number of cells. Beyond it the method gives up, because a queue would be done by
+/// then.
 const MOST_WORK: usize = 5;
 
 /// Labels every cell that a wave from `sources` (free cells) reaches over shared sides, and all others with
@@ -31,7 +32,7 @@ pub(super) fn run_wave(free: &FreeCells, sources: &[usize]) -> Option<Vec<u32>> 
     let mut labels = vec![UNREACHED; rows * columns];
     let most = MOST_WORK.saturating_mul(labels.len().max(STRETCH));
     let mut wave = RunWave { free, labels: &mut labels, queue: Queue::new(columns), work: 0 };
-    // One after the other: rows keep the property.
+    // The sources are added one after the other, so rows keep the property.
     for &source in sources {
         wave.labels[source] = 0;
         let (row, column) = (source / columns, source % columns);
@@ -97,7 +98,7 @@ impl RunWave<'_> {
     fn pass_on(&mut self, stretch: &Stretch, to: usize, ways: Ways) {
         let (from, columns) = (stretch.row, self.free.cells()[1]);
         self.work += STRETCH;
-        // A circle of one row.
+        // This is a circle of one row.
         if from == to {
             return;
         }
@@ -179,8 +180,8 @@ fn two_lines<'a>(labels: &'a mut [u32], at: [usize; 2], columns: &Range<usize>) 
     }
 }
 
-/// Writes `source + 1` where that is less than `target`. From the first to the last cell that has changed, and the least
-/// label there.
+/// Writes `source + 1` where that is less than `target`. Returns the range from the first to the last changed cell, and
+/// the least label there.
 fn improve(source: &[u32], target: &mut [u32]) -> Option<(Range<usize>, u32)> {
     let better = |(source, target): (&u32, &u32)| *target > *source + 1;
     let first = source.iter().zip(&*target).position(better)?;
@@ -205,7 +206,7 @@ fn prefix(length: usize, condition: impl Fn(usize) -> bool) -> usize {
 /// Stretches by their least label, in a ring of buckets.
 struct Queue {
     buckets: Vec<Vec<Stretch>>,
-    /// Number of the bucket that is being emptied, counted round the ring without end.
+    /// Number of the current bucket, counted around the ring without end.
     current: usize,
     waiting: usize,
 }

@@ -17,17 +17,17 @@ use std::f64::consts::SQRT_2;
 pub enum Order {
     /// First in, first out: fewest moves.
     BreadthFirst,
-    /// Last in, first out: some path, seldom a short one.
+    /// Last in, first out: any path, seldom a short one.
     DepthFirst,
     /// The cell of least cost: a shortest path.
     Dijkstra,
-    /// The cell of least cost and estimated cost of the rest: a shortest path, usually found sooner. The estimate is the
-    /// cost if nothing were in the way, so that no cell is expanded twice.
+    /// The cell with the least sum of cost and estimated cost of the rest: a shortest path, usually found sooner. The
+    /// estimate is the cost without obstacles, so no cell is expanded twice.
     AStar(Ties),
-    /// The cell of least estimated rest, and of equals the one that came last: some path.
+    /// The cell with the least estimated rest, the latest among equals: any path.
     Greedy,
-    /// Depth first, but no deeper than a limit; then again from the beginning with a limit of one move more, until a target
-    /// is met: fewest moves.
+    /// Depth first, but no deeper than a limit; then again from the beginning with a limit of one more move, until it
+    /// meets a target: fewest moves.
     IterativeDeepening,
 }
 
@@ -35,10 +35,10 @@ pub enum Order {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Ties {
-    /// The one that has come farther, and of equals the one that came last: goes straight ahead.
+    /// The cell farther from the source, the latest among equals: continues straight ahead.
     #[default]
     Farthest,
-    /// The one that came first: all that are equally promising are expanded in rounds, one step at a time.
+    /// The earliest cell: equally promising cells are expanded in rounds, one step at a time.
     First,
 }
 
@@ -94,7 +94,7 @@ pub struct Search {
     pub(super) costs: Vec<Cost>,
     /// The cell from which a cell was labelled, itself for sources; [`UNREACHED`] for cells without a label.
     pub(super) parents: Vec<u32>,
-    /// Cells that were expanded, each once, in the order in which that happened first.
+    /// Cells that were expanded, each once, in the order of their first expansion.
     pub expanded: Vec<u32>,
     /// Cells that were put on the list, sources included.
     pub labelled: usize,
@@ -110,11 +110,11 @@ pub struct Search {
 pub(super) const CELLS_BETWEEN_CHECKPOINTS: usize = 4096;
 
 impl Search {
-    /// Searches from all free cells among `sources` at once until `target` is expanded, or all that can be reached.
+    /// Searches from all free cells among `sources` at once until `target` is expanded, or all reachable cells are.
     ///
-    /// Breadth-first, depth-first and greedy search label a cell once, when they first come by; the others lower the cost of a
-    /// cell until it is expanded. Linear in the number of labelled cells, and for Dijkstra and A\* times their logarithm; filling
-    /// the tables is linear in the size of the grid.
+    /// Breadth-first, depth-first and greedy search label a cell once, when they first reach it; the others lower the
+    /// cost of a cell until it is expanded. Linear in the number of labelled cells, and for Dijkstra and A\* times
+    /// their logarithm; filling the tables is linear in the size of the grid.
     #[must_use]
     pub fn new(free: &FreeCells, neighborhood: Neighborhood, order: Order, sources: &[usize], target: usize) -> Self {
         Self::to_any(free, neighborhood, order, sources, &[target])
@@ -148,7 +148,7 @@ impl Search {
             open.push(source, Cost::default(), estimate(source));
         }
         while let Some((cell, cost)) = open.pop() {
-            // An entry that a lower cost has outdated.
+            // A lower cost has made this entry obsolete.
             if cost != search.costs[cell] {
                 continue;
             }
@@ -237,16 +237,16 @@ fn straight_cost(free: &FreeCells, neighborhood: Neighborhood, from: usize, to: 
     }
 }
 
-/// A cell that waits, by estimate; of equals by [`Ties`].
+/// A waiting cell, by estimate; among equals by [`Ties`].
 type Waiting = (Reverse<Ordered>, Reverse<u64>, usize, [u32; 2]);
 
-/// The list of cells that wait to be expanded.
+/// The list of cells that wait for expansion.
 enum Open {
     Queue(VecDeque<(usize, Cost)>),
     Stack(Vec<(usize, Cost)>),
-    /// The least first. With how many have been put there.
+    /// The least first. The number counts the cells that were added.
     Least(OpenList<Waiting>, Ties, u64),
-    /// The least rest first, and the latest of equals. With how many have been put there.
+    /// The least rest first, and the latest of equals. The number counts the cells that were added.
     Nearest(OpenList<Waiting>, u64),
 }
 

@@ -7,7 +7,6 @@ use super::{FreeCells, Neighborhood, UNREACHED};
 
 /// Mean length of runs of free cells above which the wave works run by run. In narrower mazes and in noise, tile by
 /// tile is faster.
-/// tile by tile is faster.
 const RUN: usize = 40;
 
 /// The least number of moves from each cell to a source: the navigation function whose level sets a wave passes through
@@ -19,11 +18,11 @@ pub struct StepLabels {
 }
 
 impl StepLabels {
-    /// Labels from all free cells among `sources` (they get 0) to all that are connected with one. Every move counts as
-    /// one step: over four neighbours the distance in the `L1` metric, over eight that in the maximum metric.
+    /// Labels all cells that are connected with a free cell among `sources` (which get 0). Every move counts as one
+    /// step: over four neighbours the distance in the `L1` metric, over eight that in the maximum metric.
     ///
-    /// Linear in the number of cells. Over four neighbours some 2 to 6 ns a cell where free cells come in long runs, most
-    /// of it for getting the memory; else about that of a plain queue.
+    /// Linear in the number of cells. Over four neighbours some 2 to 6 ns per cell where free cells form long runs,
+    /// most of it for allocating the memory; otherwise about the time of a plain queue.
     #[must_use]
     pub fn new(free: &FreeCells, sources: &[usize], neighborhood: Neighborhood) -> Self {
         let sources: Vec<usize> = sources.iter().copied().filter(|&source| free.is_free(source)).collect();

@@ -41,9 +41,9 @@ pub(super) fn tile_wave(free: &FreeCells, sources: &[usize]) -> Vec<u32> {
 
 #[derive(Debug, Clone, Copy, Default)]
 struct Tile {
-    /// Free cells where the wave has not come.
+    /// Free cells that the wave has not reached.
     waiting: u64,
-    /// Cells that it has come to and not gone on from, of even and of odd levels.
+    /// Cells that the wave has reached and not left, of even and of odd levels.
     front: [u64; 2],
     /// Index of its first cell.
     corner: u32,
@@ -53,7 +53,7 @@ struct Tile {
 
 struct TileWave {
     tiles: Vec<Tile>,
-    /// Tiles a row.
+    /// Number of tiles per row.
     across: usize,
     /// Tiles with a front, and its level: never more than two levels at a time, in order.
     queue: VecDeque<[u32; 2]>,

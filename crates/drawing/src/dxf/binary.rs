@@ -1,4 +1,4 @@
-//! The binary form of DXF, as the text that it stands for.
+//! Converts the binary form of DXF to the equivalent text.
 
 use super::tags::cut;
 use crate::Error;

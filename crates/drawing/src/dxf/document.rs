@@ -24,7 +24,7 @@ pub(super) struct Document<'a> {
     pub unit: Option<Unit>,
     /// The stated unit, if cplan does not know it.
     pub unread_unit: Option<Tag<'a>>,
-    /// Layers that are not seen, in capitals: names are the same in upper and lower case.
+    /// Layers that are hidden, in capitals, because names do not distinguish upper and lower case.
     hidden: HashMap<String, Hidden>,
     /// Blocks by name in capitals.
     pub blocks: HashMap<String, Block<'a>>,
@@ -35,7 +35,7 @@ pub(super) struct Document<'a> {
     clips: HashSet<&'a str>,
 }
 
-/// Why a layer is not seen.
+/// The reason why a layer is hidden.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Hidden {
     /// Off or never printed. Hides entities on the layer itself.
@@ -84,7 +84,7 @@ impl<'a> Document<'a> {
         Ok(document)
     }
 
-    /// Takes note of dictionaries and clips.
+    /// Records dictionaries and clips.
     fn objects(&mut self, records: &[Record<'a>]) -> Result<(), Error> {
         for record in records {
             let Some(handle) = record.text(5) else { continue };
@@ -160,7 +160,7 @@ fn blocks<'a>(records: &[Record<'a>]) -> Result<HashMap<String, Block<'a>>, Erro
     Ok(blocks)
 }
 
-/// Entities with what follows them and is theirs.
+/// Returns the entities, each with the following records that belong to it.
 fn entities<'a>(records: &[Record<'a>]) -> Vec<Entity<'a>> {
     let mut entities: Vec<Entity> = Vec::new();
     for &record in records {

@@ -53,7 +53,7 @@ impl<'a> Reader<'_, 'a> {
                 self.arc(&ellipse, from, to, place, origin)
             }
             "SPLINE" => self.spline(&record, &world, place, origin),
-            // Their last two corners are in the order of reading, not round the shape.
+            // Their last two corners are in reading order, not in the order around the shape.
             "SOLID" | "TRACE" => {
                 let corners: [Point; 4] =
                     [record.point(10)?, record.point(11)?, record.point(13).or(record.point(12))?, record.point(12)?];
@@ -71,7 +71,7 @@ impl<'a> Reader<'_, 'a> {
         self.sheet.open(points, group, origin)
     }
 
-    /// Corners joined by lines and arcs.
+    /// Adds corners joined by lines and arcs.
     fn polyline(
         &mut self,
         corners: &[Corner],
@@ -218,7 +218,7 @@ fn is_tilted(record: &Record) -> Result<bool, Error> {
     Ok(x.hypot(y) > ALONG)
 }
 
-/// Corners of a polyline in one record.
+/// Returns the corners of a polyline in one record.
 fn corners(record: &Record) -> Result<Vec<Corner>, Error> {
     let width = record.number_or(43, 0.0)?.abs();
     let corner = |at: Point| Corner { at, bulge: 0.0, widths: [width; 2] };

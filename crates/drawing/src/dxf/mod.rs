@@ -12,9 +12,9 @@ use document::{Document, Entity};
 use std::collections::HashMap;
 use tags::Tag;
 
-/// Insertions within each other, at most; programs allow fewer.
+/// Greatest depth of nested insertions; CAD programs allow fewer.
 const DEEPEST: usize = 64;
-/// Entities after all blocks are inserted, at most.
+/// Greatest number of entities after all blocks are inserted.
 const MOST_ENTITIES: usize = 1 << 20;
 
 /// Reads a DXF.
@@ -53,7 +53,7 @@ struct Place<'a> {
     map: Map,
     /// Factor and offset of heights.
     up: [f64; 2],
-    /// The block that came in first, if it has a name for people.
+    /// The outermost inserted block, if it has a name for people.
     name: Option<&'a str>,
     /// Layer of the insertion, which replaces layer 0 within the block.
     layer: Option<&'a str>,
@@ -82,7 +82,7 @@ struct Reader<'d, 'a> {
 }
 
 impl<'d, 'a> Reader<'d, 'a> {
-    /// Reads entities that lie in a place, `within` blocks of these names.
+    /// Reads entities at a place, `within` blocks of these names.
     fn all(&mut self, entities: &'d [Entity<'a>], place: &Place<'a>, within: &mut Vec<String>) -> Result<(), Error> {
         for entity in entities {
             self.entities += 1;
@@ -171,13 +171,13 @@ impl<'d, 'a> Reader<'d, 'a> {
         let spacing = [record.number_or(44, 0.0)?, record.number_or(45, 0.0)?];
         let layer = layer(entity, place);
         let frozen = place.frozen.or_else(|| self.document.freezes(layer).then_some(layer));
-        // Names of blocks that programs make up begin with a star.
+        // Generated names of blocks begin with a star.
         let name = place.name.or(Some(block.name).filter(|name| !name.starts_with('*')));
         within.push(key);
         for row in 0..counts[1] {
             for column in 0..counts[0] {
                 self.instances += 1;
-                // An empty block costs, too.
+                // Even an empty block takes time.
                 self.entities += 1;
                 if self.entities > MOST_ENTITIES {
                     let message =

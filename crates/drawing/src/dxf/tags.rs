@@ -113,7 +113,7 @@ pub(super) fn tags(text: &str) -> Result<(Vec<Tag<'_>>, Option<usize>), Error> {
     let mut lines = text.lines().zip(1..);
     while let Some((code, line)) = lines.next() {
         if tags.last().is_some_and(is_end) {
-            // Mail programs and editors leave blanks and the Ctrl-Z of old systems there.
+            // Mail programs and editors leave blanks and the Ctrl-Z of old systems at the end.
             if code.trim_matches(|c: char| c.is_whitespace() || c == '\u{1a}').is_empty() {
                 continue;
             }

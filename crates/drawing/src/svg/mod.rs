@@ -16,9 +16,9 @@ use std::str::FromStr;
 use style::Style;
 use svgtypes::{Align, AspectRatio, Length, LengthUnit, PointsParser, Transform, ViewBox};
 
-/// Elements within each other, at most.
+/// Greatest depth of nested elements.
 const DEEPEST: usize = 128;
-/// Elements after all uses are followed, at most.
+/// Greatest number of elements after all uses are resolved.
 const MOST_ELEMENTS: usize = 1 << 20;
 const NAMESPACE: &str = "http://www.w3.org/2000/svg";
 const XLINK: &str = "http://www.w3.org/1999/xlink";
@@ -91,7 +91,7 @@ impl<'a, 'i> Reader<'a, 'i> {
     fn page(&mut self, root: Node<'a, 'i>, settings: &Settings) -> Result<Inside, Error> {
         let unit = settings.unit;
         let view: Option<ViewBox> = self.parsed(root, "viewBox")?;
-        // Parts of a page that nobody has sized.
+        // These are the parts of a page without a size.
         let view_size = view.map_or([100.0, 100.0], |view| [view.w, view.h]);
         let lengths = ["width", "height"]
             .map(|name| root.attribute(name).filter(|value| !value.contains('%') && *value != "auto"));
@@ -105,7 +105,7 @@ impl<'a, 'i> Reader<'a, 'i> {
         let (size, unit_of_page) = match (unit, view) {
             (Some(unit), _) => (view.map(|view| [view.w, view.h]), unit),
             (None, Some(view)) => {
-                // One side gives the other.
+                // One side determines the other.
                 let ratio = view.h / view.w;
                 let size = match size {
                     [Some(width), height] => [width, height.unwrap_or(width * ratio)],
@@ -246,7 +246,7 @@ impl<'a, 'i> Reader<'a, 'i> {
                 if is_layer || inside.layer.is_none() && kind == "g" {
                     inside.layer = own_name.clone();
                 }
-                // The name of a layer is nobody's name.
+                // The name of a layer is not the name of its elements.
                 inside.name = if is_layer { None } else { inside.name };
                 self.children(node, &inside, depth)
             }
@@ -291,7 +291,7 @@ impl<'a, 'i> Reader<'a, 'i> {
                 self.sheet.leave_out(&format!("<{kind}>"), &origin(kind, line, &inside));
                 Ok(())
             }
-            // Elements that are not drawn: definitions, titles, animations.
+            // These elements are not drawn: definitions, titles, animations.
             _ => Ok(()),
         }
     }
@@ -387,7 +387,7 @@ impl<'a, 'i> Reader<'a, 'i> {
         self.sheet.ellipse(&Ellipse { center, u: [rx, 0.0], v: [0.0, ry] }.mapped(&inside.map), origin)
     }
 
-    /// Stretches of one element: those that are closed or filled are solid together.
+    /// Adds the stretches of one element: closed or filled ones together form a solid shape.
     fn stretches(&mut self, stretches: Vec<Stretch>, style: Style, origin: &Origin) -> Result<(), Error> {
         let mut rings = Vec::new();
         for Stretch { points, is_closed } in stretches {
@@ -398,7 +398,7 @@ impl<'a, 'i> Reader<'a, 'i> {
                 self.sheet.note("open outlines that are filled: closed as SVG fills them", origin);
                 rings.push(points);
             } else {
-                // A group of its own: elements are not joined with each other.
+                // Each element is a group of its own, because elements are not joined with each other.
                 self.groups += 1;
                 self.sheet.open(points, self.groups, origin)?;
             }

@@ -49,7 +49,7 @@ impl Style {
     }
 }
 
-/// An element as selectors see it.
+/// An element in the form that selectors need.
 struct Matched<'a, 'i>(Node<'a, 'i>);
 
 impl Element for Matched<'_, '_> {

@@ -1,5 +1,5 @@
-//! A cell that ezdxf wrote (`cell.py`), as CAD programs write them. The figures are ezdxf's (its paths, flattened within 0.5 um) and
-//! Shapely's (areas and lengths).
+//! Compares a cell that ezdxf wrote (`cell.py`) in the form of CAD programs. The numbers are ezdxf's (its paths,
+//! flattened within 0.5 um) and Shapely's (areas and lengths).
 
 use super::{area, length, near, notes, ring, wall};
 use cplan_drawing::{Format, Geometry, Settings, Shape, read};
@@ -32,7 +32,7 @@ fn a_cell_by_ezdxf_measures_what_others_measure() {
     for (shape, (layer, name, measure)) in shown.iter().zip(expected) {
         assert_eq!((shape.layer.as_deref(), shape.name.as_deref()), (Some(layer), name));
         match (measure, &shape.geometry) {
-            // Chords up to a tenth of a millimetre inside, along a metre and a half of curve at most.
+            // Chords are at most a tenth of a millimetre inside, along at most a metre and a half of curve.
             (Area(mm2), Geometry::Polygon { .. }) => near(area(ring(shape)).abs() * 1e6, mm2, 150.0),
             // ezdxf represents circles by Bézier curves.
             (Area(mm2), Geometry::Circle { radius, .. }) => {

@@ -25,7 +25,7 @@ fn dxf(entities: &str) -> Drawing {
 
 const TOLERANCE: f64 = 1e-4;
 
-/// Holds points to lie on a circle, and the middles of their chords near it and inside.
+/// Asserts that points lie on a circle, and the middles of their chords near it and inside.
 fn on_circle(points: &[Point], center: Point, radius: f64) {
     for p in points {
         near(apart(*p, center), radius, 1e-12);
@@ -101,7 +101,7 @@ fn a_polyline_of_some_width_covers_it() {
         ("70 0 10 0 20 0 40 40 41 10 10 200 20 0", 5000.0, 0.0, 0),
         ("70 0 43 20 10 0 20 0 42 1 10 100 20 0", quarters / 2.0 * 20.0, 30.0, 0),
         ("70 0 10 0 20 0 40 20 41 60 42 0.5 10 100 20 0", 4636.476013758015, 30.0, 0),
-        // AutoCAD's DONUTs: a ring and a disc of 60 mm.
+        // AutoCAD's DONUT: a ring and a disc of 60 mm.
         ("70 1 43 20 10 -50 20 0 42 1 10 50 20 0 42 1", quarters * 20.0, 60.0, 1),
         ("70 1 43 60 10 -30 20 0 42 1 10 30 20 0 42 1", PI * 3600.0, 40.0, 0),
         // A line followed by an arc, and another line.
@@ -125,7 +125,7 @@ fn a_polyline_of_some_width_covers_it() {
     let sharp = dxf("0 LWPOLYLINE 8 a 70 0 43 20 10 0 20 0 10 200 20 0 10 20 20 20");
     let farthest = ring(one(&sharp)).iter().map(|p| p[0]).fold(0.0, f64::max);
     assert!((0.2..0.2012).contains(&farthest), "{farthest}");
-    // A piece of no width is a line still.
+    // A piece without width is still a line.
     let both = dxf("0 LWPOLYLINE 8 a 70 0 10 0 20 0 40 20 41 20 10 200 20 0 10 200 20 100 10 300 20 100");
     assert_eq!(both.shapes.len(), 2);
     same(wall(&both.shapes[0]), &[[0.2, 0.0], [0.2, 0.1], [0.3, 0.1]]);
@@ -164,7 +164,7 @@ fn an_arc_runs_counter_clockwise_and_across_zero() {
 
 #[test]
 fn splines_pass_where_their_definition_says() {
-    // A Bézier curve: knots at both ends alone.
+    // A Bézier curve: knots only at both ends.
     let curve = dxf("0 SPLINE 8 a 70 8 71 3 72 8 73 4 40 0 40 0 40 0 40 0 40 1 40 1 40 1 40 1 \
                      10 0 20 0 10 100 20 300 10 200 20 -300 10 300 20 0");
     let points = wall(one(&curve));
@@ -236,7 +236,7 @@ fn ends_that_meet_are_joined_two_at_a_time() {
     near(area(ring(one(&d))).abs(), exact, 3e-5);
     assert_eq!(one(&d).kind, "LINE and 2 more that it meets");
     assert_eq!(notes(&d), ["ends less than 0.0001 m apart: joined (line 28)"]);
-    // On another layer it is not part of it.
+    // A piece on another layer is not part of it.
     let d = dxf("0 LINE 8 b 10 0 20 0 11 0 21 100 0 ARC 8 a 10 0 20 50 40 50 50 270 51 90");
     assert_eq!(d.shapes.len(), 2);
     // A wall of two pieces. Where three ends meet, nothing is joined.
@@ -246,7 +246,7 @@ fn ends_that_meet_are_joined_two_at_a_time() {
                     0 LINE 8 a 10 100 20 0 11 200 21 0 0 LINE 8 a 10 200 20 0 11 300 21 9");
     let lengths: Vec<usize> = fork.shapes.iter().map(|shape| wall(shape).len()).collect();
     assert_eq!(lengths, [2, 2, 3]);
-    // Farther apart than the tolerance.
+    // The ends are farther apart than the tolerance.
     let open = dxf("0 LWPOLYLINE 8 a 70 0 10 0 20 0 10 100 20 0 10 100 20 100 10 0 20 0.2");
     assert_eq!(wall(one(&open)).len(), 4);
     let shut = dxf("0 LWPOLYLINE 8 a 70 0 10 0 20 0 10 100 20 0 10 100 20 100 10 0 20 0.05");
@@ -298,7 +298,7 @@ fn rows_columns_stretching_and_mirrors() {
     same(&centers, &[[0.1, 0.0], [0.1, 0.03], [0.1, 0.06], [0.05, 0.0], [0.05, 0.03], [0.05, 0.06]]);
     let flat = drawing(&file(blocks, "0 INSERT 8 a 2 pin 10 0 20 0 41 3"), Format::Dxf);
     near(area(ring(one(&flat))), PI * 0.03 * 0.01, 0.13 * TOLERANCE);
-    // Seen from below x is turned round: circles by their centre, arcs by their sense.
+    // Seen from below x is mirrored: circles by their centre, arcs by their direction.
     let below = dxf("0 CIRCLE 8 a 10 30 20 5 40 10 210 0 220 0 230 -1 0 ARC 8 b 10 50 20 0 40 20 50 0 51 90 230 -1");
     assert_eq!(below.shapes[0].geometry, Geometry::Circle { center: [-0.03, 0.005], radius: 0.01 });
     let points = wall(&below.shapes[1]);
@@ -341,7 +341,8 @@ fn layers_may_be_off_and_thickness_is_height() {
 fn an_insertion_hides_its_own_layer_or_all_if_that_is_frozen() {
     let tables =
         "0 TABLE 2 LAYER 0 LAYER 2 off 70 0 62 -7 0 LAYER 2 frozen 70 1 62 7 0 LAYER 2 both 70 1 62 -7 0 ENDTAB";
-    // A block with something on its insertion's layer and on two of their own; and one with that block and more.
+    // A block with something on its insertion's layer and on two layers of its own; and one that contains that block
+    // and more.
     let blocks = "0 BLOCK 2 pin 10 0 20 0 0 CIRCLE 8 0 10 0 20 0 40 1 0 CIRCLE 8 on 10 5 20 0 40 1 \
                   0 CIRCLE 8 off 10 9 20 0 40 1 0 ENDBLK \
                   0 BLOCK 2 pair 10 0 20 0 0 INSERT 8 0 2 pin 10 0 20 0 0 INSERT 8 FROZEN 2 pin 10 0 20 9 0 ENDBLK";
@@ -410,7 +411,7 @@ fn a_binary_file_is_the_text_that_it_stands_for() {
     for is_wide in [true, false] {
         let read = read(&binary(&text, is_wide), Format::Dxf, &Settings::default()).unwrap();
         assert_eq!(read.shapes, expected.shapes);
-        // Cut anywhere it is refused.
+        // A file that is cut anywhere is refused.
         let whole = binary(&text, is_wide);
         for end in 0..whole.len() - 2 {
             assert!(cplan_drawing::read(&whole[..end], Format::Dxf, &Settings::default()).is_err(), "{end}");

@@ -1,4 +1,4 @@
-//! Files that are broken, cut, or without end: refused with their place.
+//! Broken, cut, or endless files are refused, with the place of the defect.
 
 use super::dxf::file;
 use cplan_drawing::{Error, Format, MOST_POINTS, Settings, read};
@@ -58,7 +58,7 @@ fn blocks_without_end() {
     assert!(refused(&own, Format::Dxf).message.contains("holds itself"));
     let zero = file("0 BLOCK 2 a 0 LINE 10 0 20 0 11 1 21 1 0 ENDBLK", &insert("a", "41 0"));
     assert!(refused(&zero, Format::Dxf).message.contains("scale 0 by 1"));
-    // Each twice in the next; empty ones, too, and rows without number.
+    // Each block occurs twice in the next; also empty ones, and rows without number.
     for content in ["0 CIRCLE 8 a 10 0 20 0 40 1", ""] {
         let doubled: String = (0..40)
             .map(|k| {
@@ -105,7 +105,7 @@ fn broken_svg_files() {
     {
         assert!(refused(&format!("<svg>{inside}</svg>"), Format::Svg).message.contains(message), "{message}");
     }
-    // Entities that grow: the XML reader refuses them.
+    // Growing entities: the XML reader refuses them.
     let lol: String = (1..20).map(|k| format!("<!ENTITY l{k} '&l{0};&l{0};&l{0};'>", k - 1)).collect();
     let bomb = format!("<!DOCTYPE svg [<!ENTITY l0 'l'>{lol}]><svg><text>&l19;</text></svg>");
     assert!(refused(&bomb, Format::Svg).message.contains("XML"));

@@ -50,7 +50,7 @@ pub fn apart(p: Point, q: Point) -> f64 {
     (p[0] - q[0]).hypot(p[1] - q[1])
 }
 
-/// Holds a number to be another one, nearly.
+/// Asserts that a number equals another one within a tolerance.
 #[track_caller]
 pub fn near(a: f64, b: f64, within: f64) {
     assert!((a - b).abs() <= within, "{a} against {b}, within {within}");
@@ -65,7 +65,7 @@ pub fn same(given: &[Point], expected: &[Point]) {
     }
 }
 
-/// Messages of all notes.
+/// Returns the messages of all notes.
 pub fn notes(drawing: &Drawing) -> Vec<String> {
     drawing.notes.all().iter().map(ToString::to_string).collect()
 }

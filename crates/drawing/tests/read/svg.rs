@@ -1,4 +1,4 @@
-//! Elements, transforms, sizes, styles and rules of filling.
+//! Tests of elements, transforms, sizes, styles and fill rules.
 
 use super::{apart, area, drawing, length, near, notes, one, ring, same, wall};
 use cplan_drawing::{Drawing, FillRule, Format, Geometry, Point, Settings, filled, read};
@@ -54,7 +54,7 @@ fn every_command_of_paths() {
             near(apart(*p, [0.2, 0.8]), 0.1, 1e-6);
         }
     }
-    // An arc of an ellipse that is turned: its ends are given, and its points fit the equation.
+    // An arc of a rotated ellipse: its ends are given, and its points fit the equation.
     let arc = svg("<path fill='none' d='M500 400 A 200 100 30 0 1 600 300'/>");
     let points = wall(one(&arc));
     same(&[points[0], points[points.len() - 1]], &up(&[[500.0, 400.0], [600.0, 300.0]]));
@@ -100,7 +100,7 @@ fn the_page_says_how_large_things_are() {
         ("width='1in' height='1in'", [0.0254, 0.0127, 0.0127], false),
         ("width='96mm' viewBox='0 0 96 96'", [0.096, 0.048, 0.048], false),
         ("width='100%' viewBox='0 0 96 96'", [0.0254, 0.0127, 0.0127], true),
-        // Twice as high as it needs: in the middle, unless it is to be stretched.
+        // Twice as high as necessary: it is centred, unless it must be stretched.
         ("width='96mm' height='192mm' viewBox='0 0 96 96'", [0.096, 0.048, 0.096], false),
         ("width='96mm' height='192mm' viewBox='0 0 96 96' preserveAspectRatio='none'", [0.096, 0.096, 0.096], false),
         (
@@ -133,7 +133,7 @@ fn filling_makes_holes_and_closes() {
     let (outer, inner) = holes(&svg(&format!("<path d='{frame}'/>")));
     near(outer, 0.01, 1e-9);
     assert_eq!(inner, 0.0);
-    // The same, the inner one the other way round.
+    // The same, with the inner one in the opposite direction.
     let (_, inner) = holes(&svg("<path d='M0 0H100V100H0Z M20 20V80H80V20Z'/>"));
     near(inner, 0.0036, 1e-9);
     let open = "<path d='M0 0H100V100'/>";

@@ -4,7 +4,7 @@ use super::{drawing, dxf::file, one, ring, wall};
 use cplan_drawing::{Format, Point, Settings, Unit, read};
 use proptest::prelude::*;
 
-/// Corners round the origin: a simple polygon.
+/// Generates corners around the origin, which form a simple polygon.
 fn corners() -> impl Strategy<Value = Vec<Point>> {
     prop::collection::vec(0.1_f64..1000.0, 3..40).prop_map(|radii| {
         let step = std::f64::consts::TAU / radii.len() as f64;
@@ -34,7 +34,7 @@ proptest! {
         prop_assert_eq!(ring(one(&given)), &corners);
     }
 
-    /// Compares elliptical arcs of paths with kurbo's: its ellipse, its angle.
+    /// Compares elliptical arcs of paths with kurbo: its ellipse, its angle.
     #[test]
     fn arcs_are_those_of_another_library(
         from in (0.0..500.0, 0.0..500.0), to in (0.0..500.0, 0.0..500.0), radii in (5.0..400.0, 5.0..400.0),

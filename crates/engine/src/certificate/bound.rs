@@ -1,9 +1,10 @@
 //! Evidence that no motion is shorter: walls that nothing crosses, and potentials of their ends.
 //!
-//! The checker asks that a potential grows along no leg by more than the leg is long, unless a wall bars it. Lengths of shortest ways
-//! from the start do that, as far as ways are shorter than the bound; elsewhere the checker takes the bound less the way that
-//! is left at least, which needs no word. So the shortest ways are found once more, over the walls alone and with all legs a hair
-//! shorter than they are; then walls that bar no leg of them are left out.
+//! The checker requires that a potential grows along no leg by more than the leg's length, unless a wall bars the leg.
+//! Lengths of shortest paths from the start satisfy that wherever they are below the bound. Elsewhere the checker
+//! itself takes the bound minus the least remaining length, so the certificate need not state those potentials. So the
+//! shortest paths are computed once more, over the walls alone, with every leg counted slightly shorter than it is.
+//! Walls that do not bar any of the legs are then dropped.
 
 use cplan_core::space::{Configuration, JointRange, Metric, Topology};
 use cplan_geometry::OpenList;
@@ -12,14 +13,14 @@ use cplan_proofs::ClosedSegment;
 use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::TAU;
 
-/// A length, and why no motion is shorter.
+/// A length, with the evidence that no motion is shorter.
 pub(super) struct LeastLength {
     pub length: f64,
     pub walls: Vec<ClosedSegment>,
     pub potentials: Vec<Potential>,
 }
 
-/// A length that no way from the start to an end of a wall falls short of.
+/// A lower bound on the lengths of all paths from the start to an end of a wall.
 pub(super) struct Potential {
     pub wall: usize,
     pub end: usize,
@@ -30,38 +31,38 @@ pub(super) struct Potential {
 /// Share by which legs count as shorter than they are, ...
 const SHORTER: f64 = 1e-8;
 
-/// ... and share of the whole length by which they do besides: far above rounding.
+/// ... and the amount subtracted in addition, as a share of the whole length: far above rounding.
 const LESS: f64 = 1e-11;
 
-/// How far inside a wall a leg has to cross it, as a share of the wall.
+/// Distance from the ends of a wall, as a share of its length, at which a leg must cross it.
 const INSIDE: f64 = 1e-9;
 
-/// Times that walls are left out: each saves less.
+/// Rounds of dropping walls. Each round drops fewer.
 const ROUNDS: usize = 2;
 
-/// Ends of walls that ways are looked for from at most.
+/// Largest number of wall ends from which paths are extended.
 const MOST_LOOKED: usize = 20_000;
 
-/// What ways between a start and goals are about.
+/// Endpoints and limits of the paths from a start to goals.
 pub(super) struct Ways<'a> {
     pub topology: &'a Topology,
     pub metric: Metric,
     pub start: Configuration,
     pub goals: &'a [Configuration],
-    /// How near to a goal a way may end, as a share of the limit.
+    /// How near to a goal a path may end, as a share of the limit.
     pub about: f64,
-    /// No way that is longer counts.
+    /// Longer paths are ignored.
     pub limit: f64,
 }
 
-/// A wall on some turn.
+/// A wall, shifted by whole turns.
 struct Copy {
     wall: usize,
     turns: [i64; 2],
     ends: [Configuration; 2],
 }
 
-/// An end of a wall at which a way can turn.
+/// An end of a wall, where a path can turn.
 #[derive(Clone, Copy)]
 struct Corner {
     wall: usize,
@@ -69,11 +70,11 @@ struct Corner {
     turns: [i64; 2],
     at: Configuration,
     line: Line,
-    /// No way from there to a goal is shorter.
+    /// Lower bound on the length of paths from there to a goal.
     rest: f64,
 }
 
-/// A place to look from: the start, or a corner.
+/// A place from which paths are extended: the start, or a corner.
 #[derive(Clone, Copy)]
 struct Source {
     at: Configuration,
@@ -81,10 +82,11 @@ struct Source {
     potential: f64,
 }
 
-/// Configurations with one value of joint 1: its bits, and the turns from there.
+/// A line of equal values of joint 1: the bits of the value, and its number of turns.
 type Line = (u64, i64);
 
-/// Walls on a line that overlap one another, from end to end, and where walls end within that come from either side.
+/// Overlapping walls on one line, from end to end. `beside` lists the walls that end within them, coming from either
+/// side.
 struct Run {
     ends: [f64; 2],
     walls: Vec<usize>,
@@ -92,12 +94,12 @@ struct Run {
 }
 
 impl LeastLength {
-    /// The evidence that these walls give; none if they give none.
+    /// Builds the evidence from these walls. `None` if they give none.
     pub(super) fn new(ways: &Ways, walls: Vec<ClosedSegment>) -> Option<Self> {
         let mut plane = Plane::new(ways, &walls);
         let (length, reached) = plane.lengths()?;
         let length = length - ways.less();
-        // Fewer walls have fewer ends to look from, and so fewer walls are needed.
+        // Fewer walls have fewer ends from which paths extend, so even fewer walls are needed.
         for _ in 0..ROUNDS {
             let needed = plane.needed(length, &reached);
             plane.copies.retain(|copy| needed.contains(&copy.wall));
@@ -116,22 +118,22 @@ impl LeastLength {
 }
 
 impl Ways<'_> {
-    /// The hair by which a leg counts as shorter, however short it is.
+    /// Returns the fixed amount by which every leg, however short, counts as shorter.
     fn less(&self) -> f64 {
         LESS * self.limit
     }
 
-    /// A leg as it counts.
+    /// Returns the length of a leg as it counts in the evidence.
     fn leg(&self, from: Configuration, to: Configuration) -> f64 {
         (self.metric.norm(to - from) * (1.0 - SHORTER) - self.less()).max(0.0)
     }
 
-    /// How far it is to a goal at the least.
+    /// Returns a lower bound on the length from a configuration to a goal, given the displacement between them.
     fn to_goal(&self, displacement: Configuration) -> f64 {
         (self.metric.norm(displacement) - self.about * self.limit).max(0.0)
     }
 
-    /// The turns of a joint that carry values from `low` to `high` to where ways get.
+    /// Returns the turns of a joint that shift values from `low` to `high` to where paths can reach.
     fn turns(&self, joint: usize, low: f64, high: f64) -> std::ops::RangeInclusive<i64> {
         let JointRange::Circle = self.topology.ranges[joint] else { return 0..=0 };
         let reach = self.limit / self.metric.norm(Configuration::from_fn(|k, _| if k == joint { 1.0 } else { 0.0 }));
@@ -144,9 +146,9 @@ type Reached = BTreeMap<(usize, usize, [i64; 2]), f64>;
 
 struct Plane<'a> {
     ways: &'a Ways<'a>,
-    /// By the least value of joint 1.
+    /// Sorted by the least value of joint 1.
     copies: Vec<Copy>,
-    /// How far a wall reaches along joint 1 at most.
+    /// Largest extent of a wall along joint 1.
     widest: f64,
     runs: BTreeMap<Line, Vec<Run>>,
     corners: Vec<Corner>,
@@ -203,7 +205,8 @@ impl<'a> Plane<'a> {
         Self { ways, copies, widest, runs, corners, goals }
     }
 
-    /// The length of the shortest way to a goal, and of those to corners that are shorter. None if there are too many.
+    /// Computes the length of the shortest path to a goal, and the lengths of shorter paths to corners. `None` if there
+    /// are too many corners.
     fn lengths(&self) -> Option<(f64, Reached)> {
         let corners = &self.corners;
         let mut lengths = vec![f64::INFINITY; corners.len()];
@@ -243,13 +246,15 @@ impl<'a> Plane<'a> {
         None
     }
 
-    /// What is said of a corner: how long ways there are, where they can be part of one that is shorter than `length`.
+    /// Returns the potential of a corner, which is the length of the shortest path there. `None` if no such path can be
+    /// part of one shorter than `length`.
     fn potential(&self, length: f64, reached: &Reached, corner: &Corner) -> Option<f64> {
         let potential = *reached.get(&(corner.wall, corner.end, corner.turns))?;
         (potential + corner.rest < length - self.ways.less() / 4.0).then_some(potential)
     }
 
-    /// The walls that bar a leg along which potentials would grow too much, and those within which others end.
+    /// Returns the walls that bar a leg along which potentials would grow too much, and the walls that contain the ends
+    /// of such walls.
     fn needed(&self, length: f64, reached: &Reached) -> BTreeSet<usize> {
         let known = |corner: &Corner| {
             let potential = self.potential(length, reached, corner)?;
@@ -270,7 +275,7 @@ impl<'a> Plane<'a> {
             }
             checkpoint();
         }
-        // Ends within walls are no corners as long as these are there.
+        // Ends within walls are not corners as long as these walls are present.
         for run in self.runs.values().flatten() {
             let is_needed = |wall: &usize| needed.contains(wall);
             let ends_within = run.beside.iter().flatten().any(|(_, wall)| is_needed(wall));
@@ -285,7 +290,7 @@ impl<'a> Plane<'a> {
         Source { at: self.ways.start, line: Some((self.ways.start[0].to_bits(), 0)), potential: 0.0 }
     }
 
-    /// Adds the walls that bar a leg, if others than those that are needed anyway.
+    /// Adds the walls that bar a leg, unless a needed wall already does.
     fn bar(&self, from: Source, to: Configuration, line: Option<Line>, needed: &mut BTreeSet<usize>) {
         let mut first = None;
         for copy in self.near(from.at, to).filter(|copy| crosses(&copy.ends, from.at, to)) {
@@ -307,7 +312,7 @@ impl<'a> Plane<'a> {
             || self.barred_along(from, line, to, other).is_some()
     }
 
-    /// The walls that a leg may cross, those near its beginning first.
+    /// Returns the walls that a leg may cross, those near its beginning first.
     fn near(&self, from: Configuration, to: Configuration) -> impl Iterator<Item = &Copy> {
         let first = self.copies.partition_point(|copy| copy.begins() < from[0].min(to[0]) - self.widest);
         let last = self.copies.partition_point(|copy| copy.begins() <= from[0].max(to[0]));
@@ -316,7 +321,7 @@ impl<'a> Plane<'a> {
         onward.iter().chain(back.iter().rev())
     }
 
-    /// The run along which a leg can pass on neither side, and what ends on both.
+    /// Returns the run that a leg along its line can pass on neither side, with one wall that ends there on each side.
     fn barred_along(
         &self,
         from: Configuration,
@@ -341,14 +346,14 @@ impl Copy {
 }
 
 impl Run {
-    /// Whether a value of joint 2 is well within.
+    /// Returns true if a value of joint 2 is well within the run.
     fn holds(&self, q2: f64) -> bool {
         let hair = INSIDE * (self.ends[1] - self.ends[0]);
         self.ends[0] + hair < q2 && q2 < self.ends[1] - hair
     }
 }
 
-/// The runs of upright walls, with the ends of others in them.
+/// Collects the runs of upright walls, with the other walls that end within them.
 fn runs(copies: &[Copy], walls: &[ClosedSegment]) -> BTreeMap<Line, Vec<Run>> {
     let mut runs: BTreeMap<Line, Vec<Run>> = BTreeMap::new();
     let lines = |copy: &Copy| walls[copy.wall].ends.map(|end| (end[0].to_bits(), copy.turns[0]));
@@ -389,7 +394,7 @@ fn runs(copies: &[Copy], walls: &[ClosedSegment]) -> BTreeMap<Line, Vec<Run>> {
     runs
 }
 
-/// Whether a leg goes through the inside of a wall, by more than rounding.
+/// Returns true if a leg crosses the inside of a wall, by more than rounding.
 fn crosses([a, b]: &[Configuration; 2], from: Configuration, to: Configuration) -> bool {
     let apart = |k: usize| from[k].max(to[k]) < a[k].min(b[k]) || a[k].max(b[k]) < from[k].min(to[k]);
     if apart(0) || apart(1) {

@@ -8,7 +8,7 @@ use serde::Serialize;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 
-/// A box as it stands in a certificate.
+/// A box in the form in which certificates hold it.
 #[derive(Serialize)]
 struct Stuck {
     lower: [f64; 2],
@@ -22,12 +22,12 @@ pub(super) struct Contacts<'a> {
     scene: &'a Scene,
     pub shapes: Vec<Value>,
     pub parts: Vec<Value>,
-    /// Where those of this scene are in these lists.
+    /// Indices of this scene's shapes in the list.
     shape_numbers: BTreeMap<(usize, usize), usize>,
     part_numbers: BTreeMap<(usize, usize), usize>,
 }
 
-/// The number of an entry of a list, which is added if it is not there.
+/// Returns the index of an entry in a list. Appends the entry if it is missing.
 fn numbered(list: &mut Vec<Value>, entry: Value) -> usize {
     list.iter().position(|known| *known == entry).unwrap_or_else(|| {
         list.push(entry);
@@ -40,13 +40,13 @@ impl<'a> Contacts<'a> {
         Self { scene, shapes: vec![], parts: vec![], shape_numbers: BTreeMap::new(), part_numbers: BTreeMap::new() }
     }
 
-    /// The lists as they are written; nothing if nothing is named.
+    /// Returns the lists in the form in which certificates hold them. Empty if no shape is named.
     pub fn named(&self) -> Evidence {
         let lists = [("shapes", &self.shapes), ("parts", &self.parts)].map(|(name, list)| (name, lines(list)));
         if self.shapes.is_empty() { Vec::new() } else { lists.into() }
     }
 
-    /// The numbers of a pair's shape and part.
+    /// Returns the indices of a pair's shape and part.
     pub fn numbers(&mut self, pair: Pair) -> (usize, usize) {
         let Self { scene, shapes, parts, .. } = self;
         let Pair { link, part, obstacle, piece } = pair;
@@ -55,13 +55,13 @@ impl<'a> Contacts<'a> {
         (*shape, *part)
     }
 
-    /// The list of boxes as it is written.
+    /// Returns the list of boxes in the form in which certificates hold it.
     pub fn boxes(&mut self, stuck: &[StuckBox]) -> (&'static str, String) {
         let boxes: Vec<Stuck> = stuck.iter().flat_map(|stuck| self.stuck(stuck)).collect();
         ("boxes", lines(&boxes))
     }
 
-    /// A box as it is written: one that reaches across half a turn is two.
+    /// Returns a box in the form in which certificates hold it. A box that reaches across half a turn becomes two.
     fn stuck(&mut self, stuck: &StuckBox) -> Vec<Stuck> {
         let (shape, part) = self.numbers(stuck.pair);
         let parts = reaching_out(self.scene, stuck).into_iter();
@@ -69,7 +69,7 @@ impl<'a> Contacts<'a> {
     }
 }
 
-/// A part of a link by its URDF link and its number among the shapes there. A bar is the last of a link's parts.
+/// Names a part of a link by its URDF link and its index among the shapes there. A bar is the last of a link's parts.
 fn shape(scene: &Scene, pair: Pair) -> Value {
     let link = scene.link(pair);
     let Part { body, number, is_visual, heights, .. } = &link.parts[pair.part];
@@ -81,7 +81,7 @@ fn shape(scene: &Scene, pair: Pair) -> Value {
     of_layer(json!({ "link": body, kind(*is_visual): number }), *heights, layers)
 }
 
-/// A piece of an obstacle by its corners; a disc is all there is of its obstacle.
+/// Names a piece of an obstacle by its corners. A disc is the only piece of its obstacle.
 fn part_of(scene: &Scene, pair: Pair) -> Value {
     let obstacle = pair.obstacle;
     if let Some(own) = scene.self_obstacle(obstacle) {
@@ -104,7 +104,7 @@ fn kind(is_visual: bool) -> &'static str {
     if is_visual { "visual" } else { "collision" }
 }
 
-/// A shape as it is named, with a height of one of its layers if it has several.
+/// Adds a height within the layer to the name of a shape that has several layers.
 fn of_layer(mut named: Value, own: Heights, mut all: impl Iterator<Item = Heights>) -> Value {
     if all.any(|other| other != own) {
         named["height"] = json!(f64::midpoint(own.lower, own.upper));

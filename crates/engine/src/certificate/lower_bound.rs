@@ -1,4 +1,4 @@
-//! The lower bound of a result, with what a checker needs to see it.
+//! The lower bound of a result, with the evidence that a checker needs.
 
 use super::bound::{LeastLength, Potential, Ways};
 use super::contacts::Contacts;
@@ -19,8 +19,8 @@ const MORE_LOOKS: usize = 300;
 
 /// That no motion is shorter than a length, which is the bound of a result up to a hair.
 ///
-/// It is about motions to one configuration, or to wherever the tip is at the place that was asked for. Then there are boxes about those of
-/// these configurations that are not free.
+/// The motions lead to one configuration, or to any configuration that puts the tip at the requested place. In the
+/// latter case, boxes cover the configurations that are not free.
 pub(super) struct LowerBound {
     least: LeastLength,
     metric: Metric,
@@ -53,17 +53,17 @@ impl LowerBound {
         Some(Self { least, metric: stated.metric, to, boxes })
     }
 
-    /// The length.
+    /// Returns the length.
     pub fn length(&self) -> f64 {
         self.least.length
     }
 
-    /// The number of walls that bar shorter ways.
+    /// Returns the number of walls that bar shorter paths.
     pub fn walls(&self) -> usize {
         self.least.walls.len()
     }
 
-    /// The members of a certificate that show it.
+    /// Returns the members of a certificate that prove the bound.
     pub fn evidence(&self, contacts: &mut Contacts) -> Evidence {
         let wall = |wall: &ClosedSegment| {
             let (shape, part) = contacts.numbers(wall.pair);
@@ -92,16 +92,17 @@ impl LowerBound {
 
 /// Where a bound leads to.
 struct Ends {
-    /// One configuration, if it is about that; or else the goal, wherever the tip is at the place.
+    /// The goal configuration, if there is only one. `None` if the goal is a place of the tip.
     to: Option<Configuration>,
-    /// All that may count as goals.
+    /// All configurations that may count as goals.
     goals: Vec<Configuration>,
-    /// About those that are none.
+    /// Boxes around solutions that are not goals.
     boxes: Vec<StuckBox>,
 }
 
 impl Ends {
-    /// None where goals are a curve, or not told from what is beside them.
+    /// Collects the goals. `None` if they form a curve, or if a checker could not separate them from neighbouring
+    /// configurations.
     fn of(problem: &MotionProblem, asked: &Overrides) -> Option<Self> {
         let (arm, pieces) = (problem.scene().arm(), problem.goals().pieces());
         let topology = arm.topology();
@@ -113,7 +114,7 @@ impl Ends {
             return Some(Self { to: Some(*goal), goals, boxes: Vec::new() });
         }
         let solved = inverse(arm, arm.tip_at(*goals.first()?), problem.start());
-        // All of them share the parts that a checker looks at: those on other turns, too.
+        // All solutions share the parts that a checker examines, including solutions on other turns.
         let least = STRETCHED * solved.solutions(arm).len().max(1) as f64;
         if solved.free.is_some() || solved.branches.iter().any(|q| tells_apart(arm, *q) <= least) {
             return None;
@@ -123,16 +124,16 @@ impl Ends {
     }
 }
 
-/// What a checker leaves open of where the tip is at a place, as a share of the way: it looks for these configurations itself, down to a
-/// part in 10^12 of the joints' ranges.
+/// Tolerance of a checker for the place of the tip, as a share of the path length. The checker finds these
+/// configurations itself, down to 10^-12 of the joints' ranges.
 const ABOUT_A_GOAL: f64 = 1e-6;
 
-/// Where [`tells_apart`] is less, a checker does not tell configurations that put the tip at a place from those beside them, as it cuts both
-/// joints' ranges in equal shares.
+/// Below this value of [`tells_apart`], a checker cannot separate configurations that put the tip at a place from their
+/// neighbours, because it divides both joints' ranges into equal shares.
 const STRETCHED: f64 = 0.012;
 
-/// The area between the ways in which the joints move the tip, as a share of the square of both together: at most a quarter, and nothing where
-/// the arm is stretched or folded.
+/// Computes the area spanned by the two directions in which the joints move the tip, divided by the square of the sum
+/// of their lengths. At most a quarter; zero if the arm is stretched or folded.
 fn tells_apart(arm: &Arm, q: Configuration) -> f64 {
     const STEP: f64 = 1e-6;
     let ranges = arm.topology().ranges;

@@ -1,4 +1,4 @@
-//! Evidence for an answer that a checker of its own can hold against the two files: `docs/certificates.md`.
+//! Evidence for an answer, which an independent checker can verify against the two files: `docs/certificates.md`.
 
 mod bound;
 mod contacts;
@@ -32,24 +32,25 @@ const LOSS: f64 = 1e-3;
 /// Why an answer has no certificate.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum NoCertificate {
-    /// Neither a motion nor a proof.
+    /// The answer is neither a motion nor a proof.
     #[error("the answer is \"{}\", which claims nothing", .0.name())]
     Answer(Status),
-    /// An infeasible task.
+    /// The answer is an infeasible task.
     #[error("an infeasible task has no certificate: the result states the step that fails, and why")]
     Task,
-    /// Something rests that a checker refuses to move the corners of.
+    /// An object rests on another one, and a checker refuses to move its corners.
     #[error(
         "object \"{0}\" rests on something, and is too fine or touches itself: its corners cannot all be moved inwards by what it may press in"
     )]
     Outline(String),
-    /// A motion without times in a world in which something moves.
+    /// A motion without times in a world with moving obstacles.
     #[error("the motion says no times, and among what moves it depends on them whether it is free")]
     Untimed,
 }
 
 impl Plan {
-    /// The certificate of the answer, where it has one. What `asked` says in place of the world file is in it, and which `files` it is about.
+    /// Returns the certificate of the answer, if it can have one. The certificate includes the values in `asked` that
+    /// override the world file, and the digests of the `files` that it is about.
     ///
     /// # Errors
     /// [`NoCertificate`].
@@ -104,10 +105,10 @@ fn certificate_of_task(
     Ok(written("found", said, evidence))
 }
 
-/// Members of a certificate, by name, as they are written.
+/// Members of a certificate by name, in the form in which certificates hold them.
 type Evidence = Vec<(&'static str, String)>;
 
-/// The text of a certificate, a member a line.
+/// Formats a certificate as text, one member per line.
 fn written(answer: &str, said: Said, evidence: impl IntoIterator<Item = (&'static str, String)>) -> String {
     let mut text = format!("{{\n  \"format\": \"cplan certificate 1\",\n  \"answer\": \"{answer}\"");
     let said = said.into_iter().map(|(name, value)| (name, value.to_string()));
@@ -120,13 +121,13 @@ fn written(answer: &str, said: Said, evidence: impl IntoIterator<Item = (&'stati
 /// Members of a certificate, by name.
 type Said = Vec<(&'static str, serde_json::Value)>;
 
-/// A list in JSON, a line an entry.
+/// Formats a list as JSON, one entry per line.
 fn lines(entries: &[impl Serialize]) -> String {
     let entries: Vec<String> = entries.iter().map(|entry| format!("    {}", json!(entry))).collect();
     format!("[\n{}\n  ]", entries.join(",\n"))
 }
 
-/// The files and the joints that it is about, and links of the robot that meet in every configuration.
+/// Returns the files, the joints, and the robot's links that overlap in every configuration.
 fn about(files: Option<&Digests>, arm: &Arm) -> Said {
     let joints = ("joints", json!(arm.joints.each_ref().map(|joint| &joint.name)));
     let permanent =
@@ -139,7 +140,7 @@ fn about(files: Option<&Digests>, arm: &Arm) -> Said {
     [("urdf", json!(urdf)), ("world", json!(world))].into_iter().chain(others).chain(joints).collect()
 }
 
-/// What was said in place of the world file.
+/// Returns the values that override the world file.
 fn said(problem: &MotionProblem, asked: &Overrides) -> Said {
     let topology = problem.scene().arm().topology();
     let written = |q| json!(inward(&topology, q));
@@ -150,17 +151,17 @@ fn said(problem: &MotionProblem, asked: &Overrides) -> Said {
     start.into_iter().chain(goal).chain(tip).chain(clearance).collect()
 }
 
-/// Values of a joint nearer to one another than this, radians or metres, are one.
+/// Values of a joint that are closer than this, radians or metres, count as equal.
 const SAME: f64 = 1e-6;
 
-/// How much wider than what they are about boxes may be, as shares of the joints' ranges.
+/// Margins of boxes around their contents, as shares of the joints' ranges, widest first.
 const MARGINS: [f64; 11] = [1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 3e-5, 1e-5, 3e-6, 1e-6, 3e-7, 1e-7];
 
-/// How often a curve of IK solutions is halved.
+/// Largest number of halvings of a curve of IK solutions.
 const MOST_HALVINGS: u32 = 12;
 
-/// Boxes about the IK solutions that are no goals because they are not free. A checker knows but where the tip is to be, and so
-/// that these are among what is to be reached. With them the middles of what no box was found for.
+/// Returns boxes around the IK solutions that are not goals because they are not free. A checker knows only the tip's
+/// place, so it counts them among the targets. Also returns the middles of pieces for which no box was found.
 fn ruled_out(problem: &MotionProblem) -> (Vec<StuckBox>, Vec<Configuration>) {
     let (scene, goals) = (problem.scene(), problem.goals());
     let (arm, topology) = (scene.arm(), scene.arm().topology());
@@ -183,11 +184,11 @@ fn ruled_out(problem: &MotionProblem) -> (Vec<StuckBox>, Vec<Configuration>) {
     (boxes, left)
 }
 
-/// The widest box about a piece in all of which something remains that is in its way.
+/// Returns the widest box around a piece in which the same obstacle collides everywhere.
 fn stuck_about(scene: &Scene, piece: &Segment) -> Option<StuckBox> {
     let (scene, [from, to]) = (&*scene.inner(), piece.ends());
     let ranges = scene.arm().topology().ranges.map(|range| range.domain());
-    // What may pass over or under an obstacle proves nothing.
+    // An obstacle that the arm may pass over or under proves nothing.
     let obstructions = scene.obstructions(piece.at(0.5));
     MARGINS.into_iter().find_map(|margin| {
         let room = ranges.map(|(lower, upper)| margin * (upper - lower));
@@ -198,12 +199,12 @@ fn stuck_about(scene: &Scene, piece: &Segment) -> Option<StuckBox> {
     })
 }
 
-/// Room that doubles leave next to a limit, as a share of it or of the range, whichever is more. What is given in degrees, or in more digits than a
-/// double has, lies up to two units in the last place inside the double that stands for it; next to a limit of 0 control points of polynomials are
-/// differences of what lies within the range.
+/// Distance from a limit that absorbs rounding, as a share of the limit or of the range, whichever is larger. A limit
+/// given in degrees, or with more digits than a double has, lies up to two units in the last place inside the double
+/// that represents it. Near a limit of 0, control points of polynomials are differences of values within the range.
 const BESIDE_A_LIMIT: f64 = 4.0 * f64::EPSILON;
 
-/// A configuration as it is written: at a limit a hair inside.
+/// Returns a configuration for the certificate. Values at a limit are moved slightly inwards.
 fn inward(topology: &Topology, q: Configuration) -> Configuration {
     Configuration::from_fn(|k, _| match topology.ranges[k] {
         JointRange::Interval { lower, upper } => {
@@ -214,8 +215,9 @@ fn inward(topology: &Topology, q: Configuration) -> Configuration {
     })
 }
 
-/// The ends of a box; of one that reaches across half a turn of a circle those of its parts on either side. Where it ends with the domain it goes on
-/// a little: limits are decimals and half a turn is no number at all, next to which a double leaves a slit.
+/// Returns the ends of a box. A box that reaches across half a turn of a circle is split into its parts on either side.
+/// A part that ends with the domain is extended slightly, because limits are decimals and half a turn is irrational: a
+/// double next to it would leave a gap.
 fn reaching_out(scene: &Scene, stuck: &StuckBox) -> Vec<[[f64; 2]; 2]> {
     let mut parts = vec![[stuck.cell.lower, stuck.cell.upper]];
     for (k, range) in scene.arm().topology().ranges.into_iter().enumerate() {

@@ -1,4 +1,4 @@
-//! Evidence for a motion: what its consumers play, which is all that it takes to check it.
+//! Evidence for a motion: the curve that consumers of the file execute. A checker needs nothing else.
 
 use super::task::{checkable, steps_of_recording};
 use super::{NoCertificate, about, inward, lines, written};
@@ -9,9 +9,10 @@ use cplan_motion::Trajectory;
 use cplan_world::{Digests, Overrides, TipPoint};
 use serde_json::{Value, json};
 
-/// The evidence of a planned motion: as readers of tables and of ROS 2's messages join its samples, and as its JSON says.
+/// Returns the evidence of a planned motion: the curves by which readers of tables and of ROS 2's messages join its
+/// samples, and the one that its JSON defines.
 pub(super) fn evidence(arm: &Arm, trajectory: &Trajectory) -> (&'static str, String) {
-    // With a limit on the jerk the samples' JSON says the same cubics.
+    // With limits on jerk, the JSON of the samples defines the same cubics.
     let is_smooth = arm.joints.iter().any(|joint| joint.jerk.is_some());
     let Trajectory { time, position, velocity, acceleration, torque: _ } = trajectory;
     let position = &written_inward(&arm.topology(), position);
@@ -22,9 +23,9 @@ pub(super) fn evidence(arm: &Arm, trajectory: &Trajectory) -> (&'static str, Str
     }
 }
 
-/// The certificate of a recorded motion, as its format joins samples: from the world's start to its goal, or those that are
-/// `asked` for; where there are none (`ends`), from and to where it leads. Of a recorded task from the start through all its steps. It is
-/// about these `files`.
+/// Returns the certificate of a recorded motion, with samples joined as in its format. It leads from the world's start
+/// to its goal, or to those that are `asked` for. Where `ends` has none, the motion's own ends count. A recorded task
+/// leads from the start through all its steps. The certificate names these `files`.
 ///
 /// # Errors
 /// [`NoCertificate::Untimed`] and [`NoCertificate::Outline`].
@@ -70,12 +71,13 @@ pub fn recorded(
     Ok(written("found", said, [motion].into_iter().chain(steps.map(|(_, steps)| steps_of_recording(steps)))))
 }
 
-/// Values of the joints as they are written.
+/// Returns values of the joints in the form in which certificates hold them.
 fn written_inward(topology: &Topology, positions: &[[f64; 2]]) -> Vec<[f64; 2]> {
     positions.iter().map(|&q| inward(topology, q.into()).into()).collect()
 }
 
-/// Knots of a time and the rows of some columns.
+/// Returns the motion as knots, each with a time and the values of the columns at that time. `readings` names the
+/// interpolations.
 fn played(readings: &[&str], times: &[f64], columns: &[&Vec<[f64; 2]>]) -> (&'static str, String) {
     let knot =
         |k: usize| json!([times[k]].into_iter().chain(columns.iter().flat_map(|rows| rows[k])).collect::<Vec<f64>>());

@@ -1,4 +1,4 @@
-//! Certificates of what a result states, made anew for its files.
+//! Certificates of the claims in a result, rebuilt for its files.
 
 use super::contacts::Contacts;
 use super::lower_bound::LowerBound;
@@ -14,7 +14,7 @@ const LOSS: f64 = 1e-6;
 /// A certificate that no motion is shorter than a length.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BoundCertificate {
-    /// The length. The evidence is found anew, so it can differ from the bound that was stated.
+    /// The proven length. The evidence is computed again, so the length can differ from the stated bound.
     pub length: f64,
     /// The number of walls that bar shorter motions.
     pub walls: usize,
@@ -22,11 +22,11 @@ pub struct BoundCertificate {
     pub text: String,
 }
 
-/// Returns the certificate that boxes separate the start from all goals, whether they do or not. What `asked` says in place of the world
-/// file is in it.
+/// Returns a certificate which claims that boxes separate the start from all goals, whether or not they do. It includes
+/// the values in `asked` that override the world file.
 ///
 /// # Errors
-/// The first box whose shapes are none of the problem's, or never meet.
+/// Returns the first box whose shapes are not part of the problem, or never meet.
 pub fn certificate_of_boxes(problem: &MotionProblem, stuck: &[StuckBox], asked: &Overrides) -> Result<String, usize> {
     let scene = problem.scene();
     if let Some(odd) = stuck.iter().position(|stuck| scene.pairs().binary_search(&stuck.pair).is_err()) {
@@ -38,7 +38,8 @@ pub fn certificate_of_boxes(problem: &MotionProblem, stuck: &[StuckBox], asked: 
     Ok(written("infeasible", said, contacts.named().into_iter().chain([boxes])))
 }
 
-/// Returns the certificate of a bound. None if goals are a curve, or not told from configurations beside them.
+/// Returns the certificate of a bound. `None` if the goals form a curve, or if a checker could not separate them from
+/// neighbouring configurations.
 #[must_use]
 pub fn certificate_of_bound(problem: &MotionProblem, stated: &Bound, asked: &Overrides) -> Option<BoundCertificate> {
     let bound = LowerBound::of(problem, stated, asked, LOSS)?;

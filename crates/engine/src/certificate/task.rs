@@ -1,5 +1,5 @@
-//! Evidence for a task: besides the motion which part of it does which step, and how the wrist turns what is carried. Where all objects
-//! are then follows from the world.
+//! Evidence for a task: the motion, the part of it that performs each step, and the turns of the wrist with the
+//! payload. The positions of all objects then follow from the world.
 
 use super::{NoCertificate, lines};
 use crate::result::StepReport;
@@ -9,7 +9,7 @@ use cplan_handling::{Action, Object, RecordedStep, Step, Task};
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
 
-/// The steps of a planned task, whose motion is among the results.
+/// Returns the steps of a planned task, whose motion is among the results.
 pub(super) fn steps(steps: &[StepReport]) -> (&'static str, String) {
     let step = |step: &StepReport| {
         let turn = step.turn.as_ref().map(|turn| turn.to - turn.from);
@@ -18,7 +18,7 @@ pub(super) fn steps(steps: &[StepReport]) -> (&'static str, String) {
     ("steps", lines(&steps.iter().map(step).collect::<Vec<_>>()))
 }
 
-/// The steps of a recorded task.
+/// Returns the steps of a recorded task.
 pub(super) fn steps_of_recording(steps: &[RecordedStep]) -> (&'static str, String) {
     let step = |step: &RecordedStep| {
         let knots = [*step.samples.start(), *step.samples.end()];
@@ -34,7 +34,7 @@ fn done(step: usize, knots: [usize; 2], turn: Option<f64>) -> Value {
     }
 }
 
-/// Objects that rest on something where a step takes or places them.
+/// Returns the objects that rest on supports where a step picks or places them.
 fn pressed(task: &Task) -> BTreeSet<usize> {
     let mut picked = None;
     let rests = |step: &Step| {
@@ -45,7 +45,7 @@ fn pressed(task: &Task) -> BTreeSet<usize> {
     task.steps().filter_map(rests).collect()
 }
 
-/// Checks that a checker can move the corners of all objects that rest on something inwards.
+/// Checks that a checker can move inwards the corners of all objects that rest on supports.
 ///
 /// # Errors
 /// [`NoCertificate::Outline`].

@@ -1,4 +1,4 @@
-//! What is found of a configuration, as data.
+//! Findings about a configuration, as data.
 
 use cplan_core::cspace::{NearestFree, nearest_free};
 use cplan_core::model::{Contact, Scene};
@@ -7,42 +7,42 @@ use cplan_geometry::{CornerInside, Point, polygon_test, shapes_meet};
 use nalgebra::Vector3;
 use serde::Serialize;
 
-/// What there is to say about one configuration.
+/// Findings about one configuration.
 #[derive(Debug, Clone, Serialize)]
 pub struct ConfigurationFindings {
-    /// Within the limits and nearer to no obstacle than allowed.
+    /// True if it is within the limits and not nearer to any obstacle than allowed.
     pub free: bool,
     /// Joint values, base to tip.
     pub configuration: [f64; 2],
-    /// Whether each joint is within its limits.
+    /// For each joint, true if it is within its limits.
     pub within_limits: [bool; 2],
     /// The tip in plane coordinates, metres.
     pub tip: [f64; 2],
-    /// Least signed distance to an obstacle, metres; none if nothing can be hit.
+    /// Least signed distance to an obstacle, metres. `None` if no obstacle is within reach.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub clearance: Option<f64>,
-    /// The distance to keep, metres.
+    /// The required clearance, metres.
     pub required: f64,
     /// The plane of motion.
     pub plane: BasisFinding,
-    /// Every pair in contact, or nearer than the distance to keep.
+    /// All pairs in contact, or nearer than the required clearance.
     pub contacts: Vec<PairFinding>,
-    /// Where to go instead, if the configuration is not free.
+    /// The nearest free configuration, if this one is not free.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub nearest_free: Option<NearestFinding>,
 }
 
-/// The nearest free configuration, within the limits and with the clearance asked for.
+/// The nearest free configuration, within the limits and with the required clearance.
 #[derive(Debug, Clone, Serialize)]
 pub struct NearestFinding {
     /// Joint values, base to tip.
     pub configuration: [f64; 2],
-    /// In joint space, radians and metres as they come.
+    /// Distance in joint space. Radians and metres are added as numbers.
     pub distance: f64,
-    /// Metres; none if nothing can be hit.
+    /// Least distance to an obstacle, metres. `None` if no obstacle is within reach.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub clearance: Option<f64>,
-    /// Spacing of the values of joint 1 that were looked at, before refinement; joint 2 is exact for each.
+    /// Spacing of the values of joint 1 that were tried, before refinement. Joint 2 is exact for each.
     pub resolution: f64,
 }
 
@@ -57,18 +57,18 @@ pub struct BasisFinding {
     pub normal: [f64; 3],
 }
 
-/// A link and an obstacle that are in contact, or nearer than the distance to keep.
+/// A link and an obstacle that are in contact, or nearer than the required clearance.
 #[derive(Debug, Clone, Serialize)]
 pub struct PairFinding {
     /// Name of the arm's link.
     pub link: String,
-    /// Name of the body of the URDF that moves with it.
+    /// Name of the link in the URDF whose shape is in contact; it moves with the arm's link.
     pub body: String,
     /// Name of the obstacle.
     pub obstacle: String,
-    /// Whether they have a point in common.
+    /// True if they have a point in common.
     pub touching: bool,
-    /// Penetration depth, metres; negative is a distance.
+    /// Penetration depth, metres. A negative value is a distance.
     pub depth: f64,
     /// Corners of the link in the obstacle: plane coordinates and depth. Empty for rounded shapes.
     pub link_corners_inside: Vec<CornerFinding>,
@@ -83,11 +83,11 @@ pub struct PairFinding {
 pub struct CornerFinding {
     /// Plane coordinates, metres.
     pub at: [f64; 2],
-    /// How far it is from the nearest side, metres.
+    /// Distance from the nearest side, metres.
     pub depth: f64,
 }
 
-/// What there is to say about a configuration.
+/// Checks a configuration.
 #[must_use]
 pub fn check(scene: &Scene, q: Configuration) -> ConfigurationFindings {
     let topology = scene.arm().topology();
@@ -116,7 +116,7 @@ pub fn check(scene: &Scene, q: Configuration) -> ConfigurationFindings {
     }
 }
 
-/// What is to say of a pair, if its shapes touch or are nearer than the distance to keep.
+/// Describes a pair, if its shapes touch or are nearer than the required clearance.
 fn finding(scene: &Scene, q: Configuration, contact: Contact) -> Option<PairFinding> {
     let Contact { pair: indices, separation } = contact;
     let part = scene.part(indices).at(&scene.arm().pose(indices.link, q));
@@ -126,7 +126,7 @@ fn finding(scene: &Scene, q: Configuration, contact: Contact) -> Option<PairFind
         return None;
     }
     let (a, b) = (part.core(), piece.core());
-    // Corners and sides are those of polygons; of rounded shapes the depth says it all.
+    // Only polygons have corners and sides. For rounded shapes the depth is enough.
     let sharp = part.radius() == 0.0 && piece.radius() == 0.0;
     let test = sharp.then(|| polygon_test(&part, piece));
     let inside = |corners: &[Point], found: &[CornerInside]| {

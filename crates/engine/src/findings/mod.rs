@@ -1,5 +1,5 @@
-//! What there is to say of configurations and recorded motions that others chose, as data: what `cplan check` and `cplan verify`
-//! print.
+//! Findings about configurations and recorded motions, as data. They are the output of `cplan check` and `cplan
+//! verify`.
 
 mod configuration;
 mod motion;
@@ -19,11 +19,11 @@ use cplan_motion::recorded::{
 use cplan_robot::InputError;
 use cplan_world::{LoadedRecording, LoadedScene, LoadedTask, Overrides};
 
-/// Judges what was recorded: a motion from the world's start to its goal, or those of `overrides`; `anywhere` it may begin and end
-/// where it does. A recording with steps is judged as the world's task.
+/// Judges a recording. It must lead from the world's start to its goal, or to those of `overrides`; with `anywhere`, it
+/// may begin and end where it does. A recording with steps is judged as the world's task.
 ///
 /// # Errors
-/// Overrides that do not go with the world, and steps that no arm like this can do.
+/// Fails if overrides do not suit the world, or if no arm like this one can do the steps.
 pub fn verify(
     loaded: &LoadedScene,
     recorded: &LoadedRecording,
@@ -117,7 +117,7 @@ fn judge_task(
     Ok(task::judged(&task, &scene, &loaded.robot.assumed, (recording, steps), replay, claims, notes))
 }
 
-/// Steps that look like a seam in wrapped angles.
+/// Describes steps that look like jumps of wrapped angles.
 fn turns(scene: &Scene, recording: &Recording) -> Option<String> {
     let turns = recording.turns(&scene.arm().topology());
     let &(sample, k) = turns.first()?;

@@ -1,4 +1,4 @@
-//! What is found of a motion, as data.
+//! Findings about a motion, as data.
 
 use super::StepFinding;
 use cplan_core::model::{Joint, Scene};
@@ -7,7 +7,7 @@ use cplan_motion::recorded::{CollisionCheck, Encounter, Excess, Limit, Moment};
 use cplan_robot::AssumedLimits;
 use serde::Serialize;
 
-/// What is found in a word, the worst last.
+/// The verdict on a motion in one word, ordered from best to worst.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Judgement {
@@ -15,20 +15,20 @@ pub enum Judgement {
     Free,
     /// Neither proven free nor proven to collide.
     Undecided,
-    /// Free, but something that the file says of the motion is false.
+    /// Free, but values stated in the file are wrong.
     Claims,
-    /// Not known to collide, but it does not lead from the start to the goal.
+    /// Not known to collide, but does not lead from the start to the goal.
     Ends,
-    /// Not known to collide, but a limit is broken.
+    /// Not known to collide, but violates a limit.
     Limits,
-    /// Not known to collide, but not the task that was asked for.
+    /// Not known to collide, but differs from the requested task.
     Task,
     /// Proven to collide.
     Collision,
 }
 
 impl Judgement {
-    /// As it is written in JSON.
+    /// Returns the word for it in JSON.
     #[must_use]
     pub fn word(self) -> &'static str {
         match self {
@@ -43,81 +43,83 @@ impl Judgement {
     }
 }
 
-/// What there is to say about a motion, or about the motions of a task.
+/// Findings about a motion, or about the motions of a task.
 #[derive(Debug, Clone, Serialize)]
 pub struct MotionFindings {
-    /// In a word.
+    /// The verdict in one word.
     pub verdict: Judgement,
     /// Names of the joints, base to tip.
     pub joints: [String; 2],
     /// Units of the joints' values: `rad` or `m`.
     pub units: [&'static str; 2],
-    /// How many samples there are.
+    /// Number of samples.
     pub samples: usize,
     /// Seconds from the first to the last sample.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub duration: Option<f64>,
-    /// The distance to keep, metres.
+    /// The required clearance, metres.
     pub required: f64,
-    /// What it meets.
+    /// Collisions and clearance along the motion.
     #[serde(flatten)]
     pub way: WayFinding,
-    /// Limits that are broken, each once.
+    /// Violated limits, each once.
     pub limits_broken: Vec<LimitFinding>,
-    /// Limits that nobody gives and that the motion exceeds as cplan assumes them, each once. They do not decide.
+    /// Limits that the files do not give, and whose assumed values the motion exceeds, each once. They do not affect
+    /// the verdict.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub assumed_exceeded: Vec<LimitFinding>,
-    /// In what a motion or a task is not the one asked for, and what the file says of it that is false.
+    /// Differences from the requested motion or task, and false statements in the file.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub faults: Vec<String>,
     /// Members of a result that were not judged.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub not_judged: Vec<String>,
-    /// Of a task.
+    /// Findings about the steps, if this is a task.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub steps: Option<Vec<StepFinding>>,
-    /// How the file was read and what was judged, line by line.
+    /// How the file was read, and which parts were judged, line by line.
     pub notes: Vec<String>,
 }
 
-/// What a motion meets, or how near it comes.
+/// Collisions and clearance along a motion.
 #[derive(Debug, Clone, Default, Serialize)]
 pub struct WayFinding {
-    /// Proven lower bound on the distance to every obstacle, metres; only of a free motion that could hit something.
+    /// Proven lower bound on the distance to every obstacle, metres. Only for a free motion with obstacles within
+    /// reach.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub clearance: Option<f64>,
-    /// Where a free motion comes nearest.
+    /// The place where a free motion comes nearest to an obstacle.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub nearest: Option<EncounterFinding>,
-    /// Where a motion that collides first does.
+    /// The first contact of a motion that collides.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub first_contact: Option<EncounterFinding>,
-    /// The motion before this is proven free, on the clock of `first_contact`.
+    /// Time, on the clock of `first_contact`, before which the motion is proven free.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub free_until: Option<f64>,
-    /// The least distance seen on a motion that collides.
+    /// The deepest penetration found on a motion that collides.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub deepest: Option<EncounterFinding>,
-    /// Where it could not be decided.
+    /// The place where it could not be decided whether the motion collides.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub undecided: Option<EncounterFinding>,
 }
 
-/// A link and an obstacle at a moment.
+/// A link and an obstacle at one moment of a motion.
 #[derive(Debug, Clone, Serialize)]
 pub struct EncounterFinding {
-    /// When, and where the arm is.
+    /// The time and the arm's configuration.
     #[serde(flatten)]
     pub moment: MomentFinding,
     /// Name of the arm's link.
     pub link: String,
-    /// Name of the body of the URDF that moves with it.
+    /// Name of the link in the URDF whose shape is in contact; it moves with the arm's link.
     pub body: String,
     /// Name of the obstacle.
     pub obstacle: String,
-    /// Penetration depth, metres; negative is a distance.
+    /// Penetration depth, metres. A negative value is a distance.
     pub depth: f64,
-    /// The pair, for people.
+    /// The pair in words.
     #[serde(skip)]
     pub pair: String,
 }
@@ -128,7 +130,7 @@ pub struct MomentFinding {
     /// Seconds on the file's clock.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub time: Option<f64>,
-    /// Without a clock: number of the waypoint, counted from 0, and the share of the way to the next.
+    /// For a motion without times: the number of the waypoint, counted from 0, plus the share of the path to the next.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub waypoint: Option<f64>,
     /// The sample at or before it, counted from 0.
@@ -137,26 +139,26 @@ pub struct MomentFinding {
     pub configuration: [f64; 2],
 }
 
-/// A limit that is broken.
+/// A violated limit.
 #[derive(Debug, Clone, Serialize)]
 pub struct LimitFinding {
     /// Name of the joint.
     pub joint: String,
-    /// What it is a limit of, such as `velocity`.
+    /// The quantity that is limited, such as `velocity`.
     pub limit: &'static str,
-    /// What is reached: rad or m, and per second, second squared or cubed.
+    /// The value reached: rad or m, and per second, second squared or cubed.
     pub value: f64,
-    /// What is allowed, in the same unit.
+    /// The allowed value, in the same unit.
     pub allowed: f64,
-    /// When.
+    /// The moment of the violation.
     #[serde(flatten)]
     pub moment: MomentFinding,
-    /// The same as it was found.
+    /// The violation in its original form.
     #[serde(skip)]
     pub excess: Excess,
 }
 
-/// Limits that a motion exceeds, by where they come from.
+/// Limits that a motion exceeds, by their origin.
 pub(super) struct Broken {
     /// Limits that the files give.
     pub given: Vec<Excess>,
@@ -165,7 +167,7 @@ pub(super) struct Broken {
 }
 
 impl Broken {
-    /// Tells given limits from assumed ones.
+    /// Separates given limits from assumed ones.
     pub fn new(joints: &[Joint; 2], broken: &[Excess], assumed: &AssumedLimits) -> Self {
         let is_assumed = |excess: &Excess| {
             let name = &joints[excess.joint].name;
@@ -181,7 +183,7 @@ impl Broken {
 }
 
 impl MotionFindings {
-    /// Collects what the checks found of one motion.
+    /// Collects the results of the checks of one motion.
     pub(super) fn new(
         scene: &Scene,
         recording: &Recording,
@@ -201,7 +203,7 @@ impl MotionFindings {
         }
     }
 
-    /// What there is to say of a recording before it is judged.
+    /// Returns the findings about a recording before it is judged.
     pub(super) fn of_nothing(scene: &Scene, recording: &Recording) -> Self {
         let joints = &scene.arm().joints;
         Self {
@@ -221,7 +223,7 @@ impl MotionFindings {
         }
     }
 
-    /// With faults of a kind, if there are any.
+    /// Adds faults of one kind, if there are any.
     pub(super) fn but(mut self, verdict: Judgement, faults: Vec<impl ToString>) -> Self {
         if !faults.is_empty() {
             self.verdict = self.verdict.max(verdict);
@@ -230,14 +232,14 @@ impl MotionFindings {
         self
     }
 
-    /// With what nobody judges of what a file says.
+    /// Adds the claims in the file that are not judged.
     pub(super) fn leaving(mut self, claims: &Claims) -> Self {
         self.not_judged.clone_from(&claims.unjudged);
         self
     }
 }
 
-/// What to say of a motion in a word.
+/// Returns the verdict on a motion in one word.
 pub(super) fn verdict(collision_check: &CollisionCheck, broken: &[Excess]) -> Judgement {
     match collision_check {
         CollisionCheck::Collision { .. } => Judgement::Collision,
@@ -248,7 +250,7 @@ pub(super) fn verdict(collision_check: &CollisionCheck, broken: &[Excess]) -> Ju
 }
 
 impl WayFinding {
-    /// What the check found of a motion, which has times or not.
+    /// Converts the result of the collision check of a motion, `timed` or not.
     pub(super) fn new(scene: &Scene, collision_check: &CollisionCheck, timed: bool) -> Self {
         let encounter = |e: &Encounter| encounter(scene, e, timed);
         match collision_check {
@@ -268,7 +270,7 @@ impl WayFinding {
     }
 }
 
-/// The limits that are broken.
+/// Returns the violations of limits.
 pub(super) fn limits(joints: &[Joint; 2], broken: &[Excess], timed: bool) -> Vec<LimitFinding> {
     broken.iter().map(|excess| limit(joints, excess, timed)).collect()
 }

@@ -1,4 +1,4 @@
-//! What is found of a task, step by step.
+//! Findings about a task, step by step.
 
 use super::motion::{Broken, Judgement, LimitFinding, MotionFindings, WayFinding, limits, verdict};
 use cplan_core::model::Scene;
@@ -7,40 +7,39 @@ use cplan_motion::recorded::{Departure, Replay, ReplayedStep, ReplayedTurn, step
 use cplan_robot::AssumedLimits;
 use serde::Serialize;
 
-/// What there is to say of a step.
+/// Findings about a step.
 #[derive(Debug, Clone, Serialize)]
 pub struct StepFinding {
-    /// Its number in the world file, from 1.
+    /// The step's number in the world file, from 1.
     pub step: usize,
-    /// Which repetition of it this is, from 1.
+    /// The repetition of the step, from 1.
     pub cycle: usize,
-    /// What it does, in a few words.
+    /// A short description of the step.
     pub action: String,
     /// The object that is picked or placed.
     pub object: Option<String>,
     /// The object that is carried during the motion.
     pub carried: Option<String>,
-    /// In a word.
+    /// The verdict in one word.
     pub verdict: Judgement,
-    /// The sample with which its motion begins, from 0.
+    /// First sample of its motion, from 0.
     pub first_sample: usize,
-    /// The sample with which it ends.
+    /// Last sample of its motion.
     pub last_sample: usize,
-    /// Of the motion.
+    /// Duration of the motion.
     pub seconds: f64,
-    /// What its motion meets.
+    /// Collisions and clearance along its motion.
     #[serde(flatten)]
     pub way: WayFinding,
-    /// The turn of the wrist.
     /// The turn of the wrist at its end.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub turn: Option<TurnFinding>,
-    /// Limits that are broken, each once.
+    /// Violated limits, each once.
     pub limits_broken: Vec<LimitFinding>,
-    /// Limits that nobody gives and that its motion exceeds as cplan assumes them. They do not decide.
+    /// Limits that the files do not give, and whose assumed values its motion exceeds. They do not affect the verdict.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub assumed_exceeded: Vec<LimitFinding>,
-    /// In what it is not what was asked for.
+    /// Differences from the requested step.
     pub faults: Vec<String>,
 }
 
@@ -49,22 +48,23 @@ pub struct StepFinding {
 pub struct TurnFinding {
     /// Orientation of the object at the beginning, radians.
     pub from: f64,
-    /// At the end.
+    /// Orientation of the object at the end, radians.
     pub to: f64,
-    /// How long it takes.
+    /// Duration of the turn.
     pub seconds: f64,
-    /// Proven lower bound on the distance between object and obstacles, metres; only of a free turn that could hit something.
+    /// Proven lower bound on the distance between object and obstacles, metres. Only for a free turn with obstacles
+    /// within reach.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub clearance: Option<f64>,
-    /// Where a turn that is not free first hits something.
+    /// The first contact of a turn that is not free.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub contact: Option<TurnContactFinding>,
 }
 
-/// Where an object that is turned hits something.
+/// A contact of an object while it is turned.
 #[derive(Debug, Clone, Serialize)]
 pub struct TurnContactFinding {
-    /// Orientation of the object then, radians.
+    /// Orientation of the object at the contact, radians.
     pub angle: f64,
     /// Name of the obstacle.
     pub obstacle: String,
@@ -100,13 +100,14 @@ impl StepFinding {
         }
     }
 
-    /// In words that stand for it.
+    /// Returns a name for the step.
     #[must_use]
     pub fn name(&self) -> String {
         format!("step {} (cycle {})", self.step, self.cycle)
     }
 
-    /// Proven lower bound on the distance kept in its motion and its turn, metres; none where nothing can be hit.
+    /// Returns a proven lower bound on the distance kept in the step's motion and turn, metres. `None` if no obstacle
+    /// is within reach.
     #[must_use]
     pub fn clearance(&self) -> Option<f64> {
         let turn = self.turn.as_ref().and_then(|turn| turn.clearance);
@@ -125,8 +126,8 @@ impl TurnFinding {
     }
 }
 
-/// Judges all steps. What is found of the whole is that of the step that decides it: of the first that collides, else of
-/// the first that is undecided, else of that which keeps the least.
+/// Judges all steps. The findings about the whole task are those of the step that decides it: the first that collides,
+/// else the first that is undecided, else the one with the least clearance.
 pub(super) fn judged(
     task: &Task,
     scene: &Scene,
@@ -143,7 +144,7 @@ pub(super) fn judged(
         happened.extend(step.event.clone());
         steps.push(StepFinding::new(task, &step, assumed));
     }
-    // Of a task that breaks off, what is said of the whole is about another one.
+    // If a task breaks off, the statements about the whole describe another task.
     if replay.departure().is_none() {
         false_claims.extend(task_claims_kept(task, recording, recorded, &happened, claims));
     }
@@ -168,7 +169,7 @@ pub(super) fn judged(
     .but(Judgement::Claims, false_claims)
 }
 
-/// What is met on the whole way.
+/// Returns collisions and clearance along the whole path.
 fn way(steps: &[StepFinding]) -> WayFinding {
     let undecided = steps.iter().position(|step| step.way.undecided.is_some());
     let turn_hits = |step: &StepFinding| step.turn.as_ref().is_some_and(|turn| turn.contact.is_some());

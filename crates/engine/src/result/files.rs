@@ -1,4 +1,4 @@
-//! The result in the formats of files.
+//! The result in file formats.
 
 use super::Messages;
 use crate::plan::{Detail, Plan, named};
@@ -7,11 +7,13 @@ use cplan_motion::{Format, JointMotion, Trajectory, csv, ros_yaml};
 use cplan_motion::{Stage, mcap};
 
 impl Plan {
-    /// Returns the result as a file in this format holds it; none if the format holds nothing but a trajectory and there is none. All but
-    /// MCAP are text in UTF-8.
+    /// Returns the result as a file in this format. `None` if the format holds only a trajectory and there is no
+    /// motion. All formats except MCAP are text in UTF-8.
     ///
-    /// Tables of tasks have a column with the number of each sample's step among those that are done, from 1. ROS 2 messages hold the
-    /// motion as one, recordings, which show nothing here (see `PlanOutput::bytes` of the crate `view`), a message for each step: its motion, and the turns of the wrist and strokes of the tool after it.
+    /// Tables of tasks have a column with the number of each sample's step among those that are done, from 1. ROS 2
+    /// messages hold the motion as one. Recordings hold a message for each step: its motion, followed by the turns of
+    /// the wrist and strokes of the tool. Recordings made here include nothing to display; see `PlanOutput::bytes` of
+    /// the crate `view`.
     #[must_use]
     pub fn encoded(&self, format: Format) -> Option<Vec<u8>> {
         Some(match format {
@@ -28,7 +30,7 @@ impl Plan {
         })
     }
 
-    /// Returns the result as a recording, with what there is to see if that is given.
+    /// Returns the result as a recording, with the objects to show if `stage` is given.
     #[cfg(feature = "mcap")]
     #[must_use]
     pub fn recording(&self, stage: Option<&Stage>) -> Option<Vec<u8>> {
@@ -36,8 +38,8 @@ impl Plan {
         Some(mcap(&steps.iter().map(|(begin, motion)| (motion, *begin)).collect::<Vec<_>>(), stage))
     }
 
-    /// Returns the same for the motion of each step of a task alone, on a clock of its own and without standing still. None of a single
-    /// motion, and if that format is not for single trajectories.
+    /// Returns the motion of each step of a task as a file of its own, with its own clock and without waits. `None` for
+    /// a single motion, and if the format is not for single trajectories.
     #[must_use]
     pub fn encoded_per_step(&self, format: Format) -> Option<Vec<Vec<u8>>> {
         let (_, answer) = self.task()?;
@@ -52,13 +54,13 @@ impl Plan {
         Some(text.into_iter().map(String::into_bytes).collect())
     }
 
-    /// A motion as a table; `steps` has the number of each sample's step.
+    /// Returns a motion as a table. `steps` holds the number of each sample's step.
     fn table(&self, motion: &Trajectory, steps: Option<&[usize]>) -> String {
         let joints = self.arm().joints.each_ref().map(|joint| joint.name.clone());
         csv(&joints, motion, self.options().accelerations, steps)
     }
 
-    /// What messages hold; a single motion is one step.
+    /// Returns the content of messages. A single motion is one step.
     fn messages(&self) -> Option<Messages> {
         let robot = named(self.problem(), self.options());
         let messages = match self.detail() {
@@ -66,7 +68,7 @@ impl Plan {
                 let whole = JointMotion::new(&robot, &answer.outcome.found()?.timed.trajectory, true);
                 Messages { steps: vec![(0.0, whole.clone())], whole }
             }
-            // Planning has refused what messages cannot name.
+            // Planning has already refused joints that messages cannot name.
             Detail::Task { task, answer } => {
                 Messages::new(&robot, task, &answer.legs, &answer.outcome.found()?.sequence).ok()?
             }

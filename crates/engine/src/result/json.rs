@@ -1,7 +1,8 @@
-//! The result as JSON: which fields, in which order.
+//! The result as JSON: its fields and their order.
 //!
-//! What a script relies on is always there, `path`, `length`, `clearance` and `trajectory` as null if there is none; the rest is left out if there
-//! is none of it. Numbers are finite; radians for a revolute joint and metres for a prismatic one, and seconds.
+//! Fields that scripts rely on are always present: `path`, `length`, `clearance` and `trajectory` are null if there is
+//! none. Other fields are omitted if they have no value. Numbers are finite: radians for a revolute joint, metres for a
+//! prismatic one, and seconds.
 
 use super::step_report::{FailedStepReport, step_reports};
 use super::{finite, optimum};
@@ -20,10 +21,10 @@ use serde_json::value::RawValue;
 use std::collections::BTreeMap;
 use std::time::Duration;
 
-/// Fields one after the other.
+/// Writer of fields in order.
 struct Fields<'a, M> {
     map: M,
-    /// Those that are written; all if there are none.
+    /// Names of the fields that are written. If empty, all are.
     only: &'a [String],
 }
 
@@ -34,13 +35,13 @@ impl<M: SerializeMap> Fields<'_, M> {
         if is_written { self.map.serialize_entry(name, value) } else { Ok(()) }
     }
 
-    /// Leaves it out if there is none.
+    /// Writes a field, or omits it if there is no value.
     fn some(&mut self, name: &'static str, value: Option<impl Serialize>) -> Result<(), M::Error> {
         value.map_or(Ok(()), |value| self.put(name, &value))
     }
 }
 
-/// The whole motion with the step that each of its samples belongs to.
+/// The whole motion, with the step of each of its samples.
 #[derive(Serialize)]
 struct Samples<'a> {
     #[serde(flatten)]
@@ -49,7 +50,7 @@ struct Samples<'a> {
     step: Option<Vec<usize>>,
 }
 
-/// Limits that nobody gives, by joint and in words.
+/// Limits that the files do not give, by joint and in words.
 #[derive(Serialize)]
 struct AssumedInWords {
     #[serde(flatten)]
@@ -57,7 +58,7 @@ struct AssumedInWords {
     notes: Vec<String>,
 }
 
-/// Stages with their milliseconds.
+/// Stages with their times in milliseconds.
 struct Stages<'a>(&'a [(&'static str, Duration)]);
 
 impl Serialize for Stages<'_> {
@@ -70,7 +71,7 @@ impl Serialize for Stages<'_> {
 struct PlanResult<'a> {
     plan: &'a Plan,
     fields: &'a [String],
-    /// Goes behind the fields, as it is.
+    /// A certificate that follows the fields unchanged.
     certificate: Option<&'a RawValue>,
 }
 
@@ -90,7 +91,7 @@ impl Serialize for PlanResult<'_> {
 }
 
 impl PlanResult<'_> {
-    /// What was asked, and which answer it is.
+    /// Writes the query and the status.
     fn head<M: SerializeMap>(&self, fields: &mut Fields<M>) -> Result<(), M::Error> {
         let Self { plan, .. } = self;
         let (planner, name) = (&plan.options().planner, &plan.problem().scene().workspace().name);
@@ -105,7 +106,7 @@ impl PlanResult<'_> {
         fields.some("reason", plan.reason())
     }
 
-    /// The limits that nobody gives, and what is said of them everywhere.
+    /// Returns the limits that the files do not give, with the usual notes.
     fn assumed_in_words(&self) -> Option<AssumedInWords> {
         let mut limits = self.plan.problem().robot().assumed.clone();
         if self.plan.options().drive.torque {
@@ -146,7 +147,7 @@ impl PlanResult<'_> {
         self.trajectory(fields, plan.trajectory().map(|trajectory| Samples { trajectory, step: None }))
     }
 
-    /// The path of a task stands behind its steps, not before what is proven of it.
+    /// Writes a task. Its path follows its steps, unlike that of a motion, which precedes its bounds.
     fn task<M: SerializeMap>(&self, fields: &mut Fields<M>, task: &Task, answer: &TaskAnswer) -> Result<(), M::Error> {
         let Self { plan, .. } = self;
         let motion = answer.outcome.found();
@@ -177,14 +178,15 @@ impl PlanResult<'_> {
         fields.some("timings", plan.options().timings.then(|| Stages(plan.timings())))
     }
 
-    /// The motion in time, and how to read it between its samples.
+    /// Writes the motion in time, and how to interpolate between its samples.
     fn trajectory<M: SerializeMap>(&self, fields: &mut Fields<M>, samples: Option<Samples>) -> Result<(), M::Error> {
         fields.some("interpolation", samples.as_ref().map(|_| interpolation(&self.plan.arm().joints)))?;
         fields.put("trajectory", &samples)
     }
 }
 
-/// The names of the joints that the goal, the tip at a place, leaves free: the path's last waypoint says which values were chosen.
+/// Returns the names of the joints that a tip goal leaves free. The path's last waypoint shows which values were
+/// chosen.
 fn free_joints(problem: &MotionProblem) -> Vec<&str> {
     let goals = problem.goals().pieces();
     let is_free = |k: &usize| goals.iter().any(|goals| goals.ends()[0][*k] != goals.ends()[1][*k]);
@@ -231,14 +233,14 @@ impl Plan {
         "trajectory",
     ];
 
-    /// The result with these fields alone, in their usual order; with all where none is named.
+    /// Returns the result with these fields only, in their usual order. With all fields if the list is empty.
     #[must_use]
     pub fn result<'a>(&'a self, fields: &'a [String]) -> impl Serialize + 'a {
         PlanResult { plan: self, fields, certificate: None }
     }
 
-    /// The result as a JSON object, a line a field, as interface and book describe it. Numbers have as many digits as it takes to read the same
-    /// `f64` back.
+    /// Returns the result as a JSON object, one field per line, in the format that interface and book describe. Numbers
+    /// have enough digits to restore the same `f64`.
     #[must_use]
     pub fn to_json(&self) -> String {
         line_a_field(&self.result(&[]))

@@ -1,8 +1,8 @@
-//! All joints of the robot through a task, for messages that name them.
+//! Motions of all joints of the robot during a task, for messages that name them.
 //!
-//! The arm moves with the tool raised. While it stands the wrist turns, and the tool is lowered and raised. A wrist whose joint
-//! is named keeps the orientation of level payloads, against that of link 2; with an empty hand it goes back to its rest as far
-//! as its limits allow on the way.
+//! The arm moves with the tool raised. While the arm stands still, the wrist turns, and the tool is lowered and raised.
+//! A wrist whose joint is named keeps the orientation of level payloads against that of link 2. With an empty hand, it
+//! returns towards its rest position during the motion, as far as its limits allow.
 
 use cplan_core::model::JointType;
 use cplan_core::space::JointRange;
@@ -11,13 +11,13 @@ use cplan_motion::{AccelerationJump, JointMotion, nanoseconds, seconds, single, 
 use cplan_tasks::{Event, Leg, Sequence};
 use thiserror::Error;
 
-/// Why messages cannot name all joints as asked.
+/// Reason why messages cannot name all joints as requested.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum MessageError {
     /// Accelerations that would mislead their readers.
     #[error(transparent)]
     Jump(#[from] AccelerationJump),
-    /// A joint of the tool that moves, of which no accelerations are known.
+    /// A moving joint of the tool, whose accelerations are unknown.
     #[error(
         "accelerations cannot be written: those of the tool's joint \"{joint}\", which moves at {time:.6} s, jump; write the two planned joints \
          alone (--joints planned), or leave out --accelerations"
@@ -25,7 +25,7 @@ pub enum MessageError {
     Tool {
         /// The joint's name in the URDF.
         joint: String,
-        /// When it moves first, seconds from the beginning.
+        /// Time at which it first moves, seconds from the beginning.
         time: f64,
     },
     /// A wrist that cannot keep up.
@@ -36,9 +36,9 @@ pub enum MessageError {
     Wrist {
         /// The joint's name in the URDF.
         joint: String,
-        /// When that would be, seconds from the beginning.
+        /// Time of the violation, seconds from the beginning.
         time: f64,
-        /// What it would do.
+        /// The violation, in words.
         what: String,
     },
 }
@@ -46,9 +46,10 @@ pub enum MessageError {
 /// The motion of all joints that messages name, as one and step by step.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Messages {
-    /// The whole task, standing still included.
+    /// The whole task, including the times at which the arm stands still.
     pub whole: JointMotion,
-    /// Of each step, when it begins, seconds, and its motion up to where the last of these joints comes to rest.
+    /// For each step, the time at which it begins, seconds, and its motion until the last of these joints comes to
+    /// rest.
     pub steps: Vec<(f64, JointMotion)>,
 }
 
@@ -56,7 +57,8 @@ pub struct Messages {
 const ROUNDING: f64 = 1e-6;
 
 impl Messages {
-    /// Of the steps of a sequence, with the accelerations of the arm, and none of the tool.
+    /// Returns the messages for the steps of a sequence, with the accelerations of the arm, and no accelerations of the
+    /// tool.
     pub fn new(robot: &RobotJoints, task: &Task, legs: &[Leg], sequence: &Sequence) -> Result<Self, MessageError> {
         let mut tool = Tool { robot, task, wrist: robot.wrist.as_ref().map_or(0.0, |joint| joint.rest) };
         let mut whole = Rows::default();
@@ -73,13 +75,14 @@ impl Messages {
 }
 
 impl Messages {
-    /// The same for readers that join samples by cubics.
+    /// Returns the same for readers that join samples by cubics.
     pub fn without_accelerations(self) -> Self {
         let steps = self.steps.into_iter().map(|(begin, motion)| (begin, motion.without_accelerations()));
         Self { whole: self.whole.without_accelerations(), steps: steps.collect() }
     }
 
-    /// Whether quintics are the motion of the tool, too: it does not move, because its acceleration would jump.
+    /// Checks that quintics describe the motion of the tool, too: it must not move, because its acceleration would
+    /// jump.
     pub fn check_accelerations(&self, robot: &RobotJoints) -> Result<(), MessageError> {
         let tool = |driver: Driver| matches!(driver, Driver::Stroke | Driver::Wrist);
         let moved = |(k, joint): (usize, &RobotJoint)| {
@@ -93,7 +96,7 @@ impl Messages {
     }
 }
 
-/// What drives the joints at a nanosecond.
+/// The values that drive the joints at one nanosecond.
 #[derive(Debug, Clone, Copy)]
 struct Row {
     at: u64,
@@ -103,12 +106,13 @@ struct Row {
     pull: [f64; 2],
 }
 
-/// Rows in the order of time.
+/// Rows in chronological order.
 #[derive(Debug, Default)]
 struct Rows(Vec<Row>);
 
 impl Rows {
-    /// Of two rows at one time the later counts: its acceleration is that of the interval which begins.
+    /// Adds a row. It replaces an earlier row at the same time, since its acceleration is that of the interval that
+    /// begins there.
     fn push(&mut self, row: Row) {
         self.0.pop_if(|last| last.at == row.at);
         self.0.push(row);
@@ -126,7 +130,7 @@ impl Rows {
     }
 }
 
-/// The tool on its way through the steps.
+/// The state of the tool during the steps.
 struct Tool<'a> {
     robot: &'a RobotJoints,
     task: &'a Task,
@@ -135,7 +139,7 @@ struct Tool<'a> {
 }
 
 impl Tool<'_> {
-    /// A step, which begins, arrives and ends at these nanoseconds.
+    /// Returns the rows of a step that begins, arrives and ends at these nanoseconds.
     fn rows(&mut self, leg: &Leg, [begin, arrival, end]: [u64; 3]) -> Rows {
         let mut rows = Rows::default();
         let trajectory = &leg.timed.trajectory;
@@ -152,7 +156,7 @@ impl Tool<'_> {
         let Some(&Row { value, .. }) = rows.0.last() else { return rows };
         self.wrist = value.wrist;
         let mut still = Row { at: arrival, value, rate: Drives::default(), pull: [0.0; 2] };
-        // A place turns before it lowers the tool, a pick after it has raised it.
+        // In a place step, the wrist turns before the tool is lowered; in a pick, after it has been raised.
         let places = matches!(leg.event, Some(Event::Release { .. }));
         if places {
             self.turn(leg, &mut still, &mut rows);
@@ -163,13 +167,13 @@ impl Tool<'_> {
         if !places {
             self.turn(leg, &mut still, &mut rows);
         }
-        // The whole ends when the sequence says, to the nanosecond.
+        // The whole motion ends with the sequence, to the nanosecond.
         rows.0.pop_if(|last| last.at >= end);
         rows.push(Row { at: end, ..still });
         rows
     }
 
-    /// Value and rate of the wrist's joint at a sample of the arm's motion.
+    /// Returns value and rate of the wrist's joint at a sample of the arm's motion.
     fn underway(&self, leg: &Leg, k: usize) -> [f64; 2] {
         let (Some(joint), Some(limits)) = (&self.robot.wrist, self.task.wrist) else { return [self.wrist, 0.0] };
         let trajectory = &leg.timed.trajectory;
@@ -191,7 +195,7 @@ impl Tool<'_> {
         }
     }
 
-    /// By how much link 2 is turned, or how fast.
+    /// Returns the turn of link 2, or its rate.
     fn turned(&self, planned: [f64; 2]) -> f64 {
         let of = |k: usize| match self.task.arm.joints[k].joint_type {
             JointType::Revolute { sign } => sign * planned[k],
@@ -200,7 +204,7 @@ impl Tool<'_> {
         of(0) + of(1)
     }
 
-    /// Turns the wrist from a row on, while all else stands.
+    /// Turns the wrist from a row on, while everything else stands still.
     fn turn(&mut self, leg: &Leg, still: &mut Row, rows: &mut Rows) {
         let (Some((turn, seconds)), Some(limits)) = (leg.turn, self.task.wrist) else { return };
         let Some(joint) = &self.robot.wrist else {
@@ -217,7 +221,7 @@ impl Tool<'_> {
         self.wrist = still.value.wrist;
     }
 
-    /// Lowers the tool from a row on, or raises it, while all else stands.
+    /// Lowers or raises the tool from a row on, while everything else stands still.
     fn stroke(&self, leg: &Leg, up: bool, still: &mut Row, rows: &mut Rows) {
         let (Some(stroke), Some(limits)) = (leg.stroke, &self.task.stroke) else { return };
         if self.robot.stroke.is_none() {
@@ -229,13 +233,13 @@ impl Tool<'_> {
         let (from, samples) = (still.at, single((ends[1] - ends[0]).abs(), limits.velocity, limits.acceleration));
         for (k, [time, way, speed]) in samples.iter().enumerate() {
             still.at = from + nanoseconds(*time);
-            // Exactly where it ends, whatever the rounding of the way.
+            // The end is exact in spite of rounding.
             still.value.stroke = if k + 1 == samples.len() { ends[1] } else { ends[0] + sign * way };
             rows.push(Row { rate: Drives { stroke: sign * speed, ..Drives::default() }, ..*still });
         }
     }
 
-    /// Whether the wrist's joint keeps its range and its top speed.
+    /// Checks that the wrist's joint keeps its range and its top speed.
     fn check(&self, rows: &Rows) -> Result<(), MessageError> {
         let (Some(joint), Some(limits)) = (&self.robot.wrist, self.task.wrist) else { return Ok(()) };
         let what = |row: &Row| beyond(joint, limits, row.value.wrist, row.rate.wrist);
@@ -246,14 +250,14 @@ impl Tool<'_> {
     }
 }
 
-/// How much of a way the wrist can go in a time, from rest to rest along a cubic: its top speed is 1.5 times the mean one, its
-/// greatest acceleration 6 times the way over the squared time.
+/// Returns how much of a distance the wrist can cover in a given time, from rest to rest along a cubic. Its top speed
+/// is 1.5 times the mean speed, and its greatest acceleration is 6 times the distance over the squared time.
 fn back(way: f64, duration: f64, limits: Wrist) -> f64 {
     let most = (limits.velocity * duration / 1.5).min(limits.acceleration * duration * duration / 6.0);
     way.clamp(-most, most)
 }
 
-/// What a joint would have to do that it cannot, in words.
+/// Describes the violation, if a joint exceeds its speed or range.
 fn beyond(joint: &ToolJoint, limits: Wrist, value: f64, rate: f64) -> Option<String> {
     if rate.abs() > limits.velocity * (1.0 + ROUNDING) {
         return Some(format!("turn at {:.3} rad/s, and its top speed is {} rad/s", rate.abs(), limits.velocity));

@@ -1,4 +1,4 @@
-//! What is read off a plan: its figures, its JSON and its files.
+//! The results of a plan: its figures, its JSON and its files.
 
 mod files;
 mod json;
@@ -20,7 +20,7 @@ use cplan_solver::{Bound, Planner, Setting, Settings};
 use cplan_tasks::FailedStep;
 
 impl Plan {
-    /// Returns why there is no motion, or why none is known; none if there is one.
+    /// Returns the reason why there is no motion, or why it is unknown. `None` if there is a motion.
     #[must_use]
     pub fn reason(&self) -> Option<String> {
         match self.detail() {
@@ -29,7 +29,8 @@ impl Plan {
         }
     }
 
-    /// Returns the waypoints that the motion follows, but for its blends: straight segments between them. Of a task those of all its motions.
+    /// Returns the waypoints of the straight segments that the motion follows, apart from blends. For a task, those of
+    /// all its motions.
     #[must_use]
     pub fn waypoints(&self) -> Option<Vec<[f64; 2]>> {
         match self.detail() {
@@ -47,7 +48,7 @@ impl Plan {
         }
     }
 
-    /// Returns the Euclidean length of the path in joint space; of a task that of all its motions.
+    /// Returns the Euclidean length of the path in joint space. For a task, that of all its motions.
     #[must_use]
     pub fn length(&self) -> Option<f64> {
         match self.detail() {
@@ -58,14 +59,14 @@ impl Plan {
         }
     }
 
-    /// Returns how long the motion takes, seconds.
+    /// Returns the duration of the motion, seconds.
     #[must_use]
     pub fn duration(&self) -> Option<f64> {
         self.trajectory().map(Trajectory::duration)
     }
 
-    /// Returns a proven lower bound on the distance between arm and obstacles all the time, metres. None without a motion, and where nothing
-    /// can be hit.
+    /// Returns a proven lower bound on the distance between arm and obstacles at all times, metres. `None` if there is
+    /// no motion, or no obstacle is within reach.
     #[must_use]
     pub fn clearance(&self) -> Option<f64> {
         match self.detail() {
@@ -83,13 +84,13 @@ impl Plan {
         Some(problem.scene().describe(nearest.contact.pair))
     }
 
-    /// Returns how far the path of a single motion is from the optimum at the most, if the planner tells.
+    /// Returns the bounds on the path length of a single motion, if the planner computes them.
     #[must_use]
     pub fn bound(&self) -> Option<Bound> {
         self.motion().and_then(|(_, answer)| answer.bound())
     }
 
-    /// Returns how the motion gets by what moves, if anything does.
+    /// Returns how the motion passes moving obstacles, if there are any.
     #[must_use]
     pub fn timing(&self) -> Option<&Timing> {
         match self.detail() {
@@ -98,7 +99,7 @@ impl Plan {
         }
     }
 
-    /// Returns how the planner searched its grid, or its roadmap if that is not by the usual search.
+    /// Returns how the planner searched its grid, or its roadmap if it did not use the usual search.
     #[must_use]
     pub fn search(&self) -> Option<SearchUsed> {
         search_used(&self.options().planner)
@@ -109,7 +110,7 @@ fn waypoints(path: &Path) -> Vec<[f64; 2]> {
     path.waypoints().iter().map(|q| [q[0], q[1]]).collect()
 }
 
-/// Which step fails, in a sentence.
+/// Describes which step fails, in a sentence.
 fn reason(task: &Task, FailedStep { step, .. }: &FailedStep, status: Status) -> String {
     let cycle = if step.cycle > 1 { format!(" of cycle {}", step.cycle) } else { String::new() };
     let which = format!("step {}{cycle}, {} ({})", step.number, step.action.describe(&task.objects), step.place);
@@ -119,7 +120,7 @@ fn reason(task: &Task, FailedStep { step, .. }: &FailedStep, status: Status) -> 
     }
 }
 
-/// JSON has no word for what is infinite.
+/// Returns a finite value only. JSON cannot represent infinity.
 pub(super) fn finite(value: f64) -> Option<f64> {
     value.is_finite().then_some(value)
 }
@@ -134,7 +135,7 @@ fn optimum(bound: Bound) -> Optimum {
     Optimum { metric, weights, length: bound.upper, lower_bound: bound.lower, gap: finite(bound.gap()) }
 }
 
-/// How a planner searches its grid, or its roadmap if that is not by the usual search.
+/// Returns how a planner searches its grid, or its roadmap if it does not use the usual search.
 fn search_used(planner: &Planner) -> Option<SearchUsed> {
     let Settings { grid_search, ties, forward, neighborhood, .. } = planner.settings();
     if planner.method().reads(Setting::GridSearch) {

@@ -1,4 +1,4 @@
-//! The steps of a task as its result has them in JSON.
+//! The steps of a task in the JSON of a result.
 
 use super::finite;
 use cplan_core::check::CheckedProof;
@@ -9,15 +9,15 @@ use cplan_tasks::{Event, FailedStep, Leg, RefusedIkSolution, Sequence, TaskAnswe
 use serde::Serialize;
 use std::borrow::Cow;
 
-/// What a step does, in one word.
+/// The kind of a step, in one word.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum ActionName {
-    /// Takes an object.
+    /// Picks an object.
     Pick,
-    /// Lets go of one.
+    /// Releases an object.
     Place,
-    /// Goes somewhere and handles nothing there.
+    /// Moves somewhere without handling an object.
     Move,
 }
 
@@ -36,35 +36,36 @@ impl From<&Action> for ActionName {
 pub struct TurnReport {
     /// Orientation of the object at the beginning, radians.
     pub from: f64,
-    /// At the end; beyond the beginning in the direction of the turn.
+    /// Orientation at the end, radians: beyond the beginning in the direction of the turn.
     pub to: f64,
-    /// How long it takes.
+    /// Duration of the turn.
     pub seconds: f64,
-    /// Proven lower bound on the distance between the object and obstacles, metres; none where nothing can be hit.
+    /// Proven lower bound on the distance between the object and obstacles, metres. `None` if no obstacle is within
+    /// reach.
     pub clearance: Option<f64>,
 }
 
-/// The tool goes down, and up again after the gripper's work, while the arm stands still.
+/// The stroke of the tool: it is lowered, and raised again after the gripper's action, while the arm stands still.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct StrokeReport {
     /// The joint's value while the tool is raised, metres.
     pub raised: f64,
-    /// The same while it is lowered.
+    /// The joint's value while it is lowered, metres.
     pub lowered: f64,
-    /// How long either way takes.
+    /// Duration of lowering, and of raising.
     pub seconds: f64,
-    /// Proven lower bound on the distance to obstacles, metres; none where nothing can be hit.
+    /// Proven lower bound on the distance to obstacles, metres. `None` if no obstacle is within reach.
     pub clearance: Option<f64>,
 }
 
-/// A step as it is done: a motion from rest to rest, and standing still.
+/// A step of the answer: a motion from rest to rest, and a rest.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct StepReport {
-    /// Its number in the world file, from 1.
+    /// The step's number in the world file, from 1.
     pub step: usize,
-    /// Which repetition of it this is, from 1.
+    /// The repetition of the step, from 1.
     pub cycle: usize,
-    /// What it does.
+    /// The kind of step.
     pub action: ActionName,
     /// The object that is picked or placed.
     pub object: Option<String>,
@@ -80,8 +81,8 @@ pub struct StepReport {
     pub path: Vec<[f64; 2]>,
     /// Euclidean length of the path in joint space.
     pub length: f64,
-    /// Proven lower bound on the distance between obstacles and the arm with what it carries during the step, metres; none
-    /// where nothing can be hit.
+    /// Proven lower bound on the distance between obstacles and the arm with its payload during the step, metres.
+    /// `None` if no obstacle is within reach.
     pub clearance: Option<f64>,
     /// The link (or payload) and the obstacle that come closest during the motion, in words.
     pub closest: Option<String>,
@@ -89,17 +90,17 @@ pub struct StepReport {
     pub blends: Blends,
     /// The turn of the wrist after the motion.
     pub turn: Option<TurnReport>,
-    /// How the tool is lowered at its end, where the world has a stroke.
+    /// The stroke of the tool at the end of the motion, if the world has one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stroke: Option<StrokeReport>,
-    /// The motion's first sample in the whole trajectory, from 0; none without a whole trajectory.
+    /// The motion's first sample in the whole trajectory, from 0. `None` without a whole trajectory.
     pub first_sample: Option<usize>,
-    /// Its last one, at which the arm stands.
+    /// The motion's last sample, at which the arm stands still.
     pub last_sample: Option<usize>,
 }
 
 impl StepReport {
-    /// Of step `index` of a sequence, whose trajectory is among the results if `is_whole`.
+    /// Reports step `index` of a sequence, whose trajectory is part of the result if `is_whole`.
     fn new(task: &Task, leg: &Leg, sequence: &Sequence, index: usize, is_whole: bool) -> Self {
         let curve = &leg.timed.curve;
         let path = curve.curve().path();
@@ -138,7 +139,7 @@ impl StepReport {
     }
 }
 
-/// The steps of an answer, and what the gripper does in them.
+/// Reports the steps of an answer, and the events of the gripper.
 pub fn step_reports(task: &Task, answer: &TaskAnswer) -> (Vec<StepReport>, Vec<EventReport>) {
     let (sequence, is_whole) = match answer.outcome.found() {
         Some(motion) => (Cow::Borrowed(&motion.sequence), true),
@@ -150,47 +151,47 @@ pub fn step_reports(task: &Task, answer: &TaskAnswer) -> (Vec<StepReport>, Vec<E
     (steps.collect(), events.collect())
 }
 
-/// What the gripper does, in one word.
+/// The kind of a gripper event, in one word.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum EventName {
-    /// Takes an object.
+    /// Grasps an object.
     Grasp,
-    /// Lets go of it.
+    /// Releases the object.
     Release,
 }
 
-/// Where an object lies.
+/// The pose of an object.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct PoseReport {
-    /// Its origin in the plane, metres.
+    /// The object's origin in the plane, metres.
     pub at: [f64; 2],
-    /// Its orientation, radians.
+    /// The object's orientation, radians.
     pub angle: f64,
 }
 
-/// What the gripper does and when.
+/// An event of the gripper, with its time.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct EventReport {
     /// Seconds from the beginning of the task.
     pub time: f64,
-    /// What it does.
+    /// The kind of event.
     pub event: EventName,
-    /// With which object.
+    /// The object.
     pub object: String,
     /// Number of the step in the world file, from 1.
     pub step: usize,
-    /// Which repetition of it this is, from 1.
+    /// The repetition of the step, from 1.
     pub cycle: usize,
-    /// Where the tip is, metres.
+    /// Position of the tip, metres.
     pub tip: [f64; 2],
-    /// Where the object lies from then on, if it is let go of.
+    /// Pose of the object after its release.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pose: Option<PoseReport>,
 }
 
 impl EventReport {
-    /// Of step `index` of a sequence, if the gripper does something in it.
+    /// Reports the event of step `index` of a sequence, if it has one.
     fn new(task: &Task, leg: &Leg, sequence: &Sequence, index: usize) -> Option<Self> {
         let happens = leg.event?;
         let [_, arrival, end] = sequence.times(index);
@@ -215,14 +216,14 @@ impl EventReport {
     }
 }
 
-/// An IK solution at a step's target that the arm cannot take, or is not known to.
+/// An IK solution at a step's target that the arm cannot reach, or is not known to reach.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct IkSolutionReport {
     /// The values of both joints, radians or metres.
     pub joints: [f64; 2],
-    /// Why the arm cannot take it, in words.
+    /// The reason, in words, why the arm cannot reach it.
     pub reason: String,
-    /// Boxes of colliding configurations that separate it from where the arm stands, where that is the reason.
+    /// Boxes of colliding configurations that separate it from the arm's configuration, if that is the reason.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub proof: Option<CheckedProof>,
 }
@@ -236,30 +237,30 @@ impl From<&RefusedIkSolution> for IkSolutionReport {
 /// A step that cannot be done, or is not known to be possible.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct FailedStepReport {
-    /// Its number in the world file, from 1.
+    /// The step's number in the world file, from 1.
     pub step: usize,
-    /// Which repetition of it this is, from 1.
+    /// The repetition of the step, from 1.
     pub cycle: usize,
-    /// What it does, ...
+    /// The kind of step, ...
     pub action: ActionName,
-    /// ... and the same in a few words.
+    /// ... and a short description of it.
     pub description: String,
-    /// Where it stands in the world file: file, line and column.
+    /// Its position in the world file: file, line and column.
     pub place: String,
-    /// Why, with the motions that were tried, as [`FailedStep::reasons`] has it.
+    /// The reasons, with the motions that were tried, as in [`FailedStep::reasons`].
     pub reasons: Vec<String>,
-    /// The object that is carried then.
+    /// The object that is carried in the failing step.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub carried: Option<String>,
-    /// Joint values after the steps before.
+    /// Joint values after the earlier steps.
     pub from: [f64; 2],
-    /// The IK solutions that were tried from there; none if no IK solution within the joint limits reaches the target.
+    /// The IK solutions that were tried from there. Empty if no IK solution within the joint limits reaches the target.
     #[serde(rename = "postures")]
     pub ik_solutions: Vec<IkSolutionReport>,
 }
 
 impl FailedStepReport {
-    /// The first step of a task that cannot be done, and why.
+    /// Reports the first step of a task that cannot be done, with the reasons.
     pub fn new(task: &Task, why: &FailedStep) -> Self {
         let FailedStep { step, reasons, scene, from, ik_solutions } = why;
         Self {

@@ -16,7 +16,7 @@ use std::time::Duration;
 use tokio::net::TcpListener;
 use tokio::sync::Semaphore;
 
-/// Connections at a time. A browser opens some six.
+/// Greatest number of simultaneous connections. A browser opens some six.
 const MOST_CONNECTIONS: usize = 32;
 
 /// Time that a client has to send the head of a request.
@@ -26,7 +26,7 @@ const HEAD_TIME: Duration = Duration::from_secs(10);
 /// clients that send requests and never read would block all others.
 const LIFE: Duration = Duration::from_secs(10);
 
-/// Bytes of the head of a request.
+/// Greatest size of the head of a request, bytes.
 const LARGEST_HEAD: usize = 16 << 10;
 
 /// Headers of every response. The page is one file, the same for every world (its data comes by the WebSocket, and is
@@ -54,7 +54,7 @@ pub async fn serve(listener: TcpListener, server: Arc<Server>) {
         .with_state(server);
     let room = Arc::new(Semaphore::new(MOST_CONNECTIONS));
     loop {
-        // A permit is never refused: the semaphore is never closed.
+        // The permit is always granted in the end, because the semaphore is never closed.
         let Ok(permit) = Arc::clone(&room).acquire_owned().await else { return };
         let stream = match listener.accept().await {
             Ok((stream, _)) => stream,

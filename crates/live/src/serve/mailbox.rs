@@ -5,7 +5,7 @@ use cplan_interrupt::Interrupt;
 use std::collections::VecDeque;
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 
-/// Requests that may wait at a time; of plans only the latest waits.
+/// Greatest number of waiting requests; of plans only the latest waits.
 const MOST_WAITING: usize = 8;
 
 /// A mailbox between the connection that adds requests and the worker that takes them.

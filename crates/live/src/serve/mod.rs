@@ -23,7 +23,7 @@ const MOST_PAGES: usize = 8;
 
 /// The state that all connections share.
 struct Server {
-    /// Its address.
+    /// Address of the server.
     address: SocketAddr,
     /// Room for pages.
     sessions: Arc<Semaphore>,

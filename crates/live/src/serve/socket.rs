@@ -23,13 +23,13 @@ const SEND_TIME: Duration = Duration::from_secs(20);
 /// Interval of checks whether a page is still connected.
 const PING: Duration = Duration::from_secs(20);
 
-/// A page that has said nothing for so long is gone.
+/// Time without any message after which a page counts as gone.
 const SILENCE: Duration = Duration::from_secs(70);
 
 /// Stack of a worker: as much as the main thread has.
 const STACK: usize = 8 << 20;
 
-/// Serves one page until it is closed. The permit is its place among those that may be open.
+/// Serves one page until it is closed. The permit counts it among the open pages.
 pub async fn session(mut socket: WebSocket, host: Arc<Host>, permit: OwnedSemaphorePermit) {
     let mailbox = Arc::new(Mailbox::default());
     let (send, mut replies) = mpsc::channel(WAITING);

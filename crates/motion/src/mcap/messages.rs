@@ -125,7 +125,7 @@ pub fn joint_trajectory(motion: &JointMotion) -> Vec<u8> {
     cdr.into_bytes()
 }
 
-/// The frame in which all others are: that of the robot's root.
+/// The frame of all others: that of the robot's root.
 const WORLD: &str = "world";
 
 /// Returns the bytes of [`TRANSFORMS`]: names of frames, and their poses from a time on.
@@ -156,11 +156,11 @@ pub fn markers(stage: &Stage) -> Vec<u8> {
         cdr.string(&solid.name);
         cdr.i32(number);
         cdr.i32(TRIANGLES);
-        // Add.
+        // Action "add".
         cdr.i32(0);
         [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0].iter().chain(&[1.0; 3]).for_each(|&value| cdr.f64(value));
         solid.color.iter().chain(&[1.0]).for_each(|&value| cdr.f32(value));
-        // For ever, and with its frame.
+        // The marker has no end, and moves with its frame.
         since(&mut cdr, 0);
         cdr.u8(1);
         let corners = stage.triangles(solid);

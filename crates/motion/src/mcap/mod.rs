@@ -14,18 +14,19 @@ use messages::{JOINT_STATE, JOINT_TRAJECTORY, MARKERS, POINTS, TRANSFORMS, Type}
 use std::collections::BTreeMap;
 use std::io::Cursor;
 
-/// Motions as an MCAP file (version 0, profile `ros2`), as if somebody had recorded them: on `/joint_states` a
-/// `sensor_msgs/msg/JointState` a sample, on `/joint_trajectory` a `trajectory_msgs/msg/JointTrajectory` a motion, written
-/// when it begins. The definitions of all messages are in the file. Chunks are not compressed.
+/// Writes motions as an MCAP file (version 0, profile `ros2`), like a recording of a robot. `/joint_states` has a
+/// `sensor_msgs/msg/JointState` per sample, and `/joint_trajectory` a `trajectory_msgs/msg/JointTrajectory` per motion,
+/// at its beginning. The definitions of all messages are in the file. Chunks are not compressed.
 ///
-/// With a `stage` there is something to see, too: on `/tf` where bodies are whenever they move (`tf2_msgs/msg/TFMessage`, about
-/// the frame `world`, that of the robot's root), and, once, their surfaces on `/scene` (`visualization_msgs/msg/MarkerArray`, for
-/// RViz and Foxglove) and points along their rims, a topic a body below `/outlines` (`sensor_msgs/msg/PointCloud2`, for Rerun).
+/// With a `stage`, the file also has data for display. `/tf` has the poses of bodies whenever they move
+/// (`tf2_msgs/msg/TFMessage`, relative to the frame `world`, that of the robot's root). `/scene` has their surfaces,
+/// once (`visualization_msgs/msg/MarkerArray`, for RViz and Foxglove). Topics below `/outlines`, one per body, have
+/// points along their rims (`sensor_msgs/msg/PointCloud2`, for Rerun).
 ///
-/// Each motion comes with the time at which it begins, seconds from the beginning of the recording; the caller puts them
-/// in order. A motion that begins when the one before ends has no state of its own for that moment. Times of the log, the
-/// stamps of states and `time_from_start` are the same nanoseconds, values the motion's own `f64`. The same motions give the
-/// same bytes.
+/// Each motion comes with its start time, seconds from the beginning of the recording; the caller puts the motions in
+/// order. A motion that begins when the previous one ends has no state of its own for that moment. Times of the log,
+/// the stamps of states and `time_from_start` are the same nanoseconds, and values are the motion's own `f64`. The same
+/// motions give the same bytes.
 /// Linear in the number of samples, some 250 bytes each, and as many for the poses of an arm.
 #[must_use]
 pub fn mcap(motions: &[(&JointMotion, f64)], stage: Option<&Stage>) -> Vec<u8> {
@@ -36,7 +37,7 @@ fn write(motions: &[(&JointMotion, f64)], stage: Option<&Stage>) -> McapResult<V
     let options = WriteOptions::new()
         .profile("ros2")
         .library(concat!("cplan ", env!("CARGO_PKG_VERSION")))
-        // The default depends on the features that other users of the crate have chosen.
+        // The crate's default depends on features that other crates may enable.
         .compression(None);
     let mut file = Recording { writer: options.create(Cursor::new(Vec::new()))? };
     let states = file.channel("/joint_states", &JOINT_STATE)?;

@@ -11,45 +11,45 @@ use std::f64::consts::TAU;
 pub struct Stage {
     /// The plane of motion.
     pub plane: Plane,
-    /// The first one does not move: what stays where it is.
+    /// The bodies. The first one contains everything static, and does not move.
     pub bodies: Vec<Body>,
     /// Poses in order of time: seconds from the beginning, number of a body, its pose from then on, and its lift along
     /// the plane's normal, metres.
     pub poses: Vec<(f64, usize, Pose, f64)>,
-    /// The size of all this, metres: that of the arm.
+    /// The size of the stage, metres: that of the arm.
     pub size: f64,
 }
 
-/// Something rigid.
+/// A rigid body.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Body {
     /// Name of its frame. The frame of the first body is the parent of all others.
     pub name: String,
-    /// Its solids in the frame, whose axes are those of the plane and a normal.
+    /// The body's solids in its frame, whose axes are those of the plane and a normal.
     pub solids: Vec<Solid>,
 }
 
 /// Convex pieces of one colour.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Solid {
-    /// A name for people.
+    /// A name for display.
     pub name: String,
     /// Red, green and blue, 0 to 1.
     pub color: [f32; 3],
-    /// Each with its extent along the plane's normal.
+    /// The pieces, each with its extent along the plane's normal.
     pub pieces: Vec<(Convex, Heights)>,
 }
 
 /// A point of space, metres.
 pub type Place = [f64; 3];
 
-/// Corners of a round end: with a chord of less than 2 % of the radius.
+/// Number of chords round a full circle: each chord is shorter than 2 % of the radius from the arc.
 const ROUND: f64 = 16.0;
 
-/// Part of the size to which things are high that have no end, where nothing has one.
+/// Height of bodies with infinite extent, if no body has a finite one, as a share of the size.
 const THIN: f64 = 0.02;
 
-/// Part of the size between points of outlines.
+/// Distance between points of outlines, as a share of the size.
 const SPACING: f64 = 0.01;
 
 impl Stage {
@@ -91,7 +91,7 @@ impl Stage {
         self.poses.iter().filter_map(moved).collect()
     }
 
-    /// Corners of triangles, three by three, of a solid in its frame.
+    /// Returns the corners of triangles, three by three, of a solid in its frame.
     pub fn triangles(&self, solid: &Solid) -> Vec<Place> {
         let mut corners = Vec::new();
         for (piece, heights) in &solid.pieces {
@@ -110,7 +110,7 @@ impl Stage {
         corners
     }
 
-    /// Points along the lower and the upper rims of a body's pieces, in its frame.
+    /// Returns points along the lower and the upper rims of a body's pieces, in its frame.
     pub fn rims(&self, body: &Body) -> Vec<Place> {
         let mut points = Vec::new();
         for (piece, heights) in body.solids.iter().flat_map(|solid| &solid.pieces) {
@@ -136,7 +136,7 @@ impl Stage {
     }
 }
 
-/// Corners round a piece, counter-clockwise, its round ends as chords.
+/// Returns the corners around a piece, counter-clockwise, with chords for its round ends.
 fn ring(piece: &Convex) -> Vec<Point> {
     let (core, radius) = (piece.core(), piece.radius().max(0.0));
     if radius == 0.0 {

@@ -1,4 +1,4 @@
-//! Continuous collision check of a recorded motion: is it free, and if not, where does it hit first?
+//! Continuous collision check of a recorded motion, with the first place of contact.
 
 use super::tool::ToolMotion;
 use crate::{Place, Span};
@@ -13,11 +13,11 @@ use std::borrow::Cow;
 /// The proven clearance is at least this share of the true one, as for [`super::certify`].
 const TIGHTNESS: f64 = 0.9;
 
-/// Looks at pairs and spans of a motion before giving up: some seconds' worth.
+/// Greatest number of checks of a pair and a span: some seconds' worth.
 const MAX_EVALUATIONS: usize = 20_000_000;
 
-/// Looks that are left once some span stays open: the motion cannot be proven free any more, only a contact can still
-/// decide, and a motion that slides along an obstacle leaves spans open without end.
+/// Number of further checks after some span stays undecided. Then the motion cannot be proven free any more, and only a
+/// contact can still decide. A motion that slides along an obstacle would leave an endless number of spans undecided.
 const MORE_EVALUATIONS: usize = 200_000;
 
 /// Number of configurations sampled in advance, evenly over the pieces. They show how close the motion comes, and so
@@ -53,7 +53,7 @@ impl Moment {
 /// A pair of shapes at a moment of a motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Encounter {
-    /// When and where on the motion that is.
+    /// The moment on the motion.
     pub moment: Moment,
     /// The shapes and their signed distance then.
     pub contact: Contact,
@@ -62,20 +62,20 @@ pub struct Encounter {
 /// Result of the continuous check of a motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum CollisionCheck {
-    /// Proven: the whole motion keeps more than zero and at least the clearance asked for.
+    /// Proven: the whole motion keeps more than zero and at least the required clearance.
     Free {
-        /// Lower bound on the distance between arm and obstacles along the whole motion, metres; infinite if nothing can
-        /// meet. At least 0.9 of the true value, unless the clearance asked for is nearer to it.
+        /// Lower bound on the distance between arm and obstacles along the whole motion, metres; infinite if nothing
+        /// can meet. At least 0.9 of the true value, unless the required clearance is nearer to it.
         clearance: f64,
         /// The nearest place found; `None` if nothing can meet.
         nearest: Option<Encounter>,
     },
     /// Proven: the motion touches an obstacle, or comes nearer to it than the clearance to keep.
     Collision {
-        /// The earliest contact that was found.
+        /// The earliest contact found.
         first: Encounter,
-        /// Before this time on the same clock the motion is proven free: unless the motion grazes an obstacle before,
-        /// a trillionth of a piece before `first`.
+        /// Time before which the motion is proven free, on the same clock. Unless the motion grazes an obstacle
+        /// earlier, it is a trillionth of a piece before `first`.
         free_until: f64,
         /// The least signed distance that was seen anywhere on the motion.
         deepest: Encounter,
@@ -125,8 +125,8 @@ fn all_pairs<'a>(scene: &'a Scene, recording: &Recording) -> Cow<'a, [Pair]> {
     if moving.is_empty() { scene.pairs().into() } else { [scene.pairs(), moving].concat().into() }
 }
 
-/// The same of what moves alone, on the recording's clock from its first sample on: the arm's motion in time is certified if it is known to be
-/// free of what stands, as the motion along a [`crate::CertifiedCurve`] is.
+/// Checks against moving obstacles only, on the recording's clock from its first sample on. The arm's motion in time is
+/// certified if it is also known to be free of static obstacles, as the motion along a [`crate::CertifiedCurve`] is.
 #[must_use]
 pub fn certify_in_time(scene: &Scene, recording: &Recording, clearance: f64) -> CollisionCheck {
     check_pairs(scene, scene.moving_pairs().into(), recording, clearance)
@@ -163,7 +163,7 @@ struct Search<'a> {
     tool: Option<&'a ToolMotion<'a>>,
     /// A bound is accepted if it is at least this share of the least distance seen.
     tightness: f64,
-    /// Least of the bounds that were accepted.
+    /// Least of the accepted bounds.
     proven: f64,
     /// Least distance seen.
     least: Option<Encounter>,
@@ -172,7 +172,7 @@ struct Search<'a> {
     /// The earliest undecided span, and the nearest pair there.
     open: Option<(Place, Encounter)>,
     evaluations: usize,
-    /// Evaluations after which spans are halved no more.
+    /// Number of checks after which spans are not halved further.
     budget: usize,
 }
 
@@ -273,11 +273,11 @@ impl<'a> Search<'a> {
         self.scene.mover(pair).map(|mover| mover.course.drift(time(from), time(to)))
     }
 
-    /// Takes note of a distance on the motion.
+    /// Records a distance on the motion.
     fn see(&mut self, place: Place, contact: Contact) {
         let distance = contact.separation.distance;
         let encounter = Encounter { moment: Moment::new(place.0, &self.pieces[place.0], place.1), contact };
-        // Of those that are as near the earliest.
+        // Among equally near places, the earliest counts.
         let rank = |of: &Encounter| (of.contact.separation.distance, of.moment.time);
         let nearer = |than: &Encounter| rank(&encounter) < rank(than);
         if self.least.as_ref().is_none_or(nearer) {
@@ -316,7 +316,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Drops the pairs that are proven to keep their distance all over the span.
+    /// Drops the pairs that are proven to keep their distance in the whole span.
     fn judge(&mut self, span: Span, pairs: &mut Vec<Pair>) {
         self.keep_meeting(span, pairs);
         let (middle, deviation) = span.deviation(self.pieces);

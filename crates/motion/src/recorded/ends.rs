@@ -12,7 +12,7 @@ pub const ENDS_WITHIN: f64 = 1e-5;
 /// A difference from the required start or goal.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum Miss {
-    /// It begins elsewhere.
+    /// The motion begins elsewhere.
     #[error("the motion begins at ({}, {}), not at the start ({}, {})", is[0], is[1], start[0], start[1])]
     Start {
         /// The recorded start.
@@ -20,7 +20,7 @@ pub enum Miss {
         /// The required start.
         start: Configuration,
     },
-    /// It ends elsewhere.
+    /// The motion ends elsewhere.
     #[error("the motion ends at ({}, {}), not at the goal ({}, {})", is[0], is[1], goal[0], goal[1])]
     Goal {
         /// The recorded end.
@@ -34,7 +34,7 @@ pub enum Miss {
         /// Distance of the tip from there, metres.
         off: f64,
     },
-    /// The tip is not where it was to go.
+    /// The tip does not end at its required place.
     #[error("the motion ends with the tip {off:.6} m from the goal")]
     Tip {
         /// Distance of the tip from there, metres.

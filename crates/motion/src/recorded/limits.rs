@@ -47,18 +47,18 @@ pub enum Limit {
     RestAtEnd,
 }
 
-/// A limit that is not kept.
+/// A violated limit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Excess {
     /// 0 or 1.
     pub joint: usize,
-    /// The limit that is broken.
+    /// The violated limit.
     pub limit: Limit,
     /// The allowed value, in the unit of `value`: the nearer end of the range, or a magnitude; 0 for rest and jumps.
     pub allowed: f64,
     /// The joint's position, velocity, acceleration, jerk or change of acceleration where it exceeds the limit most.
     pub value: f64,
-    /// When that is.
+    /// Time of that value.
     pub moment: Moment,
 }
 
@@ -68,13 +68,12 @@ pub struct Excess {
 /// there are velocities. Without velocities, the velocity jumps at the samples, which does not show the intended
 /// motion.
 ///
-/// What a file states is judged as stated: its velocities and accelerations. So is what the consumer of its format makes of
-/// it between the samples ([`cplan_handling::Interpolation`]), by the extremes of each piece. A limit counts as broken if it is exceeded by more
-/// than 1e-6 of it and by more than the rounding of the recording's own numbers explains: for stated numbers half a unit of
-/// their last decimal, and between samples what such roundings make of a motion within the limits. (Six decimals at a
-/// millisecond's spacing leave the acceleration of a cubic open to some radians per squared second.) What rounding explains
-/// on short pieces it does not explain on long stretches: from any sample to any later one, too, the joint moves no farther
-/// than its top speed allows, and its stated velocity changes by no more than its acceleration does.
+/// Velocities and accelerations in a file are judged as stated. The interpolation of the file's consumer between the
+/// samples ([`cplan_handling::Interpolation`]) is judged by the extremes of each piece. A limit counts as broken if it
+/// is exceeded by more than 1e-6 of it and by more than the rounding of the recording's own numbers explains. For
+/// stated numbers that rounding is half a unit of their last decimal; between samples it is the resulting error of a
+/// motion within the limits. (Six decimals at a millisecond's spacing leave the acceleration of a cubic uncertain by
+/// some radians per squared second.)
 ///
 /// Rounding may explain excesses on short pieces, but not over long stretches. So between any two samples, the joint
 /// must not move farther than its top speed allows, and its stated velocity must not change by more than its
@@ -115,7 +114,7 @@ pub fn limits_kept(joints: &[Joint; 2], recording: &Recording) -> Vec<Excess> {
     found
 }
 
-/// Share of an effort by which a torque may be greater between two looks at it.
+/// Greatest relative change of a torque between two samples, as a share of the effort.
 const FINE: f64 = 1e-4;
 
 /// Returns the places at which the motion needs more torque than the joints' efforts, if motions of the scene's arm
@@ -171,7 +170,7 @@ struct Judge<'a> {
 }
 
 impl<'a> Judge<'a> {
-    /// Takes note of a value that is `over` its limit by more than may be.
+    /// Records a value that exceeds its limit by `over` more than allowed.
     fn note(&mut self, over: f64, limit: Limit, allowed: f64, value: f64, moment: Moment) {
         let excess = Excess { joint: self.k, limit, allowed, value, moment };
         match self.worst.iter_mut().find(|(_, known)| known.limit == limit) {
@@ -286,7 +285,7 @@ impl<'a> Judge<'a> {
 
     /// Judges the jerks of all pieces, and the jumps of the acceleration at their ends.
     fn jerks(&mut self, most: f64) {
-        // Where nothing moves.
+        // For joints that do not move.
         let still = (0.0, 0.0);
         let mut before = still;
         for (index, piece) in self.lasting() {
@@ -417,7 +416,7 @@ fn rounding(values: impl Iterator<Item = f64>) -> f64 {
     let (mut most, mut largest) = (0, 0.0_f64);
     for value in values {
         largest = largest.max(value.abs());
-        // Doubles have no more than 17 digits: nothing finer is to be found.
+        // Doubles have at most 17 digits, so there is nothing finer.
         if most < 17 {
             most = most.max(decimals(value));
         }
@@ -426,7 +425,7 @@ fn rounding(values: impl Iterator<Item = f64>) -> f64 {
     0.5 * 10f64.powi(-digits) + ULPS * f64::EPSILON * largest
 }
 
-/// Decimals of the shortest decimal number that reads as `value`.
+/// Returns the number of decimals of the shortest decimal number that reads as `value`.
 fn decimals(value: f64) -> i32 {
     let text = format!("{value:e}");
     let Some((mantissa, exponent)) = text.split_once('e') else { return 0 };

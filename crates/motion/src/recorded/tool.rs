@@ -10,20 +10,20 @@ use cplan_core::model::{Heights, Pair, Part, Scene};
 use cplan_geometry::{Convex, Point};
 use cplan_handling::{HeldEffect, HeldMotion, Piece};
 
-/// Largest distance of a round part from its axis of rotation, metres: rounding, as of heights.
+/// Greatest distance of a round part from its axis of rotation, metres: rounding, the same as for heights.
 const ON_AXIS: f64 = 1e-9;
 
 /// A joint that lifts some bodies.
 struct Lift<'a> {
     pieces: Vec<Piece>,
-    /// Its held value, and the direction of increasing values.
+    /// The value at which it is held, and the direction of increasing values.
     rest: f64,
     sign: f64,
     bodies: &'a [String],
 }
 
 impl Lift<'_> {
-    /// Bounds on how far it lifts during a span, from where it is held.
+    /// Returns bounds on its lift during a span, relative to the held value.
     fn extent(&self, span: Span) -> [f64; 2] {
         let (middle, deviation) = span.deviation(&self.pieces);
         let half = match deviation {
@@ -39,11 +39,11 @@ impl Lift<'_> {
 /// The arm's scene while other joints move.
 pub(super) struct ToolMotion<'a> {
     lifts: Vec<Lift<'a>>,
-    /// Parts at the heights where they are held; of what turns, discs.
+    /// The scene with parts at their held heights, and discs for parts that turn.
     still: Scene,
     /// The scene with parts at all heights of the motion, with the pairs that meet at some of them.
     swept: Scene,
-    /// For each part of both links, whether it covers more than the part itself.
+    /// For each part of both links, true if it covers more than the part itself.
     covers: [Vec<bool>; 2],
 }
 
@@ -91,7 +91,7 @@ impl<'a> ToolMotion<'a> {
         &self.swept
     }
 
-    /// Bounds on how far each joint lifts during a span.
+    /// Returns bounds on the lift of each joint during a span.
     pub fn extents(&self, span: Span) -> Vec<[f64; 2]> {
         self.lifts.iter().map(|lift| lift.extent(span)).collect()
     }

@@ -4,10 +4,10 @@ use cplan_core::space::Configuration;
 use cplan_dynamics::{Rates, Torques};
 use cplan_handling::{Derivative, Piece};
 
-/// Looks at a piece at the most.
+/// Greatest number of samples of a piece.
 const MOST_LOOKS: f64 = 4096.0;
 
-/// A moment of a motion.
+/// A sample of the torques.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TorqueLook {
     /// Share of the piece's time.
@@ -20,8 +20,8 @@ pub struct TorqueLook {
     pub off: [f64; 2],
 }
 
-/// Looks at the torques along a piece: so many that between two of them they change by no more than a share of the efforts, or some thousands
-/// where that would take more.
+/// Samples the torques along a piece, so densely that they change between two samples by at most a share of the
+/// efforts. The number of samples is limited to some thousands.
 pub fn torque_looks<'a>(torques: &Torques<'a>, piece: &Piece, fine: f64) -> impl Iterator<Item = TorqueLook> + use<'a> {
     let duration = piece.to - piece.from;
     let greatest = |of: Derivative| {

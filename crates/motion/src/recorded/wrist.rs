@@ -1,4 +1,4 @@
-//! A wrist that turns a payload while the arm stands still.
+//! A turn of a payload by a wrist while the arm is at rest.
 
 use cplan_core::model::{Arm, Payload, Workspace};
 use cplan_core::space::{Configuration, JointRange};
@@ -13,8 +13,8 @@ pub struct WristTurn {
     pub from: f64,
     /// Angle at the end: less than one turn from the beginning, in the direction of the turn.
     pub to: f64,
-    /// Proven lower bound on the distance between payload and obstacles, metres, supports aside; infinite if nothing can
-    /// be met.
+    /// Proven lower bound on the distance between payload and obstacles, metres, except its supports; infinite if
+    /// nothing can meet.
     pub clearance: f64,
 }
 
@@ -27,7 +27,7 @@ pub struct TurnContact {
     pub obstacle: usize,
 }
 
-/// Halvings of the interval in which the clearance of a turn is sought.
+/// Number of halvings in the search for the clearance of a turn.
 const HALVINGS: usize = 16;
 
 /// Returns the resolution, metres, of the clearance of a free turn, if the clearance is below the arm's reach.
@@ -35,8 +35,8 @@ pub(super) fn turn_resolution(arm: &Arm, clearance: f64) -> f64 {
     (clearance + arm.reach()) / f64::from(1u32 << (HALVINGS - 1))
 }
 
-/// Returns a free turn about the tip from one orientation to another while the arm stands at `q`: the shorter direction
-/// if it is free, else the longer; `None` if neither is. See [`given_turn`].
+/// Returns a free turn about the tip from one orientation to another while the arm rests at `q`: the shorter direction
+/// if it is free, otherwise the longer; `None` if neither is. See [`given_turn`].
 #[must_use]
 pub fn wrist_turn(
     arm: &Arm,
@@ -57,7 +57,7 @@ pub fn wrist_turn(
 }
 
 /// Judges the turn about the tip from one orientation to another, in the direction from the first to the second, while
-/// the arm stands at `q`. The payload's point `point` is at the tip. `O(n m)` for each pair of pieces; exact up to
+/// the arm rests at `q`. The payload's point `point` is at the tip. `O(n m)` for each pair of pieces; exact up to
 /// rounding, which is added to the required distance.
 ///
 /// # Errors
@@ -102,8 +102,8 @@ impl Turning {
     }
 
     fn judge(&self, [from, to]: [f64; 2]) -> Result<WristTurn, TurnContact> {
-        // The same turn from the copy nearest to zero: contacts are known there, and shifted by turns of a double they would
-        // be off by more than the margin.
+        // The turn uses the copy nearest to zero. Contacts are known there, and a shift by turns of a double would move
+        // them by more than the margin.
         let near = JointRange::Circle.wrap(from);
         match self.judge_near([near, near + (to - from)]) {
             Ok(free) => Ok(WristTurn { from, to, ..free }),

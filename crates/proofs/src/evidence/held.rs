@@ -1,32 +1,36 @@
-//! Along which part of a straight motion a pair of shapes is too near.
+//! Parts of straight motions along which a pair of shapes is too near.
 
 use cplan_core::check::{Deviation, Posture};
 use cplan_core::model::{Pair, Scene};
 use cplan_core::space::Configuration;
 use cplan_geometry::penetration_depth;
 
-/// Share of the lengths involved by which a depth must exceed the motion, far above the rounding of either.
+/// Margin by which a depth must exceed the motion, as a share of the lengths involved. It is far greater than the
+/// rounding of either.
 const ROUNDING: f64 = 1e-12;
 
-/// A look that covers less than this share of the segment is the last: towards its end shapes come apart.
+/// Least share of the segment that a test must cover. If a test covers less, the search stops: the shapes come apart
+/// there.
 const LEAST: f64 = 1e-12;
 
-/// The part of the motion between two configurations, about its middle, along which a pair is proven nearer than `clearance`,
-/// or to overlap: from a share of the way to another, with so many looks in either direction. Both are one half if there is none.
+/// Returns the part of a straight motion, around its middle, along which a pair is proven to be nearer than
+/// `clearance`, or to overlap. Two shares of the motion describe the part. There are at most `looks` tests in either
+/// direction. Both shares are one half if nothing is proven.
 ///
-/// Shapes that overlap by a depth do so until a point has moved as far: so each look covers some of the motion, and the next
-/// one looks at the end of that. Where the part slides without turning, its places relative to the piece are a straight
-/// segment, and those that overlap are a convex set, the Minkowski difference: what overlaps at both ends does so between.
+/// Shapes that overlap by a depth still overlap until a point has moved that far. So each test covers some of the
+/// motion, and the next test is at the end of that part. If the part slides without turning, its positions relative to
+/// the piece form a straight segment, and the overlapping positions form a convex set, the Minkowski difference. Then
+/// an overlap at both ends implies an overlap between them.
 pub(super) fn held(scene: &Scene, pair: Pair, ends: [Configuration; 2], clearance: f64, looks: usize) -> [f64; 2] {
     if scene.pairs().binary_search(&pair).is_err() {
         return [0.5; 2];
     }
     let piece = scene.piece(pair).grown(clearance);
-    // By how much they overlap for certain, and the posture there.
+    // Returns a lower bound on the overlap, and the posture there.
     let looked = |at: Configuration| {
         let posture = Posture::new(scene, at);
         let part = scene.part(pair).at(&scene.arm().pose(pair.link, at));
-        // What rounding makes of the place is far less than what it makes of the depth.
+        // The rounding of the position is far smaller than that of the depth.
         (penetration_depth(&part, &piece) - ROUNDING * posture.scale(part.core(), part.radius(), &piece), posture)
     };
     if slides(scene, pair, ends) && ends.iter().all(|&end| looked(end).0 > 0.0) {
@@ -39,7 +43,7 @@ pub(super) fn held(scene: &Scene, pair: Pair, ends: [Configuration; 2], clearanc
             if room <= 0.0 {
                 break;
             }
-            // A bound on motions grows at least as fast as they do.
+            // The bound on the motion grows at least as fast as the motion.
             let whole = posture.farthest_motion(pair, Deviation::Along(ends[1] - ends[0]));
             let step = room / whole * (1.0 - ROUNDING);
             covered += step;
@@ -55,7 +59,7 @@ pub(super) fn held(scene: &Scene, pair: Pair, ends: [Configuration; 2], clearanc
     [0.5 - along(-1.0), 0.5 + along(1.0)]
 }
 
-/// Whether no joint turns the part of a pair between two configurations.
+/// Returns true if no joint turns the part of a pair between two configurations.
 fn slides(scene: &Scene, pair: Pair, ends: [Configuration; 2]) -> bool {
     let joints = if pair.link == 2 { 1..=1 } else { 0..=pair.link };
     joints.into_iter().all(|k| ends[0][k] == ends[1][k] || !scene.arm().joints[k].joint_type.is_revolute())

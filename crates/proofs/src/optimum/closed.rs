@@ -1,4 +1,5 @@
-//! What is closed: for joint 1, for joint 2 at one value of joint 1, and along straight motions.
+//! Closed configurations, in which shapes are too near: values of joint 1, values of joint 2 at one value of joint 1,
+//! and straight motions.
 
 use crate::slab::{Eroded, OUTWARD};
 use cplan_core::check::{Deviation, Posture, STUCK_ROUNDING};
@@ -10,44 +11,45 @@ use std::cmp::Reverse;
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
-/// Times that a motion is halved before it counts as not proven.
+/// Number of times that a motion is halved before it counts as not proven.
 const HALVINGS: usize = 4;
 
-/// Values of joint 2 at which a pair is too near: within the domain on an interval; on a circle an arc whose end may be
-/// beyond its domain, by no more than a turn.
+/// Values of joint 2 at which a pair is too near. For a joint with limits they lie within the domain. On a circle they
+/// are an arc that may end beyond the domain, by at most a turn.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Wall {
-    /// Number of the pair, among those of link 2.
+    /// Number of the pair among those of link 2.
     pub pair: usize,
     pub lower: f64,
     pub upper: f64,
 }
 
-/// Pairs of link 2 at most. What fewer of them close is no more, so that the bound holds; with many it is hardly lower: they
-/// are smaller than the link, which keeps meeting others beside those that are left out.
+/// Maximum number of pairs of link 2. With fewer pairs, less is closed, so the bound stays valid. It hardly gets lower:
+/// with this many pairs, the pieces are smaller than the link, which still collides with others near those that are
+/// left out.
 pub(super) const MOST_PAIRS: usize = 4096;
 
-/// Slices times pairs at most, some seconds' worth.
+/// Maximum number of slices times pairs. This many take some seconds.
 const MOST_LOOKS: usize = 4_000_000;
 
 /// A pair of link 2.
 struct Prepared {
-    /// Its number among all.
+    /// Number among all pairs.
     index: usize,
-    /// None where the shapes are too thin to overlap by as much as rounding may amount to.
+    /// `None` if the shapes are too thin to overlap by more than the rounding error.
     eroded: Option<Eroded>,
     /// Half-planes of the piece's core.
     sides: Vec<(Vector, f64)>,
 }
 
-/// All that link 2 can meet.
+/// Everything that link 2 can collide with.
 pub(super) struct Closed<'a> {
     contacts: Contacts<'a>,
     clearance: f64,
     /// Half-planes of the cores of link 2's parts.
     sides: Vec<Vec<(Vector, f64)>>,
     pairs: Vec<Prepared>,
-    /// The pairs' places in that list.
+    /// Position of each pair in `pairs`.
     numbers: BTreeMap<Pair, usize>,
     scratch: Vec<[f64; 2]>,
 }
@@ -66,7 +68,7 @@ impl<'a> Closed<'a> {
         self.contacts.scene()
     }
 
-    /// Looks at some more pairs of link 2.
+    /// Adds some more pairs of link 2.
     pub fn add(&mut self, pairs: &[Pair]) {
         let all = self.scene().pairs();
         let numbers: Vec<usize> = pairs.iter().filter_map(|pair| all.binary_search(pair).ok()).collect();
@@ -83,19 +85,19 @@ impl<'a> Closed<'a> {
         }
     }
 
-    /// The pairs that are looked at: those of link 1, unless they are too many, and those of link 2; in their order.
+    /// Returns the pairs in use, in order: those of link 1, unless they are too many, and those of link 2.
     pub fn pairs(&self) -> Vec<Pair> {
         let first = self.contacts.second_link_pairs().start;
         let few = first <= MOST_PAIRS;
         self.scene().pairs()[..first].iter().filter(|_| few).chain(self.numbers.keys()).copied().collect()
     }
 
-    /// How many slices are worth looking at.
+    /// Returns the maximum number of slices worth examining.
     pub fn most_slices(&self) -> usize {
         MOST_LOOKS / self.pairs.len().max(1)
     }
 
-    /// The values of joint 1 at which link 1 is too near: disjoint, ascending.
+    /// Returns the values of joint 1 at which link 1 is too near: disjoint intervals, ascending.
     pub fn bands(&self) -> Vec<[f64; 2]> {
         let arm = self.scene().arm();
         let joint = &arm.joints[0];
@@ -112,7 +114,7 @@ impl<'a> Closed<'a> {
         bands
     }
 
-    /// What is closed at `q1`, in the order of the pairs.
+    /// Returns the walls at `q1`, in the order of the pairs.
     pub fn walls(&mut self, q1: f64) -> Vec<Wall> {
         checkpoint();
         let mut walls = Vec::new();
@@ -123,21 +125,21 @@ impl<'a> Closed<'a> {
         walls
     }
 
-    /// What a pair closes at `q1`.
+    /// Returns the walls of one pair at `q1`.
     pub fn walls_of(&mut self, number: usize, q1: f64) -> Vec<Wall> {
         let mut walls = Vec::new();
         self.add_walls(number, self.contacts.elbow(q1), &mut walls);
         walls
     }
 
-    /// The pairs by their numbers.
+    /// Returns the pairs in the order of their numbers.
     pub fn by_number(&self) -> Vec<Pair> {
         let mut pairs: Vec<(usize, Pair)> = self.numbers.iter().map(|(pair, number)| (*number, *pair)).collect();
         pairs.sort_unstable();
         pairs.into_iter().map(|(_, pair)| pair).collect()
     }
 
-    /// The number of a pair; none if it is not looked at.
+    /// Returns the number of a pair. Returns `None` if it is not in use.
     pub fn number(&self, pair: Pair) -> Option<usize> {
         self.numbers.get(&pair).copied()
     }
@@ -162,8 +164,8 @@ impl<'a> Closed<'a> {
         }
     }
 
-    /// Whether a pair is proven too near all along the straight motion between two configurations. True says so; false
-    /// says nothing.
+    /// Returns true if a pair is proven too near all along the straight motion between two configurations. False means
+    /// that this is unknown.
     pub fn all_along(&self, pair: usize, from: Configuration, to: Configuration) -> bool {
         self.halved(&self.pairs[pair], [from, to], HALVINGS)
     }
@@ -182,22 +184,23 @@ impl<'a> Closed<'a> {
             && self.halved(pair, [middle, ends[1]], halvings - 1)
     }
 
-    /// As in [`Pair::link`].
+    /// Returns the link of a pair, as in [`Pair::link`].
     fn link(&self, pair: &Prepared) -> usize {
         self.scene().pairs()[pair.index].link
     }
 
-    /// The part and the piece of a pair.
+    /// Returns the part and the piece of a pair.
     fn shapes(&self, pair: &Prepared) -> (&Convex, &Convex) {
         (self.contacts.moving(pair.index).shape(), self.contacts.standing(pair.index).shape())
     }
 
-    /// Whether one point stays in both shapes all along the motion: fixed in one of them, in the other it moves.
+    /// Returns true if one point, fixed in one of the shapes, stays in both shapes all along the motion.
     ///
-    /// A point of the part moves smoothly, no farther from the straight line between its places at the ends than half the
-    /// bound on its second derivative; and the distance from a convex set, negative inside, is a convex function. So it
-    /// is nowhere farther from the piece than at the farther end, plus that half. The same holds for a point of the piece
-    /// as seen from the link. Where its distances from both cores come to no more than `radius`, so does that of the cores.
+    /// A point of the part moves smoothly. Its distance from the straight line between its end positions is at most
+    /// half the bound on its second derivative. The distance from a convex set, negative inside, is a convex function.
+    /// So the point's distance from the piece is nowhere greater than at the farther end, plus that half. The same
+    /// holds for a point of the piece as seen from the link. If the point's distances from both cores add up to at most
+    /// `radius`, the distance of the cores is at most `radius`.
     fn follows(&self, pair: &Prepared, posture: &Posture, ends: [Configuration; 2]) -> bool {
         let (part, piece) = self.shapes(pair);
         let of_part = &self.sides[self.scene().pairs()[pair.index].part];
@@ -229,12 +232,12 @@ impl<'a> Closed<'a> {
     }
 }
 
-/// The numbers of the pairs of link 2 that can meet in some posture, in their order; of too many those with the largest pieces,
-/// and of pieces of about a size some all over the list.
+/// Returns the numbers of the pairs of link 2 that can collide in some posture, in order. If there are too many, it
+/// keeps the largest pieces, and for pieces of similar size a selection spread over the list.
 fn chosen(contacts: &Contacts, clearance: f64) -> Vec<usize> {
     let arm = contacts.scene().arm();
     let in_reach = |index: &usize| {
-        // A joint that slides takes link 2 anywhere along its way.
+        // A prismatic joint can take link 2 anywhere along its axis.
         !arm.joints[0].joint_type.is_revolute()
             || least_distance(contacts.standing(*index).shape(), arm.base) <= contacts.reach(*index) + clearance
     };
@@ -247,7 +250,7 @@ fn chosen(contacts: &Contacts, clearance: f64) -> Vec<usize> {
             .map(|(number, index)| {
                 let core = contacts.standing(index).shape().core();
                 let size = core.iter().map(|p| (p - core[0]).norm()).fold(f64::MIN_POSITIVE, f64::max);
-                // Numbers with their bits reversed ascend all over the list at a time.
+                // Numbers with reversed bits spread evenly over the list.
                 (Reverse(size.log2().floor() as i32), number.reverse_bits() >> (usize::BITS - bits), index)
             })
             .collect();
@@ -258,15 +261,15 @@ fn chosen(contacts: &Contacts, clearance: f64) -> Vec<usize> {
     pairs
 }
 
-/// A lower bound on the distance of a shape from a point.
+/// Returns a lower bound on the distance of a shape from a point.
 fn least_distance(shape: &Convex, from: Point) -> f64 {
     let core = shape.core();
     let extent = core.iter().map(|p| (p - core[0]).norm()).fold(0.0, f64::max);
     (core[0] - from).norm() - extent - shape.radius()
 }
 
-/// A point in the middle of what the cores have in common with the part at `pose`, if they do. Of two segments it is where their
-/// lines cross, which need not be on either.
+/// Returns a point in the middle of the intersection of the two cores, with the part at `pose`, if they intersect. For
+/// two segments it is the intersection of their lines, which need not lie on either segment.
 fn middle_point(part: &Convex, piece: &Convex, pose: &Pose) -> Option<Point> {
     let part: Vec<Point> = part.core().iter().map(|a| pose * a).collect();
     let piece = piece.core();
@@ -284,7 +287,7 @@ fn middle_point(part: &Convex, piece: &Convex, pose: &Pose) -> Option<Point> {
     (!both.is_empty()).then(|| Point::from(sum / both.len() as f64))
 }
 
-/// The half-planes `normal . p <= offset` of a convex polygon with area.
+/// Returns the half-planes `normal . p <= offset` of a convex polygon with area.
 fn half_planes(core: &[Point]) -> Vec<(Vector, f64)> {
     let n = if core.len() > 2 { core.len() } else { 0 };
     (0..n)
@@ -295,12 +298,13 @@ fn half_planes(core: &[Point]) -> Vec<(Vector, f64)> {
         .collect()
 }
 
-/// By how much a point is outside the half-planes, or with a negative sign inside them.
+/// Returns how far a point is outside the half-planes; negative inside.
 fn outside(p: Point, sides: &[(Vector, f64)]) -> f64 {
     sides.iter().map(|(normal, offset)| normal.dot(&p.coords) - offset).fold(f64::NEG_INFINITY, f64::max)
 }
 
-/// A point's distance from a convex polygon, negative inside, segment or point: a convex function of it.
+/// Returns a point's distance from a convex polygon (negative inside), a segment or a point. This is a convex function
+/// of the point.
 fn signed_distance(p: Point, core: &[Point], sides: &[(Vector, f64)]) -> f64 {
     let (outside, n) = (outside(p, sides), core.len());
     if outside <= 0.0 && !sides.is_empty() {
@@ -309,7 +313,7 @@ fn signed_distance(p: Point, core: &[Point], sides: &[(Vector, f64)]) -> f64 {
     (0..n).map(|i| to_segment(p, core[i], core[(i + 1) % n])).fold(f64::INFINITY, f64::min)
 }
 
-/// Whether that is at most `allowed`; often this costs less.
+/// Returns true if that distance is at most `allowed`. This is often cheaper than computing the distance.
 fn within(p: Point, core: &[Point], sides: &[(Vector, f64)], allowed: f64) -> bool {
     let at_least = if sides.is_empty() { 0.0 } else { outside(p, sides) };
     at_least <= allowed && (at_least < 0.0 || signed_distance(p, core, sides) <= allowed)

@@ -1,4 +1,4 @@
-//! What closes ways shorter than a bound, as evidence for a checker.
+//! Evidence for a checker: the walls and barriers that close paths shorter than a bound.
 
 use super::closed::Wall as FoundWall;
 use super::strips::Strips;
@@ -9,7 +9,8 @@ use cplan_core::space::Configuration;
 use cplan_geometry::Ordered;
 
 impl Strips<'_> {
-    /// All slices that were looked at, with what was found closed. What link 1 closes is closed all along the slices beside it.
+    /// Returns all slices that were examined, with the walls and barriers found. Where link 1 collides in a strip, the
+    /// slices beside it are closed entirely.
     pub fn evident(&self, scene: &Scene) -> Vec<Slice> {
         let pairs = self.closed.by_number();
         let (bottom, top) = self.topology().ranges[1].domain();
@@ -41,7 +42,7 @@ fn found_closed(walls: &[FoundWall], pairs: &[Pair]) -> Vec<Wall> {
     walls.iter().map(|wall| Wall { lower: wall.lower, upper: wall.upper, pair: pairs[wall.pair] }).collect()
 }
 
-/// The pair of link 1 that overlaps most at a value of joint 1.
+/// Returns the pair of link 1 that overlaps most at a value of joint 1.
 fn deepest(scene: &Scene, q1: f64) -> Option<Pair> {
     let posture = Posture::new(scene, Configuration::new(q1, scene.arm().joints[1].range.domain().0));
     let distance = |pair: &Pair| Ordered(posture.bound(*pair, Deviation::Box([0.0; 2])).here.distance);

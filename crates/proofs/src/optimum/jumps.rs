@@ -1,5 +1,5 @@
-//! Where a wall begins, grows, parts or meets another all at once, as at the tip of a C-obstacle: slices there are worth more than in
-//! between, where walls change smoothly.
+//! Places where a wall begins, grows, splits or merges suddenly, as at the tip of a C-obstacle. Slices near such a jump
+//! improve the bound more than slices where walls change smoothly.
 
 use super::closed::Wall;
 use super::strips::{ABOUT, NARROWEST, Strips};
@@ -7,10 +7,11 @@ use cplan_core::model::Pair;
 use cplan_geometry::Point;
 use std::f64::consts::TAU;
 
-/// What a pair closes jumps in one half of a strip if this share of its change is in that half: more than that of a tip's.
+/// A wall jumps in one half of a strip if this share of its change is in that half. It is more than the share of a
+/// smooth tip.
 const JUMP: f64 = 0.85;
 
-/// By how much the ends of walls change from one place to another; infinitely where there are more at one of them.
+/// Returns the change of the walls' ends from one place to another; infinite if the numbers of walls differ.
 fn change(there: &[[f64; 2]], beyond: &[[f64; 2]]) -> f64 {
     if there.len() != beyond.len() {
         return f64::INFINITY;
@@ -20,8 +21,9 @@ fn change(there: &[[f64; 2]], beyond: &[[f64; 2]]) -> f64 {
 }
 
 impl Strips<'_> {
-    /// Values of joint 1, ascending, that close in by halves, down to a width, on the place where a wall jumps. Looked for between
-    /// `closed`, where the pair makes the wall, and `until`. Nothing if it changes smoothly all along.
+    /// Returns values of joint 1, ascending, that approach the place where a wall jumps, by bisection down to a width.
+    /// It searches between `closed`, where the pair makes the wall, and `until`. Returns nothing if the wall changes
+    /// smoothly.
     fn towards_jump(&mut self, number: usize, [closed, until]: [f64; 2], wall: [f64; 2], width: f64) -> Vec<f64> {
         let (mut with, mut without) = (closed, until);
         let (mut there, mut beyond) = (vec![wall], self.walls_about(number, until, wall));
@@ -32,7 +34,7 @@ impl Strips<'_> {
             let (near, far) = (change(&there, &between), change(&between, &beyond));
             let greater = f64::max(near, far);
             if greater.is_finite() && greater <= JUMP * (near + far) {
-                // None, or it has come so near that the rest is smooth.
+                // There is no jump, or it is already so near that the rest is smooth.
                 break;
             }
             cuts.push(middle);
@@ -42,7 +44,7 @@ impl Strips<'_> {
         cuts
     }
 
-    /// The walls that a pair makes at `q1`, those that meet a given one.
+    /// Returns the walls of a pair at `q1` that meet a given wall.
     fn walls_about(&mut self, number: usize, q1: f64, wall: [f64; 2]) -> Vec<[f64; 2]> {
         let round = self.topology().ranges[1].is_circle();
         let middle = f64::midpoint(wall[0], wall[1]);
@@ -54,7 +56,7 @@ impl Strips<'_> {
         walls.iter().map(near).filter(|at| at[0] <= wall[1] && wall[0] <= at[1]).collect()
     }
 
-    /// Where to cut a strip in which a way comes into what a pair closes at a configuration: towards jumps on either side.
+    /// Returns where to cut a strip in which a path enters a wall of a pair: towards jumps on either side.
     pub fn towards_jumps(&mut self, index: usize, pair: Pair, at: Point, width: f64) -> Vec<f64> {
         let Some(number) = self.closed.number(pair) else { return Vec::new() };
         let walls = self.walls_about(number, at.x, [at.y; 2]);
@@ -65,8 +67,8 @@ impl Strips<'_> {
         cuts
     }
 
-    /// Where to cut a strip towards the end of a wall about a value of joint 2 at the slice before or after it. Nothing if it leads
-    /// through the strip.
+    /// Returns where to cut a strip towards the end of a wall that contains a value of joint 2 on the slice before or
+    /// after it. Returns nothing if the wall continues through the strip.
     pub fn towards_tip(&mut self, index: usize, after: bool, q2: f64, width: f64) -> Vec<f64> {
         let [from, to] = self.ends(index);
         let (with, without) = if after { (to, from) } else { (from, to) };

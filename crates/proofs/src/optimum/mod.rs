@@ -1,4 +1,4 @@
-//! How short a motion may be at best: a proven lower bound.
+//! A proven lower bound on the length of motions.
 
 mod closed;
 mod evident;
@@ -20,87 +20,91 @@ use search::{Search, Way};
 use std::f64::consts::TAU;
 use strips::Strips;
 
-/// What rounding and the tie-break of travel times may add to a shortest length, as a share of it.
+/// Margin for rounding and for the tie-break of travel times, as a share of a shortest length.
 const ROUNDING: f64 = 1e-9;
 
-/// What rounding makes of the ends of a way, as a share of their coordinates: far from zero doubles lie far apart, and a short
-/// way there is known to fewer digits.
+/// Rounding error of the ends of a path, as a share of their coordinates. Far from zero, doubles lie far apart, and a
+/// short path has fewer correct digits.
 const COORDINATES: f64 = 1024.0 * f64::EPSILON;
 
-/// Times that strips are halved at most.
+/// Maximum number of refinements of the strips.
 const ROUNDS: usize = 64;
 
-/// The first ways are searched for: among wide strips they often lead where there is none.
+/// Number of first paths that are always searched: among wide strips they often lead through passages that do not
+/// exist.
 const SEARCHED: usize = 2;
 
-/// Ways at most, searched for or pulled taut: most of them answer a certificate that was refused.
+/// Maximum number of paths, searched or pulled taut. Most of them follow the refusal of a certificate.
 const TRIES: usize = 128;
 
-/// Pairs times searches at most, a second's worth or some.
+/// Maximum number of pairs times searches: about a second.
 const MOST_TRIED: usize = 80_000;
 
-/// A way is looked at by the certificate once it has grown by no more than this share of its length.
+/// A path is certified only if its length has grown by at most this share since the path before.
 const SETTLED: f64 = 1e-6;
 
-/// Pairs times certificates that were refused, at most: seconds' worth.
+/// Maximum number of pairs times refused certificates: some seconds.
 const MOST_REFUSED: usize = 500_000;
 
-/// So many pairs are looked at about a place where one was met that was not.
+/// Number of pairs that are added around a place where a path collides with a pair that is not in use.
 const NEAREST: usize = 256;
 
-/// Rounds in a row that hardly make the bound better, after which it is as good as it gets.
+/// Number of consecutive rounds with hardly any improvement after which the search ends.
 const MOST_IDLE_ROUNDS: usize = 3;
 
-/// Share of what a way is to keep beyond the clearance by which strips may let it fall short of that. What is left is enough for a
-/// certificate, and a greater share takes fewer slices ...
+/// Share of the extra clearance `kept` that strips may use up. The rest is enough for a certificate, and a greater
+/// share needs fewer slices.
 const DEEPEST: f64 = 0.9;
 
-/// ... but among more pairs than this a way leads past many small things, where certificates need more room: ...
+/// Number of pairs up to which [`DEEPEST`] applies. Among more pairs a path passes many small things, and certificates
+/// need more space.
 const FEW_PAIRS: usize = 1000;
 
-/// ... this share.
+/// The same share for more pairs.
 const DEEPEST_AMONG_MANY: f64 = 0.5;
 
-/// Share of the gap asked for that a single strip may leave open without being halved.
+/// Share of the requested gap that a single strip may leave open without being halved.
 const WORTH: f64 = 1e-3;
 
-/// Share of the limit below which ways are looked for at first, at least.
+/// Least share of the limit below which paths are searched initially.
 const LEAST_SHARE: f64 = 1.0 / 64.0;
 
-/// The motions that are asked for, and how their lengths are measured.
+/// The requested motions, and the metric of their lengths.
 #[derive(Debug, Clone, Copy)]
 pub struct Motions<'a> {
-    /// Arm and obstacles.
+    /// The arm and the obstacles.
     pub scene: &'a Scene,
-    /// Where they begin.
+    /// Start configuration.
     pub start: Configuration,
-    /// Where they may end, on whichever turns.
+    /// Goals, on any turns.
     pub goals: &'a GoalSet,
-    /// What they keep from every obstacle, metres: more than zero, and at least this.
+    /// Required distance from every obstacle, metres: more than zero, and at least this.
     pub clearance: f64,
-    /// What makes one short.
+    /// The metric.
     pub metric: Metric,
 }
 
-/// A lower bound on the length of every one of the `motions`; at most `limit`, finite, which some motion's length should be. It
-/// is made better until it is within the share `gap` of the limit, or cannot be.
+/// Returns a lower bound on the length of all `motions`. It is at most `limit`, which must be finite and should be the
+/// length of some motion. The bound is improved until it is within the share `gap` of the limit, or until it cannot be
+/// improved.
 ///
-/// Joint 1's domain is cut into strips by *slices*, at which contact angles say exactly which values of joint 2 are closed:
-/// *walls*. Where a pair makes walls at both slices of a strip, a straight *barrier* between them is proven to be closed all
-/// along. What is free lies beyond neither, so no motion is shorter than the shortest way around walls and barriers. Ways
-/// may bulge into what is closed between two slices, by an amount of second order in the strip's width as far as the boundary
-/// bends. Strips are cut where the way does, so it costs some dozens of slices, most of them where the way touches. Those at
-/// the values `slices` of joint 1 are there from the beginning.
+/// *Slices* cut joint 1's domain into strips. On a slice, contact angles give exactly the values of joint 2 that are
+/// closed: *walls*. If a pair makes walls on both slices of a strip, a straight *barrier* between them is proven to be
+/// closed all along. No motion crosses walls or barriers, so no motion is shorter than the shortest path around them.
+/// Between two slices, paths may cut into closed regions. The error is of second order in the strip's width for a
+/// smooth boundary. Strips are cut where the path does this. So the bound needs some dozens of slices, most of them
+/// where the path touches obstacles. The values `slices` of joint 1 are slices from the beginning.
 ///
-/// The search for the way is complete up to the rounding of coordinates, for which a share of 1e-9 is taken off: every
-/// passage is some nanometres wider than it is in truth, because walls are made of shapes eroded by that. Two shapes
-/// without area make no walls, which makes the bound lower.
+/// The search for the path is complete up to the rounding of coordinates, for which a share of 1e-9 is subtracted.
+/// Walls are made of slightly eroded shapes, so every passage is some nanometres wider than in reality. Pairs of two
+/// shapes without area make no walls, which lowers the bound.
 #[must_use]
 pub fn least_length(motions: &Motions, limit: f64, gap: f64, slices: &[f64]) -> f64 {
     bounded(&Motions { scene: &motions.scene.inner(), ..*motions }, limit, gap, slices).0
 }
 
-/// Returns what closes the ways that are shorter than [`least_length`] without further slices: evidence for a checker.
+/// Returns evidence for a checker: the walls and barriers that close all paths shorter than [`least_length`] without
+/// given slices.
 #[must_use]
 pub fn bound_evidence(motions: &Motions, limit: f64, gap: f64) -> BoundEvidence {
     let scene = &*motions.scene.inner();
@@ -123,14 +127,15 @@ fn bounded<'a>(motions: &Motions<'a>, limit: f64, gap: f64, slices: &[f64]) -> (
     (ways.rounded(best.min(limit)), ways)
 }
 
-/// About the shortest of the `motions`, shorter than `limit`, certified by `judge`, which gets a [`Proposed`] path, and may certify
-/// one that is made of it. It keeps more than the clearance, by `kept` metres less what strips leave open, most of that; and is
-/// longer than the shortest by what that costs.
+/// Finds a motion that is about the shortest of the `motions`, and shorter than `limit`. `judge` certifies it: it takes
+/// a [`Proposed`] path, and may certify a path derived from it. The motion keeps the clearance, plus most of the extra
+/// `kept` metres: strips use up the rest. It is longer than the shortest motion by the cost of this extra clearance.
 ///
-/// It is the shortest way of [`least_length`] among obstacles that are grown by `kept`: strips are cut where it leads deeper
-/// into these than by most of that, and where the judge says so. Among finer strips the way is pulled taut through the portals
-/// that it passes, which takes a small part of the time of a search; where the judge takes such a way for too long, or refuses the same one
-/// twice, all later ones are searched for. None if that does not get there, as where a passage is narrower than `kept` leaves it.
+/// The path is the shortest path of [`least_length`] among obstacles grown by `kept`. Strips are cut where the path
+/// leads into these by more than most of `kept`, and where the judge refuses it. Among finer strips, the path is pulled
+/// taut through its portals, which is much faster than a search. If the judge finds such a path too long, or refuses
+/// the same path twice, all later paths are searched. Returns `None` if this does not succeed, for example if a passage
+/// is too narrow for `kept`.
 #[must_use]
 pub fn short_motion(
     motions: &Motions,
@@ -155,7 +160,7 @@ pub fn short_motion(
         if corners.is_empty() {
             return None;
         }
-        // Where thousands of pieces lie side by side there is always one more to go round, and nothing is gained by it.
+        // Among thousands of adjacent pieces there is always one more to go around, without any gain.
         let is_settled = length - before <= SETTLED * length;
         before = length;
         if !is_settled && ways.refine(&corners, allowed) {
@@ -178,57 +183,58 @@ pub fn short_motion(
         if !is_finer || refused * scene.pairs().len() > MOST_REFUSED {
             return None;
         }
-        // Finer strips do not show it what is in its way: the next one is searched for.
+        // Finer strips do not reveal the obstacle on the path, so the next path is searched.
         is_pulled &= corners != last;
         last = corners;
     }
     None
 }
 
-/// A path that a certificate is asked for.
+/// A path proposed for certification.
 #[derive(Debug, Clone)]
 pub struct Proposed {
-    /// The path itself.
+    /// The path.
     pub path: Path,
-    /// The values of joint 1 at all slices, near each other where the path leads past something.
+    /// Values of joint 1 at all slices. They are dense where the path passes something.
     pub slices: Vec<f64>,
-    /// Whether no other one among these slices is shorter; if not, none that passes the same portals is.
+    /// True if no other path among these slices is shorter. Otherwise no path through the same portals is shorter.
     pub is_shortest: bool,
 }
 
-/// Why a proposed path is not taken.
+/// Reason why a proposed path is refused.
 #[derive(Debug, Clone)]
 pub enum Refused {
     /// It has no certificate.
     By(Rejection),
-    /// There may be a shorter one; not of a path that is the shortest.
+    /// There may be a shorter path. Not a valid reason if the path is already the shortest.
     TooLong,
 }
 
 /// A motion that is about the shortest.
 #[derive(Debug, Clone)]
 pub struct ShortMotion {
-    /// The path of the motion, certified.
+    /// The certified path of the motion.
     pub path: CertifiedPath,
-    /// The free stretch of each slice that it passes, in order: at the least and at the greatest value of joint 2.
+    /// The free stretches of the slices that it passes, in order. Each consists of its ends at the least and the
+    /// greatest value of joint 2.
     pub free: Vec<[Configuration; 2]>,
 }
 
-/// The search for the shortest way past what is closed, finer and finer.
+/// The search for the shortest path around walls and barriers, with finer and finer strips.
 struct Ways<'a> {
     motions: Motions<'a>,
     vicinity: Vicinity<'a>,
     strips: Strips<'a>,
     measure: Measure,
     start: Point,
-    /// Copies of the goals.
+    /// Copies of the goals on all turns.
     goals: Vec<Segment>,
     limit: f64,
-    /// Goals and portals on far turns cost time, so ways are looked for nearby first: below this length.
+    /// Length below which paths are searched first: goals and portals on far turns cost time.
     near: f64,
     /// Greatest coordinate of start and goals.
     largest: f64,
-    /// One and the same is allowed whenever strips are refined.
+    /// The pieces of paths that need no refinement. All refinements must use the same allowance.
     fine: Fine,
 }
 
@@ -236,7 +242,7 @@ impl<'a> Ways<'a> {
     fn new(motions: Motions<'a>, limit: f64, slices: &[f64]) -> Self {
         let Motions { scene, start, goals, clearance, metric } = motions;
         let mut strips = Strips::new(scene, clearance, slices);
-        // Nearest to zero doubles are densest, and all turns are alike.
+        // Doubles are densest near zero, and all turns are equivalent.
         let start = Point::from(strips.topology().wrap(start));
         let goals: Vec<Segment> = goals.wrapped(strips.topology()).collect();
         let largest = goals.iter().flat_map(Segment::ends).map(|q| q.amax()).fold(start.coords.amax(), f64::max);
@@ -246,18 +252,18 @@ impl<'a> Ways<'a> {
         let straight = |goals: &Segment| goals.distance(measure, start.coords);
         goals.retain(|copy| straight(copy) < limit);
         let nearest = goals.iter().map(straight).fold(limit, f64::min);
-        // Who knows where slices are needed knows about how long the shortest is.
+        // A caller that knows the slices also knows about the shortest length.
         let near = if slices.is_empty() { f64::max(1.5 * nearest, limit * LEAST_SHARE).min(limit) } else { limit };
         let vicinity = Vicinity::of(scene, strips.pairs().into());
         Self { motions, vicinity, strips, measure, start, goals, limit, near, largest, fine: Fine::default() }
     }
 
-    /// The length of the shortest way past what is known to be closed, and its corners; without corners if none is as short as
-    /// the limit.
+    /// Returns the length and the corners of the shortest path around the known walls and barriers. Without corners, no
+    /// path is as short as the limit.
     fn shortest(&mut self) -> (f64, Vec<Point>) {
         let straight = |goals: &Segment| goals.distance(self.measure, self.start.coords);
         if self.strips.count() == 0 {
-            // Joint 1 cannot move: what closes the way of joint 2 is not looked at.
+            // Joint 1 cannot move, and walls on joint 2's path are not examined.
             return (self.goals.iter().map(straight).fold(self.limit, f64::min), Vec::new());
         }
         loop {
@@ -270,17 +276,18 @@ impl<'a> Ways<'a> {
         }
     }
 
-    /// The shortest way through the portals that another one passes, and its length; none if it is as long as the limit, or not known.
+    /// Returns the shortest path through the portals that another path passes, and its length. Returns `None` if it
+    /// reaches the limit, or is unknown.
     fn taut(&mut self, corners: &[Point]) -> Option<(f64, Vec<Point>)> {
         let (&start, &goal) = (corners.first()?, corners.last()?);
-        // Of other goals the nearest may be another one.
+        // If goals are segments, another point of a goal may be nearest.
         let sleeve = self.goals.iter().all(Segment::is_point).then(|| self.strips.sleeve(corners)).flatten()?;
         let corners = funnel_path(start, goal, &sleeve);
         let length = corners.windows(2).map(|ends| self.measure.norm(ends[1] - ends[0])).sum();
         (length < self.limit).then_some((length, corners))
     }
 
-    /// Halves strips in which a way passes what is closed by more than allowed; whether there were any that can be.
+    /// Cuts the strips in which a path enters closed regions by more than allowed. Returns true if any strip was cut.
     fn refine(&mut self, corners: &[Point], allowed: Allowed) -> bool {
         if self.strips.count() == 0 || self.strips.are_too_many() {
             return false;
@@ -289,7 +296,7 @@ impl<'a> Ways<'a> {
         !passed.is_empty() && self.strips.cut(&passed)
     }
 
-    /// Where not all pairs are looked at: looks at those that are near at a configuration, too. Whether there are any more.
+    /// If not all pairs are in use, adds those that are near in a configuration. Returns true if there were any.
     fn look_about(&mut self, q: Configuration) -> bool {
         let scene = self.motions.scene;
         if scene.pairs().len() <= MOST_PAIRS {
@@ -309,7 +316,7 @@ impl<'a> Ways<'a> {
         is_new
     }
 
-    /// Halves the strips that hold a value of joint 1.
+    /// Halves the strips that contain a value of joint 1.
     fn halve_at(&mut self, q1: f64) -> bool {
         let value = self.strips.topology().ranges[0].wrap(q1);
         let mut which: Vec<usize> =
@@ -319,18 +326,18 @@ impl<'a> Ways<'a> {
         !self.strips.are_too_many() && self.strips.halve(&which)
     }
 
-    /// A length, less what rounding may have added.
+    /// Returns a length, reduced by the rounding error.
     fn rounded(&self, length: f64) -> f64 {
         (length - f64::max(length * ROUNDING, self.largest * COORDINATES)).max(0.0)
     }
 
-    /// The way with these corners, on the start's own turns.
+    /// Returns the path with these corners, on the start's own turns.
     fn path(&self, start: Configuration, corners: &[Point]) -> Path {
         let lift = start - self.start.coords;
         Path::new(std::iter::once(start).chain(corners[1..].iter().map(|corner| corner.coords + lift)).collect())
     }
 
-    /// The portals through which a way passes, on the start's own turns.
+    /// Returns the portals through which a path passes, on the start's own turns.
     fn passed(&mut self, start: Configuration, corners: &[Point]) -> Vec<[Configuration; 2]> {
         let lift = start - self.start.coords;
         let mut passed = Vec::new();
@@ -351,7 +358,7 @@ impl<'a> Ways<'a> {
     }
 }
 
-/// All copies of the goals that may be nearer than the limit.
+/// Returns all copies of the goals that may be nearer than the limit.
 fn copies(topology: &Topology, metric: Metric, start: Point, goals: &[Segment], limit: f64) -> Vec<Segment> {
     let turns = |k: usize, goals: &Segment| {
         let mut unit = Configuration::zeros();

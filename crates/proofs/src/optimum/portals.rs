@@ -1,32 +1,33 @@
-//! Intervals of joint 2 at a slice: what is closed, and what that leaves.
+//! Free intervals of joint 2 on a slice, between the closed ones.
 
 use cplan_core::space::JointRange;
 use std::f64::consts::TAU;
 
-/// An interval of joint 2 that is not closed at a slice; infinite ends where nothing is.
+/// An interval of joint 2 that is not closed on a slice. Its ends are infinite if nothing is closed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Portal {
     pub lower: f64,
     pub upper: f64,
-    /// Whether the lower and the upper end are the ends of something closed, not of the domain.
+    /// For the lower and the upper end: true if it is the end of a closed interval, false if it is the end of the
+    /// domain.
     pub tips: [bool; 2],
 }
 
 impl Portal {
-    /// The same some turns of joint 2 further.
+    /// Returns the portal shifted by turns of joint 2.
     pub fn turned(self, turns: f64) -> Self {
         Self { lower: self.lower + turns * TAU, upper: self.upper + turns * TAU, ..self }
     }
 }
 
-/// An interval that may lead across the seam of a circle, in pieces within its domain.
+/// Splits an interval that may cross the seam of a circle into pieces within the domain.
 pub(super) fn within_domain(axis: JointRange, lower: f64, upper: f64) -> impl Iterator<Item = [f64; 2]> {
     let (bottom, top) = axis.domain();
     let beyond = (axis.is_circle() && upper > top).then(|| [bottom, (upper - TAU).min(top)]);
     [Some([lower, upper.min(top)]), beyond].into_iter().flatten()
 }
 
-/// What closed intervals of the domain, disjoint and ascending, leave of it.
+/// Returns the portals that closed intervals leave. The intervals must be within the domain, disjoint and ascending.
 pub(super) fn left_by(closed: &[[f64; 2]], axis: JointRange) -> Vec<Portal> {
     let (bottom, top) = axis.domain();
     let round = axis.is_circle();

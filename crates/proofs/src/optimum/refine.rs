@@ -1,4 +1,4 @@
-//! Where a shortest way passes what is closed: there strips are too wide.
+//! Strips that are too wide, because a shortest path enters a closed region within them.
 
 use super::Motions;
 use super::search::Mixed;
@@ -13,46 +13,46 @@ use std::collections::{BTreeMap, HashSet};
 use std::convert::Infallible;
 use std::hash::BuildHasherDefault;
 
-/// Distance of the configurations, radians or metres, at which ways are looked at for what is thinner than a strip.
+/// Distance of the configurations, radians or metres, at which paths are tested for things thinner than a strip.
 const STEP: f64 = 0.01;
 
-/// Ratio of the distances from an end at which they are looked at.
+/// Ratio of consecutive distances of tested configurations from an end.
 const NEARER: f64 = 0.1;
 
-/// How near to a tip strips are cut at once, as a multiple of the detour that a strip may leave open: a way around the tip
-/// is as much longer, at the most twice.
+/// Distance from a tip down to which strips are cut at once, as a multiple of the detour that a strip may leave open. A
+/// path around the tip is longer by at most twice this distance.
 const DETOUR: f64 = 16.0;
 
-/// A strip with fewer cuts than this towards where something begins is cut all along, too: so near by, what the way goes round may be
-/// many small things side by side.
+/// Number of cuts towards a jump below which a strip is also cut evenly: so near, the path may go around many small
+/// things side by side.
 const FEW: usize = 4;
 
-/// Places along a piece of a way are not told apart more finely than doubles tell shares of it.
+/// Resolution of positions along a piece of a path: doubles resolve shares of it no more finely.
 const FINEST_SHARE: f64 = 1e-15;
 
-/// How far ways may lead through what is closed.
+/// The allowed error of paths that lead through closed regions.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Allowed {
-    /// As far as a way around it would be longer by no more than this.
+    /// As long as a path around the region would be longer by no more than this.
     Detour(f64),
-    /// So deep, metres.
+    /// Up to this depth, metres.
     Depth(f64),
 }
 
-/// What a way looks like in one strip.
+/// The part of a path within one strip.
 struct Crossing {
-    /// The strip's place among all.
+    /// Number of the strip.
     index: usize,
     /// Whole turns by which joint 1 is ahead of the strip's own values.
     turns: f64,
-    /// Where the way enters it and leaves it, or the other way round; by joint 1.
+    /// The points where the path enters and leaves the strip, ordered by joint 1.
     ends: [Point; 2],
-    /// The way halfway between the strip's slices; none if it does not get there.
+    /// The path halfway between the strip's slices; `None` if it does not reach there.
     middle: Option<Point>,
 }
 
-/// The strips that a way crosses. Ways along a slice lie in no strip; those beside it are put on `beside`, each cut towards the
-/// tip that the way may lead around.
+/// Returns the parts of a path within the strips. Paths along a slice lie in no strip. The strips beside such a path
+/// are added to `beside`, each to be cut towards the tip that the path may go around.
 fn crossings(
     strips: &mut Strips,
     corners: &[Point],
@@ -85,8 +85,8 @@ fn crossings(
     crossings
 }
 
-/// Where to cut the strips beside a way along a slice: towards the tip that it leads around, if there is one. Nothing where that
-/// tip is near enough.
+/// Returns where to cut the strips beside a path along a slice: towards the tip that the path goes around, if there is
+/// one. Returns nothing if that tip is near enough.
 fn around_tip(strips: &mut Strips, ends: &[Point], finest: f64) -> Vec<(usize, Vec<f64>)> {
     let q1 = ends[0].x;
     let mut cuts = Vec::new();
@@ -105,12 +105,12 @@ fn around_tip(strips: &mut Strips, ends: &[Point], finest: f64) -> Vec<(usize, V
     cuts
 }
 
-/// Straight pieces of ways within a strip that are known to pass nothing by more than is allowed: their ends, and the strip's. Most
-/// of a way is where the last one was.
+/// Straight pieces of paths within a strip that are known to need no refinement: their ends, and the strip's. Most of a
+/// path is the same as before.
 pub(super) type Fine = HashSet<[u64; 6], BuildHasherDefault<Mixed>>;
 
-/// Where to cut strips: those in which a way passes what is closed by more than is allowed, by their index. What is overlooked
-/// makes no bound wrong, only lower. What is `fine` is not looked at.
+/// Returns the strips, by number, in which a path enters a closed region by more than allowed, and where to cut them.
+/// An overlooked strip never makes a bound wrong, only lower. Pieces in `fine` are skipped.
 pub(super) fn passed(
     motions: &Motions,
     vicinity: &Vicinity,
@@ -121,7 +121,7 @@ pub(super) fn passed(
 ) -> Vec<(usize, Vec<f64>)> {
     let Motions { scene, clearance, metric, .. } = *motions;
     let measure = Measure::from(metric);
-    // What lies beside a way along a slice is not known well enough.
+    // The surroundings of a path along a slice are not known well enough.
     let mut passed = BTreeMap::new();
     let finest = match allowed {
         Allowed::Detour(worth) => worth * DETOUR,
@@ -139,7 +139,7 @@ pub(super) fn passed(
             let via = nalgebra::center(&left, &right) + Vector::new(0.0, by);
             measure.norm(via - left) + measure.norm(right - via) - measure.norm(right - left)
         };
-        // What is overlooked at the places that are looked at may show halfway through the strip, where the next slice would be.
+        // A collision that the tested places miss may show halfway through the strip, where the next slice would be.
         let is_barred_halfway = |strips: &mut Strips, worth: f64| {
             let way_out = middle.and_then(|middle| strips.way_out_of_middle(index, middle.y));
             way_out.is_some_and(|ways| ways.map(detour).into_iter().all(|detour| detour > worth))
@@ -163,19 +163,19 @@ pub(super) fn passed(
     passed.into_iter().collect()
 }
 
-/// The place of a straight motion that is deepest in what is closed.
+/// The place where a straight motion is deepest in a closed region.
 struct Deepest {
-    /// How much deeper than allowed, metres.
+    /// Depth beyond the allowed depth, metres.
     by: f64,
-    /// Where, as a share of the motion.
+    /// Position as a share of the motion.
     share: f64,
-    /// What is too near there.
+    /// The pair that is too near there.
     pair: Pair,
 }
 
-/// Where a straight motion comes nearest to an obstacle, as a share of it, if it comes too near, as far as looking in places
-/// tells: at regular distances, and towards the ends, where a way may turn at what is closed, closer and closer together. Not
-/// where keeping away would make a bulge of it that is hardly longer, by the detour that is allowed.
+/// Finds where a straight motion comes nearest to an obstacle, as a share of it, if it comes too near. It tests sample
+/// places: at regular distances, and ever closer towards the ends, where a path may turn at a closed region. Ignores
+/// places where a detour of the allowed length would be enough to keep away.
 fn deepest(scene: &Scene, vicinity: &Vicinity, clearance: f64, ends: [Point; 2], allowed: Allowed) -> Option<Deepest> {
     let (way, middle) = (ends[1] - ends[0], nalgebra::center(&ends[0], &ends[1]));
     let length = way.norm();
@@ -185,7 +185,7 @@ fn deepest(scene: &Scene, vicinity: &Vicinity, clearance: f64, ends: [Point; 2],
     let near = std::iter::successors(Some(NEARER), |share| Some(share * NEARER));
     let towards_ends = near.take_while(|share| share * length > finest).flat_map(|share| [share, 1.0 - share]);
     let mut shares: Vec<f64> = regular.chain(towards_ends).collect();
-    // Most of it is in order.
+    // The shares are nearly sorted already.
     shares.sort_by(f64::total_cmp);
 
     // Walls are made of shapes that are smaller by this.
@@ -199,12 +199,12 @@ fn deepest(scene: &Scene, vicinity: &Vicinity, clearance: f64, ends: [Point; 2],
         Allowed::Detour(worth) => scene.arm().reach() * (worth * length * share.min(1.0 - share)).sqrt(),
         Allowed::Depth(depth) => depth,
     };
-    // How much deeper than allowed.
+    // Depth beyond the allowed depth.
     let beyond = |pair: Pair, share: f64| least - here(pair, &pose(pair, share)).distance - depth(share);
     let mut deepest: Option<(f64, Pair, usize)> = None;
     let looked_at: Result<(), Infallible> = vicinity.near(&posture, along, least.max(0.0), |pair| {
         if may_meet(pair) {
-            // As far as nothing moves so far that it could be too near, there is no need to look.
+            // Skip places up to which nothing moves far enough to be too near.
             let speed = 2.0 * posture.farthest_motion(pair, along);
             let mut next = 0.0;
             let mut direction = None;
@@ -214,7 +214,7 @@ fn deepest(scene: &Scene, vicinity: &Vicinity, clearance: f64, ends: [Point; 2],
                 }
                 let pose = pose(pair, share);
                 let most = depth(share) + deepest.map_or(0.0, |(by, ..)| by);
-                // The direction of the distance at the last place often shows already that this one is no deeper.
+                // The direction of the distance at the last place often shows that this place is no deeper.
                 let along = |n: Vector| least - gap_along(scene.part(pair), &pose, scene.piece(pair), n);
                 let near = direction.map(along).filter(|near| *near <= most).unwrap_or_else(|| {
                     let here = here(pair, &pose);
@@ -231,7 +231,7 @@ fn deepest(scene: &Scene, vicinity: &Vicinity, clearance: f64, ends: [Point; 2],
     });
     looked_at.unwrap_or_else(|never| match never {});
     let (_, pair, k) = deepest?;
-    // Near there it is one hump.
+    // Near there, the depth has a single maximum.
     let mut from = k.checked_sub(1).map_or(0.0, |before| shares[before]);
     let mut to = shares.get(k + 1).copied().unwrap_or(1.0);
     let finest = (finest / length).max(FINEST_SHARE);
@@ -243,8 +243,8 @@ fn deepest(scene: &Scene, vicinity: &Vicinity, clearance: f64, ends: [Point; 2],
     Some(Deepest { by: beyond(pair, share), share, pair })
 }
 
-/// In how many parts a strip is cut in which a way is by so much deeper in what is closed than allowed: what is cut off from a
-/// smooth boundary falls with the square of the width.
+/// Returns the number of parts into which to cut a strip in which a path is deeper in a closed region than allowed. The
+/// error along a smooth boundary falls with the square of the width.
 fn pieces(by: f64, allowed: Allowed) -> usize {
     match allowed {
         Allowed::Depth(depth) => (1.1 * ((by.max(0.0) + depth) / depth).sqrt()).ceil().min(16.0) as usize,

@@ -1,6 +1,7 @@
-//! The shortest way past what is closed in strips and at the slices between them.
+//! The shortest path around walls and barriers.
 //!
-//! No search for petgraph: nodes come up with what can be seen from them, and it ends at a bound as well as at a goal.
+//! This is not a search for petgraph: nodes appear as they become visible, and the search may end at a bound as well as
+//! at a goal.
 
 use super::portals::Portal;
 use super::strips::{Cell, Strips};
@@ -11,29 +12,30 @@ use std::collections::HashMap;
 use std::f64::consts::TAU;
 use std::hash::{BuildHasherDefault, Hasher};
 
-/// Entries that are taken from the open list before the search ends with what it knows: a thousand times what a question
-/// takes as a rule, and half a second. Along an arc they grow with the square of the slices.
+/// Maximum number of entries taken from the open list: a thousand times the usual number, or half a second. Then the
+/// search ends with the bound so far. Along an arc, entries grow with the square of the slices.
 const MOST_ENTRIES: usize = 1_000_000;
 
-/// Entries for which there is room from the beginning.
+/// Initial capacity for entries.
 const USUAL_ENTRIES: usize = 1024;
 
-/// Costs that differ by no more than this share may differ by rounding alone.
+/// Relative difference of costs that rounding alone can cause.
 const TIED: f64 = 1e-12;
 
-/// By how much sight goes past what cuts it off, as a share of the coordinates: more than rounding amounts to. Without it
-/// the end of a portal that is in line with two others, as on a straight side, could lie between what either sees.
+/// Margin by which sight extends past an obstruction, as a share of the coordinates. It is greater than rounding.
+/// Without it, the end of a portal that is in line with two others, as on a straight side, could lie in the gap between
+/// two cones.
 const HAIR: f64 = 4.0 * f64::EPSILON;
 
-/// What the search came to.
+/// Result of the search.
 pub(super) enum Way {
-    /// The shortest: its length and corners.
+    /// The shortest path: its length and corners.
     Shortest(f64, Vec<Point>),
-    /// None is shorter than this.
+    /// No path is shorter than this.
     NoneBelow(f64),
 }
 
-/// Mixes a few numbers in a few operations: what is hashed comes from the search itself.
+/// A hasher that mixes a few numbers in a few operations. The hashed numbers come from the search itself.
 #[derive(Default)]
 pub(super) struct Mixed(u64);
 
@@ -55,12 +57,12 @@ impl Hasher for Mixed {
     }
 
     fn write_u64(&mut self, number: u64) {
-        // About the golden section of 2^64, odd (Knuth).
+        // An odd number near the golden section of 2^64 (Knuth).
         self.0 = (self.0.rotate_left(26) ^ number).wrapping_mul(0x9E37_79B9_7F4A_7C15);
     }
 }
 
-/// A place where ways turn, or begin.
+/// A place where paths begin or turn.
 struct Root {
     at: Point,
     cost: f64,
@@ -69,11 +71,11 @@ struct Root {
 
 #[derive(Clone, Copy)]
 enum Entry {
-    /// What a root sees through an interval of a slice, on the way to the strip beyond.
+    /// The part of a slice that a root sees, and through which it sees the strip beyond.
     Cone(Cone),
     /// A goal that a root sees.
     Goal(u32, Point),
-    /// A root on the edge of a strip, which sees all of its cell of it.
+    /// A root on the edge of a strip. It sees its whole cell of that strip.
     Root(u32, i64),
 }
 
@@ -81,45 +83,48 @@ enum Entry {
 struct Cone {
     root: u32,
     slice: i64,
-    /// Whether joint 1 grows on the way.
+    /// True if joint 1 grows along the path.
     ahead: bool,
     seen: Portal,
 }
 
 impl Cone {
-    /// The strip that it enters.
+    /// Returns the strip that it enters.
     fn strip(&self) -> i64 {
         if self.ahead { self.slice } else { self.slice - 1 }
     }
 
-    /// The slice beyond that strip.
+    /// Returns the slice beyond that strip.
     fn far(&self) -> i64 {
         if self.ahead { self.slice + 1 } else { self.slice - 1 }
     }
 }
 
-/// A* whose open list holds cones of sight (as Polyanya: Cui, Harabor, Grastien 2017), over the strips' cells and all their
-/// copies. Cells are convex, so sight is cut off at slices alone, and ways turn at the ends of portals: beyond a slice towards the
-/// side of the wall whose end they pass, or along it to the next portal, which leads back.
+/// A* whose open list holds cones of sight (similar to Polyanya: Cui, Harabor, Grastien 2017), over the strips' cells
+/// and all their copies. Cells are convex, so only slices obstruct sight, and paths turn only at the ends of portals.
+/// There they continue beyond the slice, towards the side of the wall whose end they pass, or along the slice to the
+/// next portal, which leads back.
 ///
-/// That way every shortest way is found, whichever turns it takes. Of those that reach the end of a portal only the shortest is
-/// followed: where another one goes on taut, but that one does not, cutting its corner would be shorter still.
+/// This finds every shortest path, on any turns. Among paths that reach the end of a portal, only the shortest is
+/// followed. If another path could continue taut there, but the shortest could not, cutting the corner of the shortest
+/// would be shorter still.
 pub(super) struct Search<'s, 'a> {
     strips: &'s mut Strips<'a>,
     measure: Measure,
     goals: &'s [Segment],
     /// Least and greatest value of joint 1 of the goals.
     goals_range: [f64; 2],
-    /// Nothing as long as this is looked for.
+    /// Paths of this length or more are ignored.
     limit: f64,
-    /// Values of joint 2 that ways shorter than the limit keep to.
+    /// Range of joint 2 for paths shorter than the limit.
     range: [f64; 2],
     roots: Vec<Root>,
-    /// Least cost so far of the end of a portal: by slice, by its value of joint 2, and by whether joint 1 grows from there.
+    /// Least cost so far of each end of a portal. The key is the slice, the value of joint 2, and whether joint 1 grows
+    /// from there.
     least: HashMap<(i64, u64), f64, BuildHasherDefault<Mixed>>,
     open: OpenList<usize>,
     entries: Vec<Entry>,
-    /// Lists of portals that are not in use.
+    /// Unused lists of portals, for reuse.
     spare: Vec<Vec<Portal>>,
 }
 
@@ -141,7 +146,7 @@ impl<'s, 'a> Search<'s, 'a> {
         }
     }
 
-    /// The shortest way from `start` to one of the goals.
+    /// Finds the shortest path from `start` to one of the goals.
     pub fn run(mut self, start: Point) -> Way {
         let far = self.limit / self.measure.norm(Point::new(0.0, 1.0).coords);
         self.range = [start.y - far, start.y + far];
@@ -184,14 +189,14 @@ impl<'s, 'a> Search<'s, 'a> {
         }
     }
 
-    /// The nearest of some goals, all of which can be reached straight from a root.
+    /// Adds the nearest of some goals. A root must see all of them.
     fn push_goal(&mut self, root: u32, goals: &Segment, parent: f64) {
         let Root { at, cost, .. } = self.roots[root as usize];
         let goal = Point::from(goals.nearest(self.measure, at.coords));
         self.push((cost + self.measure.norm(goal - at)).max(parent), Entry::Goal(root, goal));
     }
 
-    /// A cone through the part of `portal` between `from` and `to`, if there is one.
+    /// Adds a cone through the part of `portal` between `from` and `to`, if there is one.
     fn push_cone(&mut self, root: u32, slice: i64, ahead: bool, portal: &Portal, [from, to]: [f64; 2], parent: f64) {
         let (from, to) = (from.max(self.range[0]), to.min(self.range[1]));
         let (lower, upper) = (portal.lower.max(from), portal.upper.min(to));
@@ -211,8 +216,8 @@ impl<'s, 'a> Search<'s, 'a> {
         self.push(bound.max(parent), Entry::Cone(Cone { root, slice, ahead, seen }));
     }
 
-    /// A root at the end of a portal, reached straight from another, whose ways go on `ahead` or back; none if it has been
-    /// reached by a shorter way, or by one as short that goes on to the same side.
+    /// Adds a root at the end of a portal, reached straight from another root, whose paths continue `ahead` or back.
+    /// Returns `None` if a shorter path has reached it, or an equally short path that continues to the same side.
     fn turn(&mut self, from: u32, slice: i64, at: Point, ahead: bool) -> Option<u32> {
         let Root { at: before, cost, .. } = self.roots[from as usize];
         let cost = cost + self.measure.norm(at - before);
@@ -226,8 +231,8 @@ impl<'s, 'a> Search<'s, 'a> {
         u32::try_from(self.roots.len() - 1).ok()
     }
 
-    /// The portals of a slice, with all their copies, that a range of joint 2 meets, as far as ways shorter than the limit go. The list
-    /// goes back to the spare ones.
+    /// Returns the portals of a slice, with all their copies, that meet a range of joint 2, as far as paths shorter
+    /// than the limit reach. The caller returns the list to the spare ones.
     fn portals(&mut self, slice: i64, [lower, upper]: [f64; 2]) -> Vec<Portal> {
         let (lower, upper) = (lower.max(self.range[0]), upper.min(self.range[1]));
         let mut portals = self.spare.pop().unwrap_or_default();
@@ -254,10 +259,10 @@ impl<'s, 'a> Search<'s, 'a> {
         portals
     }
 
-    /// The goals in a cell of a strip: of a segment the part.
+    /// Returns the goals in a cell of a strip. A segment is cut to the part in the cell.
     fn goals(&self, strip: i64, cell: Cell) -> impl Iterator<Item = Segment> + use<'s> {
         let (from, to) = (self.strips.q1(strip), self.strips.q1(strip + 1));
-        // Most strips hold none.
+        // Most strips contain no goals.
         let is_beside_all = to < self.goals_range[0] || self.goals_range[1] < from;
         let goals = if is_beside_all { &[] } else { self.goals };
         let beside = move |goals: &&Segment| {
@@ -279,7 +284,7 @@ impl<'s, 'a> Search<'s, 'a> {
         })
     }
 
-    /// What a root in a strip or on its edge sees of it.
+    /// Adds everything that a root in a strip or on its edge sees in the strip.
     fn spread(&mut self, root: u32, strip: i64, parent: f64) {
         let at = self.roots[root as usize].at;
         let (from, to) = (self.strips.q1(strip), self.strips.q1(strip + 1));
@@ -301,8 +306,8 @@ impl<'s, 'a> Search<'s, 'a> {
         }
     }
 
-    /// Ways along a slice, from a root on it, to other portals, which lead back to the strip on its other side; `ahead` if the
-    /// ways lie in the strip after the slice.
+    /// Follows paths along a slice, from a root on it, to other portals, which lead back to the strip on its other
+    /// side. `ahead` is true if the paths lie in the strip after the slice.
     fn along<'p>(
         &mut self,
         root: u32,
@@ -329,7 +334,7 @@ impl<'s, 'a> Search<'s, 'a> {
         }
     }
 
-    /// What is seen through a cone, and what is reached by turning at its ends.
+    /// Adds everything seen through a cone, and everything reached by turning at its ends.
     fn expand(&mut self, cone: &Cone, bound: f64) {
         let Cone { root, slice, ahead, seen } = *cone;
         let x = self.strips.q1(slice);
@@ -340,7 +345,7 @@ impl<'s, 'a> Search<'s, 'a> {
         let above = if seen.tips[1] { self.turn(root, slice, Point::new(x, seen.upper), ahead) } else { None };
         let hair = [seen.lower, seen.upper].map(|y| HAIR * (1.0 + from.y.abs() + y.abs()));
         for goals in self.goals(cone.strip(), cell) {
-            // How far they are above the line from the root past a value at the slice.
+            // Distance above the line from the root through a value on the slice.
             let above_line = |goals: &Segment, at: f64| {
                 let slope = (at - from.y) / (x - from.x);
                 goals.ends().map(|goal| goal[1] - from.y - slope * (goal[0] - from.x))

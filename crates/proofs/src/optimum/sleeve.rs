@@ -1,20 +1,21 @@
-//! The portals that a way passes, among strips that have been cut since it was found.
+//! The portals that a path passes, among strips that were cut after it was found.
 
 use super::strips::{Cell, Strips};
 use cplan_core::space::Portal;
 use cplan_geometry::Point;
 
-/// An interval of joint 2 that is not closed at a slice, as passed with joint 1 growing, `ahead`, or falling.
+/// Returns a free interval of joint 2 on a slice as a portal, passed with joint 1 growing (`ahead`) or falling.
 fn portal(slice: f64, [lower, upper]: [f64; 2], ahead: bool) -> Portal {
     let (left, right) = if ahead { (upper, lower) } else { (lower, upper) };
     Portal { left: Point::new(slice, left), right: Point::new(slice, right) }
 }
 
 impl Strips<'_> {
-    /// The portals that a way passes, in order. At slices that it was not made for they are those of the same cells as the ones
-    /// before, nearest to the way. None where these do not lead to its end.
+    /// Returns the portals that a path passes, in order. On newer slices it chooses portals in the same cells as the
+    /// portals before, nearest to the path. Returns `None` if these do not lead to the path's end.
     ///
-    /// Where it turns back along a slice, around the end of a wall, the portals follow the wall to where it ends now.
+    /// Where the path turns back along a slice, around the end of a wall, the portals follow the wall to its current
+    /// end.
     pub fn sleeve(&mut self, corners: &[Point]) -> Option<Vec<Portal>> {
         let goal = *corners.last()?;
         let (mut at, mut ahead, mut sleeve) = (corners[0], None, Vec::new());
@@ -48,8 +49,8 @@ impl Strips<'_> {
         (from <= goal.x && goal.x <= to && lower <= goal.y && goal.y <= upper).then_some(sleeve)
     }
 
-    /// Portals along both sides of a wall between two places at a slice, as far as it goes; where the way is then. None of a wall that goes all
-    /// round a joint, and so has no end.
+    /// Adds portals along both sides of a wall between two places on a slice, as far as the wall extends. Returns the
+    /// place where the path is then. Returns `None` for a wall that goes all around a joint and so has no end.
     fn around_end(&mut self, from: Point, to: Point, ahead: bool, sleeve: &mut Vec<Portal>) -> Option<Point> {
         let slice = self.around(to.x).last().copied().filter(|slice| self.q1(*slice) == to.x && from.x == to.x)?;
         let mut sides = [from, to];
@@ -76,7 +77,7 @@ impl Strips<'_> {
         Some(to)
     }
 
-    /// The next slice of a way that goes on from a place, and the cell that it passes until then.
+    /// Returns the next slice of a path that continues from a place, and the cell in between.
     fn next(&mut self, from: Point, ahead: bool) -> Option<(i64, Cell)> {
         let around = self.around(from.x);
         let strip = *if ahead { around.last() } else { around.first() }?;
@@ -85,7 +86,7 @@ impl Strips<'_> {
         Some((if ahead { strip + 1 } else { strip }, cell))
     }
 
-    /// What is not closed at the slice by which a way leaves a cell, nearest to a value.
+    /// Returns the free interval nearest to a value on the slice where a path leaves a cell.
     fn free_in(&mut self, slice: i64, q2: f64, cell: Cell, ahead: bool) -> Option<[f64; 2]> {
         let [lower, upper] = cell.at(if ahead { 1.0 } else { 0.0 });
         self.nearest_free(slice, q2, |portal| lower <= portal.lower && portal.upper <= upper)

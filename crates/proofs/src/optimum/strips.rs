@@ -1,4 +1,4 @@
-//! Joint 1's domain in strips: what is closed to joint 2 at the slice between two strips, and across a strip.
+//! The strips of joint 1's domain: walls on the slices between them, and barriers across them.
 
 use super::closed::{Closed, Wall};
 use super::portals::{Portal, left_by, within_domain};
@@ -7,30 +7,30 @@ use cplan_core::space::{Configuration, JointRange, Segment, Topology};
 use cplan_geometry::merge_in_place;
 use std::f64::consts::{PI, TAU};
 
-/// The first strips are this share of the domain wide, or narrower beside values that link 1 closes. At least three, so
+/// Number of initial strips over the domain; those beside values that link 1 closes are narrower. At least three, so
 /// that across a seam no strip is its own neighbour.
 const FIRST: usize = 64;
 
-/// Strips at most.
+/// Maximum number of strips.
 const MOST_STRIPS: usize = 100_000;
 
-/// Barriers that are tried in a strip at most.
+/// Maximum number of barriers tried in a strip.
 const MOST_BARRIERS: usize = 512;
 
-/// Strips narrower than this, in the unit of joint 1, are not halved: about what rounding leaves uncertain.
+/// Narrowest strips that are halved, in the unit of joint 1: about the rounding error.
 pub(super) const NARROWEST: f64 = 1e-9;
 
-/// A way passes a portal if it is no farther beside it: it turns at the ends of portals.
+/// Tolerance for a path that passes a portal: paths turn at the ends of portals.
 pub(super) const ABOUT: f64 = 1e-9;
 
-/// Slices are farther apart than this, so that they are on other turns, too. Less than what is closed has been made smaller
-/// by, for reaches up to a kilometre.
+/// Least distance of slices, so that they also differ on other turns. It is less than the erosion of closed shapes for
+/// reaches up to a kilometre.
 const APART: f64 = 1e-12;
 
-/// A straight line across a strip that is closed: its values of joint 2 at the slice before and the slice after.
+/// A straight closed line across a strip: its values of joint 2 on the slice before and the slice after.
 type Barrier = [f64; 2];
 
-/// A part of a strip between two barriers: a trapezium. Infinite ends where there are none.
+/// A part of a strip between two barriers: a trapezium. Ends are infinite if there is no barrier.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Cell {
     pub lower: Barrier,
@@ -38,9 +38,10 @@ pub(super) struct Cell {
 }
 
 impl Cell {
-    /// The least and the greatest value of joint 2 at a share of the way from the slice before to the slice after.
+    /// Returns the least and the greatest value of joint 2 at a share of the distance from the slice before to the
+    /// slice after.
     pub fn at(&self, share: f64) -> [f64; 2] {
-        // Infinite ends stay what they are.
+        // Infinite ends must stay infinite.
         [self.lower, self.upper].map(|[before, after]| match share {
             0.0 => before,
             1.0 => after,
@@ -58,13 +59,13 @@ impl Cell {
 pub(super) struct Strip {
     pub(super) from: f64,
     pub(super) to: f64,
-    /// Closed by link 1.
+    /// True if link 1 closes the strip.
     pub(super) closed: bool,
-    /// Ascending at both slices, each with the number of its pair; once asked for.
+    /// Barriers, ascending on both slices, each with the number of its pair. Computed on demand.
     pub(super) barriers: Option<Vec<(Barrier, usize)>>,
-    /// What is closed at its middle; once asked for.
+    /// Walls at its middle. Computed on demand.
     middle: Option<Vec<Wall>>,
-    /// What is closed at the slice at `from`, and what that leaves; once asked for.
+    /// Walls on the slice at `from`, and the portals between them in the next field. Computed on demand.
     pub(super) walls: Option<Vec<Wall>>,
     portals: Option<Vec<Portal>>,
 }
@@ -74,24 +75,24 @@ impl Strip {
         Self { from, to, closed, barriers: None, middle: None, walls: None, portals: None }
     }
 
-    /// What is closed at the slice at `from`, as far as it has been asked for.
+    /// Returns the walls on the slice at `from`, as far as they have been computed.
     fn known_walls(&self) -> &[Wall] {
         self.walls.as_deref().unwrap_or_default()
     }
 }
 
-/// The strips, made as they are asked for. On a turning joint 1 without limits they are numbered on and on, over all
-/// turns; strip `k` lies between slices `k` and `k + 1`.
+/// The strips, computed on demand. On a revolute joint 1 without limits, the numbers of strips continue over all turns.
+/// Strip `k` lies between slices `k` and `k + 1`.
 pub(super) struct Strips<'a> {
     topology: Topology,
     pub(super) closed: Closed<'a>,
     pub(super) strips: Vec<Strip>,
-    /// What is closed at the end of the domain of a joint 1 with limits.
+    /// Walls at the end of the domain, if joint 1 has limits.
     pub(super) last: Vec<Wall>,
 }
 
 impl<'a> Strips<'a> {
-    /// With slices at these values of joint 1 beside the usual ones.
+    /// Makes strips with slices at these values of joint 1 in addition to the usual ones.
     pub fn new(scene: &'a Scene, clearance: f64, slices: &[f64]) -> Self {
         let topology = scene.arm().topology();
         let (lower, upper) = topology.ranges[0].domain();
@@ -115,12 +116,12 @@ impl<'a> Strips<'a> {
         &self.topology
     }
 
-    /// The pairs that may close something.
+    /// Returns the pairs that may close something.
     pub fn pairs(&self) -> Vec<Pair> {
         self.closed.pairs()
     }
 
-    /// Looks at some more pairs of link 2, if there are any among these that are not looked at. Whether there were.
+    /// Adds those pairs of link 2 that are not yet in use. Returns true if there were any.
     pub fn add(&mut self, mut pairs: Vec<Pair>) -> bool {
         pairs.retain(|pair| self.closed.number(*pair).is_none());
         self.closed.add(&pairs);
@@ -137,41 +138,41 @@ impl<'a> Strips<'a> {
         self.strips.len()
     }
 
-    /// The values of joint 1 at the slices before the strips.
+    /// Returns the values of joint 1 at the slices before the strips.
     pub fn slices(&self) -> Vec<f64> {
         self.strips.iter().map(|strip| strip.from).collect()
     }
 
-    /// Whether more strips would cost more than they are worth.
+    /// Returns true if more strips would cost more than they gain.
     pub fn are_too_many(&self) -> bool {
         self.strips.len() > MOST_STRIPS.min(self.closed.most_slices())
     }
 
     fn place(&self, number: i64) -> (usize, f64) {
         let n = self.strips.len() as i64;
-        // Most are on the turn that begins with the first; to divide would take longer than all else.
+        // Most numbers are on the first turn. A division would cost more than everything else.
         if (0..n).contains(&number) {
             return (number as usize, 0.0);
         }
         (number.rem_euclid(n) as usize, number.div_euclid(n) as f64 * TAU)
     }
 
-    /// The strip's place among [`Strips::count`].
+    /// Returns the index of a strip among [`Strips::count`].
     pub fn index(&self, number: i64) -> usize {
         self.place(number).0
     }
 
-    /// What to add to a strip's own values of joint 1 to get those on the turn that its number tells.
+    /// Returns the shift from a strip's own values of joint 1 to those on the turn of its number.
     pub fn turns(&self, number: i64) -> f64 {
         self.place(number).1
     }
 
-    /// The values of joint 1 between which a strip lies, by its place among all.
+    /// Returns the values of joint 1 between which a strip lies, by its index.
     pub fn ends(&self, index: usize) -> [f64; 2] {
         [self.strips[index].from, self.strips[index].to]
     }
 
-    /// The value of joint 1 at a slice.
+    /// Returns the value of joint 1 at a slice.
     pub fn q1(&self, slice: i64) -> f64 {
         let n = self.strips.len();
         if slice == n as i64 && !self.topology.ranges[0].is_circle() {
@@ -181,12 +182,13 @@ impl<'a> Strips<'a> {
         self.strips[index].from + turns
     }
 
-    /// Whether there are strips on both sides of a slice.
+    /// Returns true if there are strips on both sides of a slice.
     pub fn is_inner(&self, slice: i64) -> bool {
         self.topology.ranges[0].is_circle() || 0 < slice && slice < self.strips.len() as i64
     }
 
-    /// The strip that holds a value of joint 1, up to the rounding of whole turns; of two the one before.
+    /// Returns the strip that contains a value of joint 1, up to the rounding of whole turns. If there are two, returns
+    /// the one before.
     pub fn locate(&self, q1: f64) -> i64 {
         let last = self.strips.len() - 1;
         let (value, turns) = match self.topology.ranges[0] {
@@ -200,8 +202,8 @@ impl<'a> Strips<'a> {
         index as i64 + turns * self.strips.len() as i64
     }
 
-    /// The strips that hold a value of joint 1: two where it is that of a slice between them. Judged by the slices as they are
-    /// on that turn, where rounding may put them elsewhere than [`Strips::locate`] does.
+    /// Returns the strips that contain a value of joint 1: two if a slice between them has that value. It compares with
+    /// the slices on that turn, which may differ from [`Strips::locate`] by rounding.
     pub fn around(&self, q1: f64) -> Vec<i64> {
         let near = self.locate(q1);
         let exists = |strip: i64| self.topology.ranges[0].is_circle() || (0..self.strips.len() as i64).contains(&strip);
@@ -209,8 +211,8 @@ impl<'a> Strips<'a> {
         (near - 1..=near + 1).filter(holds).collect()
     }
 
-    /// The cell of a strip that holds `q2` at a share of the way from the slice before to the slice after; none if the
-    /// strip is closed.
+    /// Returns the cell of a strip that contains `q2` at a share of the distance from the slice before to the slice
+    /// after. Returns `None` if the strip is closed.
     pub fn cell(&mut self, strip: i64, share: f64, q2: f64) -> Option<Cell> {
         let index = self.index(strip);
         self.raise(index);
@@ -238,7 +240,7 @@ impl<'a> Strips<'a> {
         Some(cell.turned(turns))
     }
 
-    /// What is not closed at an inner slice. Every portal lies within one cell of each of the strips beside it.
+    /// Returns the portals of an inner slice. Every portal lies within one cell of each adjacent strip.
     pub fn portals(&mut self, slice: i64) -> &[Portal] {
         let (before, after) = (self.index(slice - 1), self.index(slice));
         if self.strips[after].portals.is_none() {
@@ -260,12 +262,12 @@ impl<'a> Strips<'a> {
         self.strips[after].portals.as_deref().unwrap_or(&[])
     }
 
-    /// What is not closed about a value of joint 2 at a slice, within the domain or half a turn to either side.
+    /// Returns the free interval around a value of joint 2 on a slice, within the domain or half a turn to either side.
     pub fn free_about(&mut self, slice: i64, q2: f64) -> Option<[f64; 2]> {
         self.nearest_free(slice, q2, |portal| portal.lower - ABOUT <= q2 && q2 <= portal.upper + ABOUT)
     }
 
-    /// The same of those stretches for which a condition holds that is nearest to the value.
+    /// Returns the free interval nearest to the value among those that satisfy a condition.
     pub fn nearest_free(
         &mut self,
         slice: i64,
@@ -283,12 +285,12 @@ impl<'a> Strips<'a> {
         let off = |portal: &Portal| f64::max(portal.lower - q2, q2 - portal.upper).max(0.0);
         let nearest = portals.filter(|portal| condition(portal)).min_by(|a, b| off(a).total_cmp(&off(b)));
         let within = nearest.map(|portal| [portal.lower.max(bottom), portal.upper.min(top)]);
-        // The nearest that fulfils the condition may be more than half a turn off.
+        // The nearest interval that satisfies the condition may be more than half a turn away.
         within.filter(|[lower, upper]| lower <= upper)
     }
 
-    /// The goals of a piece that are not closed: exact where joint 1 is the same all along it. Other pieces are left to the
-    /// strips.
+    /// Returns the goals of a segment that are not closed. It is exact if joint 1 is the same all along the segment.
+    /// For other segments, the strips decide.
     pub fn open_goals(&mut self, piece: &Segment) -> Vec<Segment> {
         let [from, to] = piece.ends();
         let axis = self.topology.ranges[1];
@@ -311,13 +313,13 @@ impl<'a> Strips<'a> {
         open.into_iter().map(|[from, to]| Segment::new(from, to)).collect()
     }
 
-    /// What is closed at the slice before a strip.
+    /// Returns the walls on the slice before a strip.
     fn walls(&mut self, index: usize) -> &[Wall] {
         let from = self.strips[index].from;
         self.strips[index].walls.get_or_insert_with(|| self.closed.walls(from))
     }
 
-    /// Finds the barriers of a strip: between the walls that a pair makes at both its slices.
+    /// Finds the barriers of a strip, between walls of the same pair on both its slices.
     fn raise(&mut self, index: usize) {
         if self.strips[index].barriers.is_some() {
             return;
@@ -337,7 +339,7 @@ impl<'a> Strips<'a> {
                 barriers.extend(self.barrier([from, to], left, right).map(|barrier| (barrier, left.pair)));
             }
             barriers.sort_by(|(a, _), (b, _)| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
-            // Those that cross others are left out: cells are to be convex.
+            // Drop barriers that cross others: cells must be convex.
             barriers.dedup_by(|(next, _), (kept, _)| next[0] <= kept[0] || next[1] <= kept[1]);
             if self.topology.ranges[1].is_circle() {
                 while let [(first, _), .., (last, _)] = barriers.as_slice()
@@ -350,8 +352,8 @@ impl<'a> Strips<'a> {
         self.strips[index].barriers = Some(barriers);
     }
 
-    /// A line between two walls of a pair along which it is proven to be too near: where both hold the same value, or else between
-    /// their middles. Level ones do not cross where walls part and meet.
+    /// Returns a line between two walls of a pair along which the pair is proven too near. The line is level if both
+    /// walls share a value, and otherwise connects their middles. Level lines do not cross where walls split and merge.
     fn barrier(&self, slices: [f64; 2], left: &Wall, right: &Wall) -> Option<Barrier> {
         let circle = self.topology.ranges[1].is_circle();
         let middle = |wall: &Wall| f64::midpoint(wall.lower, wall.upper);
@@ -368,8 +370,8 @@ impl<'a> Strips<'a> {
         Some(if circle { barrier.map(|q2| q2 + back) } else { barrier })
     }
 
-    /// How far `q2` is, downwards and upwards, from where the wall that holds it at the middle of a strip ends; none if no
-    /// wall does.
+    /// Returns the distances of `q2`, downwards and upwards, from the ends of the wall that contains it at the middle
+    /// of a strip. Returns `None` if no wall does.
     pub fn way_out_of_middle(&mut self, index: usize, q2: f64) -> Option<[f64; 2]> {
         let strip = &mut self.strips[index];
         let walls = strip.middle.get_or_insert_with(|| self.closed.walls(f64::midpoint(strip.from, strip.to)));
@@ -382,14 +384,14 @@ impl<'a> Strips<'a> {
         wall.map(|wall| [wall[0] - value, wall[1] - value])
     }
 
-    /// Halves strips, given in ascending order without repetition; those that can be. Whether any was.
+    /// Halves strips where possible, given in ascending order without repetition. Returns true if any strip was halved.
     pub fn halve(&mut self, which: &[usize]) -> bool {
         let cuts: Vec<(usize, Vec<f64>)> = which.iter().map(|&index| (index, Vec::new())).collect();
         self.cut(&cuts)
     }
 
-    /// Cuts strips, given in ascending order without repetition, each at values within it, ascending, or in halves if there
-    /// are none; those that can be. Whether any was.
+    /// Cuts strips where possible, given in ascending order without repetition. Each is cut at values within it,
+    /// ascending, or in half if no values are given. Returns true if any strip was cut.
     pub fn cut(&mut self, which: &[(usize, Vec<f64>)]) -> bool {
         let before = std::mem::take(&mut self.strips);
         let count = before.len();
@@ -431,7 +433,8 @@ impl<'a> Strips<'a> {
     }
 }
 
-/// The walls that a pair makes at both of two slices, in the order of pairs, which that of the slices' walls is.
+/// Returns pairs of walls on two slices that belong to the same pair of shapes. The walls of both slices must be in the
+/// order of pairs.
 fn of_the_same_pairs<'w>(before: &'w [Wall], after: &'w [Wall]) -> Vec<(&'w Wall, &'w Wall)> {
     let mut both = Vec::new();
     let mut rest = after;
@@ -444,7 +447,8 @@ fn of_the_same_pairs<'w>(before: &'w [Wall], after: &'w [Wall]) -> Vec<(&'w Wall
     both
 }
 
-/// All, or of too many some from all over the list, ordered by the middles of the first walls.
+/// Returns all candidates. If there are too many, returns a selection spread over the list, ordered by the middles of
+/// the first walls.
 fn some<'w>(mut candidates: Vec<(&'w Wall, &'w Wall)>) -> Vec<(&'w Wall, &'w Wall)> {
     if candidates.len() > MOST_BARRIERS {
         candidates.sort_by(|a, b| (a.0.lower + a.0.upper).total_cmp(&(b.0.lower + b.0.upper)));
@@ -454,7 +458,8 @@ fn some<'w>(mut candidates: Vec<(&'w Wall, &'w Wall)>) -> Vec<(&'w Wall, &'w Wal
     candidates
 }
 
-/// Bands, ascending, that are neither nearer than [`APART`] to each other or to an end of the domain, nor narrower.
+/// Returns bands, ascending, adjusted so that they are neither narrower than [`APART`] nor nearer than that to each
+/// other or to an end of the domain.
 fn apart(bands: Vec<[f64; 2]>, [lower, upper]: [f64; 2]) -> Vec<[f64; 2]> {
     let mut bands: Vec<[f64; 2]> = bands
         .into_iter()

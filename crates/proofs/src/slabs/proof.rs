@@ -1,4 +1,4 @@
-//! The proof that slabs leave no connection, as boxes.
+//! Boxes that prove that slabs leave no connection.
 
 use super::{ALIKE, Slab, Slabs, Span, half_of_level, index};
 use crate::chain::{Mosaic, ends};
@@ -9,7 +9,7 @@ use cplan_geometry::merge_in_place;
 use cplan_interrupt::checkpoint;
 
 impl Slabs<'_> {
-    /// What free and mixed spans connect with any of the places, as one flag a span.
+    /// Returns, for each span, whether free and undecided spans connect it with any of the places.
     fn reached(&self, places: &GoalSet) -> Vec<bool> {
         let mut reached = vec![false; self.spans.len()];
         let mut waiting: Vec<u32> = ends(self, places).into_iter().map(|end| end.0).collect();
@@ -24,9 +24,9 @@ impl Slabs<'_> {
         reached
     }
 
-    /// The proof that start and goals are not connected, which no open span denies: the stuck boxes around what can be
-    /// reached from the start, or from the goals, whichever are fewer. None if boxes do not bear it out, or no fewer than
-    /// `most` of them.
+    /// Returns the proof that start and goals are not connected. No span that may be free must connect them. The proof
+    /// consists of the collision boxes around the region reachable from the start, or from the goals, whichever are
+    /// fewer. Returns `None` if boxes cannot confirm it, or if it needs more than `most` boxes.
     pub(super) fn disconnection(
         &mut self,
         start: Configuration,
@@ -42,8 +42,8 @@ impl Slabs<'_> {
         boxes.map(Disconnection::new)
     }
 
-    /// The stuck boxes beside what can be reached from the places, and those that hold places themselves; none if there are more
-    /// than `most`.
+    /// Returns the collision boxes beside the region reachable from the places, and those that contain places
+    /// themselves. Returns `None` if boxes cannot confirm them, or if there are more than `most`.
     fn around(&mut self, places: &GoalSet, most: usize) -> Option<Vec<StuckBox>> {
         let reached = self.reached(places);
         let places: Vec<Segment> = places.wrapped(&self.topology).collect();
@@ -93,7 +93,7 @@ impl Slabs<'_> {
         runs.all(|run| lay(scene, self.second.clearance(), run, [bottom, top], most, &mut boxes)).then_some(boxes)
     }
 
-    /// The verdicts on a slab once more.
+    /// Computes the verdicts on a slab again.
     fn judge_again(&mut self, number: u32) {
         let Slab { from, to, level, .. } = self.slabs[number as usize];
         let half = half_of_level(&self.topology, level) * (1.0 + 2.0 * ALIKE);

@@ -7,22 +7,23 @@ use cplan_core::space::JointRange;
 use cplan_geometry::Point;
 use cplan_text::{counted, short};
 
-/// Top speed of a joint that turns, rad/s, from which on it is hardly meant: the fastest axes of robots turn at 45 rad/s.
+/// Implausible top speed of a revolute joint, rad/s: the fastest axes of robots turn at 45 rad/s.
 const FASTEST_TURN: f64 = 60.0;
 
 /// Fastest plausible prismatic joint, m/s.
 const FASTEST_SLIDE: f64 = 20.0;
 
-/// Arms, slides and shapes longer than this, metres, are hardly meant: only cranes are.
+/// Greatest plausible length of arms, slides and shapes, metres: only cranes are longer.
 const LONGEST: f64 = 50.0;
 
-/// Shapes of an arm that reach so many times its length are hardly meant.
+/// Greatest plausible reach of an arm's shapes, as a multiple of its length.
 const MOST_OUTREACH: f64 = 20.0;
 
-/// Shapes that reach less than this, metres, are not compared with the arm's length: joints may be all but in one place.
+/// Shapes that reach less than this, metres, are not compared with the arm's length, because joints may be almost at
+/// the same place.
 const USUAL_OUTREACH: f64 = 5.0;
 
-/// Hints about an arm, each in a line.
+/// Returns hints about an arm, each in a line.
 pub(super) fn warnings(reduction: &Reduction, arm: &Arm) -> Vec<String> {
     let mut warnings = Vec::new();
     for (&index, joint) in reduction.chain.joints.iter().zip(&arm.joints) {
@@ -88,7 +89,7 @@ fn length(arm: &Arm) -> Option<String> {
     })
 }
 
-/// Shapes that reach far beyond the arm's joints.
+/// Returns the warning about shapes that reach far beyond the arm's joints.
 fn outreach(arm: &Arm) -> Option<String> {
     let usual = (MOST_OUTREACH * lengths(arm).iter().sum::<f64>()).max(USUAL_OUTREACH);
     let reach = |part: &cplan_core::model::Part| part.shape.reach_from(Point::origin());

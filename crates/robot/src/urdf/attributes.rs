@@ -7,7 +7,7 @@ use crate::source::Source;
 use nalgebra::{Quaternion, Rotation3, UnitQuaternion, Vector3};
 use roxmltree::Node;
 
-/// Attributes that hold numbers, in any element of a link or joint; those of [`UNLIMITED`] do, too.
+/// Numeric attributes of any element of a link or joint; those in [`UNLIMITED`] are numeric, too.
 const NUMERIC: [&str; 22] = [
     "xyz",
     "rpy",
@@ -33,7 +33,7 @@ const NUMERIC: [&str; 22] = [
     "izz",
 ];
 
-/// Attributes that hold numbers, where an infinity says that there is no limit.
+/// Numeric attributes in which an infinity means that there is no limit.
 const UNLIMITED: [&str; 9] = [
     "lower",
     "upper",
@@ -53,7 +53,7 @@ const JOINT_TYPES: [&str; 7] = ["revolute", "continuous", "prismatic", "fixed", 
 pub(super) struct Attributes<'a> {
     pub source: &'a Source,
     pub diagnostics: &'a mut Vec<Diagnostic>,
-    /// The link or joint, as it begins every message.
+    /// The name of the link or joint, with which every message begins.
     pub what: &'a str,
 }
 
@@ -86,8 +86,8 @@ impl Attributes<'_> {
         self.diagnostics.push(diagnostic.help(help));
     }
 
-    /// Refuses NaN in every numeric attribute below `node`, also in those that are not used, and infinities where they do
-    /// not just say that there is no limit: a file that has them was not written right.
+    /// Refuses NaN in every numeric attribute below `node`, also in unused ones. Refuses infinities unless they mean
+    /// that there is no limit. A file with such values was not written correctly.
     pub fn finite_everywhere(&mut self, node: Node) {
         for element in node.descendants().filter(Node::is_element) {
             for attribute in element.attributes() {

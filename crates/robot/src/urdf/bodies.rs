@@ -1,4 +1,4 @@
-//! The outlines of the two arm links: which of the URDF's geometry makes them up.
+//! The outlines of the two arm links, from the URDF's geometry.
 
 use super::chain::Chain;
 use super::document::Document;
@@ -18,7 +18,7 @@ use std::collections::BTreeSet;
 /// Largest number of corners of an outline that stays one shape. The time of queries grows with them.
 const MOST_CORNERS: usize = 1024;
 
-/// Everything that the outlines are made from.
+/// The data for the outlines.
 pub(super) struct Bodies<'a> {
     pub document: &'a Document,
     pub tree: &'a Tree,
@@ -51,7 +51,7 @@ pub(super) struct Outlines {
     pub self_obstacles: Vec<SelfObstacle>,
     pub geometry: Vec<String>,
     pub notes: Vec<String>,
-    /// Those of the notes that name shapes of size zero.
+    /// The notes about shapes of size zero.
     pub sizeless: Vec<String>,
     pub warnings: Vec<String>,
 }
@@ -142,7 +142,7 @@ impl Bodies<'_> {
         (!bodies.is_empty()).then(|| format!("link {link} \"{name}\": shapes of size zero are ignored (in {bodies})"))
     }
 
-    /// A link of these parts, which are all that could be read of it.
+    /// Returns a link of these parts, which are all that could be read.
     fn link(
         &self,
         index: usize,

@@ -20,14 +20,14 @@ pub(super) struct Chain {
     pub values: Vec<f64>,
     /// The other movable joints that matter to the arm. Their values are held.
     pub held: Vec<usize>,
-    /// The same as text.
+    /// Notes about them.
     pub notes: Vec<String>,
 }
 
 /// Chooses joints, values and tip.
 ///
 /// # Errors
-/// When the two joints are not clear, do not follow one another, or cannot be planned for on their own.
+/// If the two joints are not clear, do not follow one another, or cannot be planned alone.
 pub(super) fn choose(document: &Document, tree: &Tree, settings: RobotSettings) -> Result<Chain, InputError> {
     let chooser = Chooser { document, tree, settings };
     chooser.names_exist()?;
@@ -78,7 +78,7 @@ pub(super) fn pairs(document: &Document, tree: &Tree) -> Vec<[usize; 2]> {
     movable.iter().flat_map(|a| carried(*a)).collect()
 }
 
-/// Sees to it that the choice is sound.
+/// Checks that the choice is valid.
 pub(super) struct Chooser<'a> {
     pub document: &'a Document,
     pub tree: &'a Tree,
@@ -180,7 +180,7 @@ impl Chooser<'_> {
         }
     }
 
-    /// Joints that can move on their own.
+    /// Returns the joints that can move on their own.
     fn candidates(&self) -> Vec<usize> {
         (0..self.all().len()).filter(|j| is_movable(&self.all()[*j]) && self.all()[*j].mimic.is_none()).collect()
     }
@@ -272,7 +272,7 @@ impl Chooser<'_> {
                     .joint_diagnostic(j, &message)
                     .help("make it fixed, or choose joints above it"));
             }
-            // Beside the arm it matters if it could collide.
+            // A joint outside the arm matters if it could collide.
             let matters = || carried || self.tree.carries(j, self.tree.child[chosen[0]]) || self.has_shapes(j);
             if joint.mimic.is_none() || !matters() {
                 continue;
@@ -320,7 +320,7 @@ impl Chooser<'_> {
                 }
             };
         }
-        // The deepest link below joint 2, the first of the file among equals.
+        // Returns the deepest link below joint 2, the first in the file among equals.
         let depth = |l: &usize| (self.tree.depth(*l), std::cmp::Reverse(*l));
         Ok(below.into_iter().max_by_key(depth).unwrap_or(self.tree.child[joints[1]]))
     }

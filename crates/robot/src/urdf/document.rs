@@ -23,11 +23,11 @@ pub(super) struct Document {
     pub links: Vec<LinkPlace>,
     /// Places of the joints, in the order of `robot.joints`.
     pub joints: Vec<JointPlace>,
-    /// Elements beside links and joints, with their number, by name.
+    /// Number of elements other than links and joints, by name.
     pub others: BTreeMap<String, usize>,
     /// Defects of single elements. A robot with defects is usable only for a report.
     pub diagnostics: Vec<Diagnostic>,
-    /// True if they do not concern joints or names, so that the kinematics are those of the file.
+    /// True if no defect concerns joints or names, so that the kinematics are those of the file.
     pub tree_is_sound: bool,
 }
 
@@ -48,11 +48,13 @@ pub(super) struct JointPlace {
     pub child: Range<usize>,
     pub limit: Option<Range<usize>>,
     pub mimic: Option<Range<usize>>,
-    /// The `safety_controller`, if it gives both soft limits and they are not both 0 (which exporters write for none).
+    /// The `safety_controller`, if it gives both soft limits and they are not both 0 (which exporters write for missing
+    /// ones).
     pub soft_limits: Option<Range<usize>>,
-    /// Whether the limit gives a `velocity`.
+    /// True if the limit gives a `velocity`.
     pub has_velocity: bool,
-    /// The `acceleration` of the limit. URDF 1.2 has it; taken from older files too, where `urdf-rs` drops it.
+    /// The `acceleration` of the limit. It is part of URDF 1.2, and is read from older files too, where `urdf-rs` drops
+    /// it.
     pub acceleration: Option<f64>,
 }
 
@@ -150,7 +152,7 @@ impl Reader<'_> {
         let _ = write!(self.copy, "<robot name=\"{}\" version=\"1.1\">", escaped(root.attribute("name").unwrap_or("")));
         let mut links = Vec::new();
         let mut joints = Vec::new();
-        // Where the first of each name is.
+        // The place of the first element of each name.
         let mut names: HashMap<(&str, &str), usize> = HashMap::new();
         for node in root.children().filter(|n| is_ours(*n, root)) {
             let kind = node.tag_name().name();
@@ -233,7 +235,7 @@ impl Reader<'_> {
         let moves = kind.is_some_and(|k| k != "fixed" && k != "floating");
         let axis = attributes.only(joint, "axis", false).filter(|axis| moves && attributes.direction(*axis));
         let limit = attributes.only(joint, "limit", false);
-        // From URDF 1.2 on an absent limit means none, before that it means 0.
+        // From URDF 1.2 on an absent limit means no limit, before that it means 0.
         let [low, high] = if unlimited { [f64::NEG_INFINITY, f64::INFINITY] } else { [0.0; 2] };
         let [lower, upper, velocity, acceleration] = match limit {
             Some(limit) => attributes.limit(limit, [low, high], matches!(kind, Some("revolute" | "prismatic"))),

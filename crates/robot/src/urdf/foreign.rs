@@ -1,4 +1,4 @@
-//! Files that are no plain URDF: xacro, SDF, other XML, and broken XML.
+//! Detection of files that are not plain URDF: xacro, SDF, other XML, and broken XML.
 
 use super::document::tag;
 use crate::error::Diagnostic;
@@ -17,7 +17,8 @@ fn xacro(diagnostic: Diagnostic) -> Diagnostic {
     )
 }
 
-/// Refuses document types that define entities, which can grow without end. One that does not is harmless, and ignored.
+/// Refuses document types that define entities, which can grow without end. Other document types are harmless, and
+/// ignored.
 pub(super) fn without_entities(source: &Source) -> Result<(), Diagnostic> {
     const ENTITY: &str = "<!ENTITY";
     match source.text().find(ENTITY).filter(|at| source.text()[..*at].contains("<!DOCTYPE")) {
@@ -44,7 +45,7 @@ pub(super) fn malformed(source: &Source, error: &Error) -> Diagnostic {
     let in_line: usize = source.text()[line_start..].chars().take(column.saturating_sub(1)).map(char::len_utf8).sum();
     let offset = line_start + in_line;
     let mut message = error.to_string();
-    // The place is in front of the message already.
+    // The place is already shown before the message.
     if let Some(cut) = message.rfind(&format!(" at {}:{}", at.row, at.col)) {
         message.truncate(cut);
     }
@@ -53,7 +54,7 @@ pub(super) fn malformed(source: &Source, error: &Error) -> Diagnostic {
         .help("is this the URDF? The order is URDF, then world file; an XML editor shows where a tag is not closed")
 }
 
-/// Refuses documents that are something else than a URDF. A URDF that merely declares the xacro namespace is fine.
+/// Refuses documents that are not a URDF. A URDF that merely declares the xacro namespace is accepted.
 pub(super) fn recognise(source: &Source, root: Node) -> Result<(), Diagnostic> {
     let at = |node: Node, message: &str| source.diagnostic_at(tag(node), message);
     match root.tag_name().name() {

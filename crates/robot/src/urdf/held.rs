@@ -1,4 +1,4 @@
-//! Values of the joints that do not move: given by the world, at rest, or by a mimic rule.
+//! Values of the joints that do not move, from the world, at rest, or from a mimic rule.
 
 use super::chain::{Chooser, is_movable, unit};
 use super::limits::{Limits, Range, find};
@@ -7,7 +7,7 @@ use crate::quantity::Quantity;
 use cplan_core::space::JointRange;
 use urdf_rs::{JointType, Mimic};
 
-/// Values of all joints, and which of them are held where it matters.
+/// Values of all joints, with the list of held joints that matter.
 pub(super) struct Held {
     pub values: Vec<f64>,
     pub held: Vec<usize>,
@@ -94,7 +94,7 @@ impl Chooser<'_> {
         Ok(Held { values, held, notes })
     }
 
-    /// Returns the value of a held joint: the world's, else 0 clamped into its limits.
+    /// Returns the value of a held joint: the world's, otherwise 0 clamped into its limits.
     fn held_at(&self, index: usize) -> Result<f64, Diagnostic> {
         let joint = &self.all()[index];
         let range = Limits { document: self.document, settings: self.settings }.range(index)?;
@@ -134,7 +134,7 @@ struct Affine {
 }
 
 impl Affine {
-    /// Puts a mimic's own map before this one.
+    /// Composes it with a mimic's own map, which applies first.
     fn after(self, mimic: &Mimic) -> Self {
         let (multiplier, offset) = (mimic.multiplier.unwrap_or(1.0), mimic.offset.unwrap_or(0.0));
         Affine { factor: self.factor * multiplier, offset: self.factor * offset + self.offset }

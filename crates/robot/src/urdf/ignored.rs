@@ -7,7 +7,7 @@ use crate::error::quoted;
 use cplan_core::model::{Link, OutlineSource};
 use cplan_text::counted;
 
-/// Elements that are neither links nor joints.
+/// Lists elements that are neither links nor joints.
 pub(super) fn elements(document: &Document) -> Vec<String> {
     let names: Vec<String> = document.others.iter().map(|(name, count)| format!("{count} <{name}>")).collect();
     if names.is_empty() {
@@ -16,7 +16,7 @@ pub(super) fn elements(document: &Document) -> Vec<String> {
     vec![format!("elements that are neither links nor joints: {}", names.join(", "))]
 }
 
-/// Links that do not move, and joints that the arm does not depend on.
+/// Lists links that do not move, and joints that the arm does not depend on.
 pub(super) fn beside_the_arm(reduction: &Reduction) -> Vec<String> {
     let Reduction { document, tree, chain, .. } = reduction;
     let mut ignored = Vec::new();

@@ -10,17 +10,17 @@ use std::f64::consts::{PI, TAU};
 use toml::Spanned;
 use urdf_rs::JointType;
 
-/// Longest range of a joint that slides, metres: beyond the coordinates that a world may have nothing can be hit.
+/// Longest range of a prismatic joint, metres: beyond the coordinates that a world may have, nothing can be hit.
 const LONGEST_SLIDE: f64 = 2.0 * LARGEST;
 
 /// A revolute joint with both limits beyond this, radians, counts as unlimited: simulators write 1e16, exporters 1e9 or
 /// infinity. No valid start is that far out.
 const UNLIMITED: f64 = LARGEST;
 
-/// Limits of a revolute joint that reach this value, radians, and no farther than [`MOST_DEGREES`] look like degrees: it is four turns.
+/// Least limit of a revolute joint, radians, that looks like degrees: four turns. Up to [`MOST_DEGREES`].
 const LEAST_DEGREES: f64 = 4.0 * TAU;
 
-/// Two turns, degrees. More is no joint's range in either unit.
+/// Two turns, degrees. No joint has a larger range in either unit.
 const MOST_DEGREES: f64 = 720.0;
 
 /// Limits this close to a multiple of half a turn, radians, are rounded to it. This is the rounding of three decimals.
@@ -30,7 +30,7 @@ const HALF_TURN_ROUNDING: f64 = 1e-3;
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Range {
     Known(JointRange),
-    /// Changed from the file's range, with a note.
+    /// A range changed from the file's, with a note.
     Taken(JointRange, String),
     /// No limits, with the reason.
     Unset(String),
@@ -52,14 +52,14 @@ pub(super) struct Assumed {
     pub acceleration: bool,
 }
 
-/// Limits of joints as the URDF and the world file have them.
+/// Limits of joints in the URDF and the world file.
 pub(super) struct Limits<'a> {
     pub document: &'a Document,
     pub settings: RobotSettings<'a>,
 }
 
 impl Limits<'_> {
-    /// Returns the range of a movable joint: the world's, else the URDF's restricted by its soft limits.
+    /// Returns the range of a movable joint: the world's, otherwise the URDF's restricted by its soft limits.
     pub fn range(&self, index: usize) -> Result<Range, Diagnostic> {
         let joint = &self.document.robot.joints[index];
         if let Some(limits) = find(&self.settings.table.limits, &joint.name) {
@@ -125,7 +125,7 @@ impl Limits<'_> {
     }
 
     /// Returns an example range for the world file, for a joint without a usable one: the URDF's in degrees if it looks
-    /// like that, else a placeholder.
+    /// like degrees, otherwise a placeholder.
     pub fn example(&self, index: usize) -> String {
         match self.degrees(index) {
             Some([lower, upper]) => format!("[\"{lower}deg\", \"{upper}deg\"]"),

@@ -22,7 +22,7 @@ const NEGLIGIBLE: f64 = 1e-12;
 /// Checks the world's values for efforts and gravity, even if they are not used.
 ///
 /// # Errors
-/// The first invalid one.
+/// The first invalid value.
 pub(super) fn check(settings: RobotSettings) -> Result<(), Diagnostic> {
     let bad =
         settings.table.effort.iter().find(|(_, effort)| !(effort.get_ref().is_finite() && *effort.get_ref() > 0.0));
@@ -41,10 +41,10 @@ pub(super) fn check(settings: RobotSettings) -> Result<(), Diagnostic> {
 }
 
 impl Bodies<'_> {
-    /// Masses and efforts of an arm.
+    /// Returns masses and efforts of an arm.
     ///
     /// # Errors
-    /// Links without mass, joints without effort, numbers that no body has.
+    /// Links without mass, joints without effort, numbers that are impossible for a body.
     pub fn dynamics(&self, arm: &Arm, assumed: [bool; 2]) -> Result<Dynamics, Diagnostic> {
         check(self.settings)?;
         let effort = [self.effort(0)?, self.effort(1)?];

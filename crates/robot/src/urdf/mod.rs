@@ -1,7 +1,7 @@
 //! From a URDF to a planar two-joint arm.
 //!
 //! The joints' axes and all link frames are computed in the root frame at the zero configuration (the two joints at 0,
-//! the others where `[robot] fixed` holds them), then projected on the common plane of motion.
+//! the others at their values in `[robot] fixed`). Then they are projected on the common plane of motion.
 //!
 //! ```text
 //! Document (valid elements, diagnostics) -> Tree -> Chain (two joints, tip) -> Reduction -> Plane, Bounds, Outlines
@@ -46,7 +46,7 @@ use std::collections::BTreeSet;
 use std::path::Path;
 use tree::Tree;
 
-/// Returns the meshes that a robot finds at its own place, but not if its text were the file `other`.
+/// Returns the meshes that a robot finds at its own place, but would not find if its text were the file `other`.
 #[must_use]
 pub fn meshes_elsewhere(robot: &Source, other: &Path) -> Vec<String> {
     let (Ok(here), Ok(xml)) = (robot.anchor(), roxmltree::Document::parse(robot.text())) else { return Vec::new() };

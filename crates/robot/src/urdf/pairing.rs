@@ -11,7 +11,7 @@ use crate::settings::RobotSettings;
 use cplan_core::model::Plane;
 use urdf_rs::JointType;
 
-/// More pairs than this are not listed in a message.
+/// Greatest number of pairs in a message.
 const LISTED: usize = 6;
 
 /// Largest number of movable joints for which pairs are tried. The number of pairs grows with its square.
@@ -24,10 +24,10 @@ pub(super) struct PlanarPair {
     plane: Plane,
 }
 
-/// A pair that is taken although the world names none.
+/// A pair that is chosen although the world names none.
 pub(super) struct Evident {
     pub joints: [usize; 2],
-    /// Why this one, in words that follow its names.
+    /// The reason for this pair, in words that follow its names.
     pub reason: String,
 }
 

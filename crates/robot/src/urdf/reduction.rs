@@ -18,13 +18,13 @@ use cplan_dynamics::keep_efforts;
 use cplan_geometry::Point;
 use nalgebra::Isometry3;
 
-/// A chain and where its links are.
+/// A chain and the poses of its links.
 pub(super) struct Reduction<'a> {
     pub document: &'a Document,
     pub tree: &'a Tree,
     pub settings: RobotSettings<'a>,
     pub chain: &'a Chain,
-    /// Poses of all links in the root frame, the two joints at 0, the others where they are held.
+    /// Poses of all links in the root frame, the two joints at 0, the others at their held values.
     pub poses: Vec<Isometry3<f64>>,
 }
 
@@ -110,7 +110,7 @@ impl<'a> Reduction<'a> {
         Bodies { document, tree, chain, settings, plane: &arm.plane, poses }.dynamics(arm, assumed)
     }
 
-    /// Puts the arm together; and tells why its masses and efforts are not known, unless they are.
+    /// Assembles the arm, and returns the reason if its masses and efforts are unknown.
     pub fn arm(&self, plane: Plane, bounds: [Bounds; 2], outlines: Outlines) -> (Arm, RobotReport, Option<Diagnostic>) {
         let mut report = RobotReport {
             geometry: vec![plane::describe(&plane, &self.tree.links[self.tree.root])],
@@ -134,7 +134,7 @@ impl<'a> Reduction<'a> {
             if bounds.rates.assumed.velocity {
                 report.assumed.velocity.insert(name.clone(), bounds.rates.velocity);
             }
-            // Efforts take the place of accelerations that nobody gives.
+            // Efforts replace missing acceleration limits.
             if bounds.rates.assumed.acceleration && !self.settings.table.dynamics {
                 report.assumed.acceleration.insert(name.clone(), bounds.rates.acceleration);
             }

@@ -1,7 +1,7 @@
 //! Self-collision: the pairs of links that the planner keeps apart, and the layers in which it cuts their meshes.
 //!
-//! A link is an obstacle for those that a joint further along the chain moves, except for its neighbours in the chain, for those that the world lets
-//! it meet, and for those that it meets in every configuration.
+//! A link is an obstacle for the links that a joint further along the chain moves. Exceptions are its neighbours in the
+//! chain, those that the world allows to meet it, and those that meet it in every configuration.
 
 use super::bodies::Bodies;
 use super::chain::Chain;
@@ -16,13 +16,13 @@ use cplan_geometry::separation;
 use std::collections::BTreeSet;
 use urdf_rs::JointType;
 
-/// Values of each joint at which links are placed to find those that meet in every configuration.
+/// Number of values of each joint at which links are placed to find those that meet in every configuration.
 const SAMPLES: usize = 32;
 
 /// Part of the robot to which a link belongs, by the joint that moves it last.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Group {
-    /// Neither of the two, nor any other that can move.
+    /// Links that no movable joint moves.
     Fixed,
     First,
     Second,
@@ -35,7 +35,7 @@ pub(super) struct SelfCollision<'a> {
     groups: Vec<Option<Group>>,
     /// URDF links that have a shape.
     solid: BTreeSet<usize>,
-    /// Pairs that the world lets meet, each in both orders.
+    /// Pairs that the world allows to meet, each in both orders.
     allowed: BTreeSet<(usize, usize)>,
 }
 
@@ -75,25 +75,26 @@ impl<'a> SelfCollision<'a> {
         Ok(Self { bodies, groups, solid, allowed })
     }
 
-    /// Returns whether the planner keeps two URDF links apart.
+    /// Returns true if the planner keeps two URDF links apart.
     fn checked(&self, a: usize, b: usize) -> bool {
         let is_enabled = self.bodies.settings.table.own_body_is_obstacle();
         let are_apart = self.groups[a].zip(self.groups[b]).is_some_and(|(a, b)| a != b);
         is_enabled && are_apart && !self.allowed.contains(&(a, b)) && !self.are_neighbors(a, b)
     }
 
-    /// Returns whether no link with a shape is between two links in the tree.
+    /// Returns true if no link with a shape is between two links in the tree.
     fn are_neighbors(&self, a: usize, b: usize) -> bool {
         let [above_a, above_b] = [a, b].map(|link| self.bodies.tree.ancestors(link));
         let common = above_a.iter().rev().zip(above_b.iter().rev()).take_while(|(a, b)| a == b).count();
         let between = |above: &[usize]| above[..above.len() - common].iter().skip(1).copied().collect::<Vec<_>>();
-        // Where one carries the other it is the last that they have in common itself.
+        // If one carries the other, the last common link is that one itself.
         let top = above_a[above_a.len() - common];
         let middle = (top != a && top != b).then_some(top);
         !between(&above_a).into_iter().chain(between(&above_b)).chain(middle).any(|link| self.solid.contains(&link))
     }
 
-    /// Returns the heights at which a link's meshes are cut: where shapes begin and end from which the link is kept apart; ascending.
+    /// Returns the heights at which a link's meshes are cut, ascending: the ends of the heights of shapes from which
+    /// the link is kept apart.
     pub fn cuts(&self, link: usize, all: &[PlacedShape]) -> Vec<f64> {
         let others = all.iter().filter(|other| self.checked(link, other.link));
         let mut cuts: Vec<f64> = others.flat_map(|other| [other.heights.lower, other.heights.upper]).collect();
@@ -128,7 +129,7 @@ impl<'a> SelfCollision<'a> {
         obstacles
     }
 
-    /// Returns whether a link is kept apart from one further along the chain.
+    /// Returns true if a link is kept apart from one further along the chain.
     fn is_hit_by(&self, link: usize, other: usize) -> bool {
         self.groups[link] < self.groups[other] && self.checked(link, other)
     }
@@ -140,7 +141,7 @@ impl<'a> SelfCollision<'a> {
         ignored.map(|other| self.bodies.document.robot.links[other].name.clone()).collect()
     }
 
-    /// Names the neighbours, which are free to meet, for the user.
+    /// Describes the neighbours, which are free to meet.
     pub fn notes(&self) -> Vec<String> {
         let neighbors: Vec<String> =
             self.pairs().filter(|(a, b)| self.are_neighbors(*a, *b)).map(|p| self.named(p)).collect();
@@ -163,7 +164,7 @@ impl<'a> SelfCollision<'a> {
     }
 }
 
-/// Lets links meet that do so in every configuration, and names them.
+/// Allows links to meet that do so in every configuration, and names them.
 ///
 /// The arm is placed at [`SAMPLES`] values of each joint within its limits.
 pub(super) fn ignore_permanent_contact(arm: &mut Arm) -> Option<String> {
@@ -198,7 +199,7 @@ pub(super) fn ignore_permanent_contact(arm: &mut Arm) -> Option<String> {
     Some(format!("contact of links that meet in every configuration is ignored: {}", named.join(", ")))
 }
 
-/// Returns which joint moves a URDF link last; `None` if that is a joint beside the arm.
+/// Returns the joint that moves a URDF link last; `None` if that is a joint outside the arm.
 pub(super) fn group(document: &Document, tree: &Tree, chain: &Chain, link: usize) -> Option<Group> {
     let [first, second] = chain.joints;
     if tree.carries(second, link) {

@@ -14,15 +14,15 @@ use urdf_rs::Geometry;
 pub(super) struct PlacedShape {
     /// The URDF link.
     pub link: usize,
-    /// Its number among the link's shapes of the same kind with a size.
+    /// Number among the link's shapes of the same kind with a size.
     pub number: usize,
     /// True for visual geometry.
     pub is_visual: bool,
     pub solid: Solid,
-    /// Its pose in the root frame.
+    /// Pose in the root frame.
     pub pose: Isometry3<f64>,
     pub heights: Heights,
-    /// Its place in the file.
+    /// Place in the file.
     pub at: Range<usize>,
 }
 
@@ -45,7 +45,7 @@ enum Kind {
 }
 
 impl Bodies<'_> {
-    /// Collects the shapes of these URDF links. A link without collision geometry has its visual geometry.
+    /// Collects the shapes of these URDF links. For a link without collision geometry these are its visual geometry.
     pub fn gather(&self, links: impl IntoIterator<Item = usize>) -> Gathered {
         let mut gathered = Gathered::default();
         for link in links {

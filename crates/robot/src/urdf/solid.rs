@@ -24,7 +24,7 @@ pub(super) enum Solid {
     Sphere {
         radius: f64,
     },
-    /// The convex hull of its points stands for a mesh, or for each layer of it; see [`Solid::layers`].
+    /// A mesh, represented by the convex hull of its points, or of each layer of it; see [`Solid::layers`].
     Mesh(Mesh),
 }
 
@@ -38,13 +38,15 @@ const EXCESS: f64 = 0.005;
 /// Sides of the polygon round an oblique cylinder's end: circumscribed, so `1 / cos(pi / n) - 1 <= EXCESS`.
 const ELLIPSE_SIDES: usize = 32;
 
-/// Steps along half of the ellipse within an oblique cylinder's end: its corners are where the sides of the polygon round it touch.
+/// Number of steps along half of the ellipse within an oblique cylinder's end. Its corners are the points where the
+/// sides of the polygon around it touch.
 const ELLIPSE_STEPS: usize = ELLIPSE_SIDES / 2;
 
-/// Layers of a mesh are thicker than this, metres: far above the rounding of heights.
+/// Least thickness of a mesh's layers, metres: far above the rounding of heights.
 pub(super) const THINNEST: f64 = 1e-6;
 
-/// A cylinder whose axis is off the plane, or off its normal, by less than this share counts as lying or standing: rounding.
+/// A cylinder whose axis is off the plane, or off its normal, by less than this share counts as parallel or
+/// perpendicular.
 const EXACT: f64 = 1e-13;
 
 impl Solid {
@@ -85,11 +87,11 @@ impl Solid {
         }
     }
 
-    /// Outlines of the layers between consecutive `cuts`, which ascend, with their extents along the normal; of a solid that is no mesh, or that no
-    /// cut goes through, the whole.
+    /// Returns the outlines of the layers between consecutive `cuts` (ascending), with their extents along the normal.
+    /// For a solid that is no mesh, or that no cut goes through, returns the whole outline.
     ///
-    /// A layer's outline is the convex hull of that part of the mesh's surface whose heights are within the layer: of the vertices there, and of
-    /// the places where edges cross its two heights.
+    /// A layer's outline is the convex hull of the part of the mesh's surface within the layer: of the vertices there,
+    /// and of the points where edges cross its two heights.
     pub fn layers(&self, pose: &Isometry3<f64>, plane: &Plane, cuts: &[f64]) -> Vec<(Convex, Heights)> {
         let heights = self.heights(pose, plane);
         let is_within = |cut: &&f64| heights.lower + THINNEST < **cut && **cut + THINNEST < heights.upper;

@@ -1,4 +1,4 @@
-//! A robot examined stage by stage, as far as each makes sense.
+//! A robot examined stage by stage, as far as possible.
 
 use super::advice;
 use super::bodies::Outlines;
@@ -23,7 +23,7 @@ use cplan_core::space::{Configuration, JointRange};
 use nalgebra::Vector3;
 use urdf_rs::JointType;
 
-/// Examines a robot without stopping at the first thing that is wrong. In its scene the arm is alone, where its URDF puts it.
+/// Examines a robot without stopping at the first defect. In its scene the arm is alone, at its place in the URDF.
 #[must_use]
 pub fn survey(robot: &RobotFile, settings: RobotSettings) -> Inspection {
     let mut report = Inspection { urdf: robot.path.display().to_string(), ..Inspection::default() };
@@ -111,7 +111,7 @@ fn reduced(report: &mut Inspection, reduction: &Reduction) {
     report.ignored.extend(ignored::beside_the_arm(reduction));
     let plane = reduction.plane();
     let bounds = reduction.bounds();
-    // With a shape left out for its diagnostics an outline would be wrong.
+    // An outline would be wrong if a shape is missing because of its diagnostics.
     let sound = document.diagnostics.is_empty();
     let outlines = plane.as_ref().ok().filter(|_| sound).map(|plane| reduction.outlines(plane));
     report.errors.extend(plane.as_ref().err().cloned());
@@ -306,7 +306,7 @@ fn frames(reduction: &Reduction, plane: &Plane) -> Vec<Frame> {
     joints.into_iter().chain([frame(&tree.links[chain.tip], chain.tip)]).collect()
 }
 
-/// Links without outlines, for the picture of an arm whose outlines cannot be made.
+/// Returns links without outlines, for the picture of an arm whose outlines cannot be made.
 fn bare(reduction: &Reduction) -> Outlines {
     let Reduction { tree, chain, .. } = reduction;
     let links = chain.joints.map(|j| Link {
@@ -324,7 +324,7 @@ fn bare(reduction: &Reduction) -> Outlines {
     }
 }
 
-/// Ranges for the picture of an arm whose ranges are not all known: the known ones, a turn, or no slide.
+/// Returns ranges for the picture of an arm whose ranges are not all known: the known ones, a turn, or no slide.
 fn unbounded(reduction: &Reduction) -> [Bounds; 2] {
     let Chain { joints, .. } = reduction.chain;
     let limits = Limits { document: reduction.document, settings: reduction.settings };

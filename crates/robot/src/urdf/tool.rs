@@ -18,12 +18,12 @@ pub(super) const PARALLEL: f64 = 1e-9;
 /// Rounding within which the tip is on the wrist's axis, metres.
 const ON_AXIS: f64 = 1e-6;
 
-/// What a joint of the tool does.
+/// The function of a tool's joint.
 #[derive(Clone, Copy, PartialEq)]
 enum Tool {
-    /// It lowers the tool.
+    /// The joint lowers the tool.
     Stroke,
-    /// It turns the tool.
+    /// The joint turns the tool.
     Wrist,
 }
 

@@ -1,4 +1,4 @@
-//! The tree of links and joints, and where they are in space.
+//! The tree of links and joints, and the poses of the links.
 
 use super::document::Document;
 use crate::error::{Diagnostic, InputError, quoted};
@@ -13,16 +13,16 @@ use urdf_rs::JointType;
 pub(super) struct Tree {
     /// Names, in the order of the file.
     pub links: Vec<String>,
-    /// Link above and link below each joint.
+    /// Links above and below each joint.
     pub parent: Vec<usize>,
     pub child: Vec<usize>,
-    /// The joint above each link; none for the root.
+    /// The joint above each link; `None` for the root.
     pub above: Vec<Option<usize>>,
     /// The one link without a joint above.
     pub root: usize,
     /// True if the root is a `world` that the file does not declare.
     pub implicit_world: bool,
-    /// Links from the root downwards, each right before all that hangs from it.
+    /// Links from the root downwards, each immediately before its descendants.
     order: Vec<usize>,
     /// For each link, the range of that order with the link and its descendants.
     stretch: Vec<Range<usize>>,
@@ -34,10 +34,10 @@ pub(super) struct Tree {
 const WORLD: &str = "world";
 
 impl Tree {
-    /// Links the joints up. Linear in their number.
+    /// Connects the joints. Linear in their number.
     ///
     /// # Errors
-    /// Missing links, links below two joints, cycles, several roots: all of a kind together.
+    /// Missing links, links below two joints, cycles, several roots: all defects of one kind together.
     pub fn build(document: &Document) -> Result<Self, InputError> {
         let mut links: Vec<String> = document.robot.links.iter().map(|l| l.name.clone()).collect();
         let declared = links.len();
@@ -123,7 +123,7 @@ fn motion(joint: &urdf_rs::Joint, value: f64) -> Isometry3<f64> {
         JointType::Prismatic => {
             Isometry3::from_parts((axis(joint).into_inner() * value).into(), UnitQuaternion::identity())
         }
-        // Held at the origin of its frame; the chain refuses arms that move with one of these.
+        // These are held at the origin of their frames; the chain refuses arms that move with one of them.
         JointType::Fixed | JointType::Floating | JointType::Planar | JointType::Spherical => Isometry3::identity(),
     }
 }

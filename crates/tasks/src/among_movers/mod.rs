@@ -1,13 +1,16 @@
-//! Tasks among what moves, and picks of what moves: what is done next, with which IK solution, and when.
+//! Tasks among moving obstacles, and picks of moving objects. The search chooses what to do next, with which IK
+//! solution, and when.
 //!
-//! States are reached at times, and each motion is planned from one on ([`in_time`]): to stand at its target long enough for the step, or, where an
-//! object passes that is picked there, when it does. Moments are tried all over its way, the soonest first, and between the first that works and
-//! the one before it a sooner one is looked for.
+//! Each state has a time, from which the next motion is planned ([`in_time`]). The motion must arrive so that the arm
+//! can stand at its target long enough for the step. To pick a passing object, it must be there when the object passes.
+//! Moments along the whole passage are tried, the earliest first. After the first one that works, an earlier one is
+//! sought between it and the previous moment.
 //!
-//! The search goes on from the farthest state, by the soonest end of a step, so that it soon comes to an end of the task; then it looks, with motions that
-//! are left, for a sooner one. It knows nothing of what comes later: what is passed by while something else is done is missed, and another
-//! choice before it is tried. So it proves nothing of choices; but that what moves is never within reach is proven, and what cannot be done even if
-//! nothing moves.
+//! The search continues from the farthest state, by the earliest end of a step, so that it soon reaches an end of the
+//! task. With the remaining budget of motions it then looks for an earlier end. It does not look ahead: if an object
+//! passes while another step is done, it is missed, and another choice before it is tried. So it proves nothing about
+//! choices. It does prove that a moving object is never within reach, and that a step cannot be done even without
+//! moving obstacles.
 
 mod passing;
 mod ways;
@@ -32,26 +35,27 @@ use std::collections::BinaryHeap;
 use std::sync::Arc;
 use ways::{Choices, Here, Moment, Way};
 
-/// Motions that are planned in time until all is done: so many, and for each step.
+/// Budget of motions planned in time until all steps are done: a fixed number, plus a number for each step.
 const MOTIONS: [usize; 2] = [150, 40];
 
-/// The same for a sooner end.
+/// The same budget for finding an earlier end.
 const MORE_MOTIONS: [usize; 2] = [10, 8];
 
-/// Motions whose corners are rounded where jerks are limited, which takes tenths of a second for each: so many, and for each step. Later ones stop at
-/// their corners.
+/// Budget of motions with rounded corners if jerks are limited, which takes tenths of a second for each: a fixed
+/// number, plus a number for each step. Later motions stop at their corners.
 const ROUNDED_MOTIONS: [usize; 2] = [12, 4];
 
-/// Parts of the span between a moment that works and the one before it in which a sooner one is looked for, again and again, ...
+/// Number of parts of the span between a moment that works and the one before it, in which an earlier moment is sought
+/// repeatedly, ...
 const PARTS: usize = 4;
 
-/// ... until they are as near as this, seconds.
+/// ... until the two moments are this close, seconds.
 const FINEST: f64 = 5e-3;
 
-/// Motions between two words on progress.
+/// Number of motions between two progress messages.
 const NEWS: usize = 50;
 
-/// Plans a task among what moves.
+/// Plans a task among moving obstacles.
 pub(super) fn plan(task: &Task, options: &Options, progress: &mut dyn FnMut(&str)) -> TaskAnswer {
     let heuristic = Heuristic::new(task);
     let start = State::at_start(task);
@@ -97,7 +101,7 @@ pub(super) fn plan(task: &Task, options: &Options, progress: &mut dyn FnMut(&str
     TaskAnswer { outcome, legs, lower_bound, motions: search.motions, expanded: search.nodes.len() }
 }
 
-/// That an object is never within reach when it is to be picked: proven.
+/// Returns the failed step if it is proven that an object is never within reach when it is to be picked.
 fn out_of_reach(task: &Task, start: &State) -> Option<FailedStep> {
     let mut moving: Vec<usize> = start.moving.to_vec();
     let step = task.steps().find(|step| match &step.action {
@@ -117,7 +121,8 @@ fn out_of_reach(task: &Task, start: &State) -> Option<FailedStep> {
     })
 }
 
-/// That a task cannot be done even if nothing moves, where that is proven. Where objects would lie then that are picked on their way is not known.
+/// Returns the failed step if it is proven that the task cannot be done even without moving obstacles. If moving
+/// objects are picked, their places would be unknown, so nothing is proven.
 fn if_nothing_moved(task: &Task, options: &Options, progress: &mut dyn FnMut(&str)) -> Option<FailedStep> {
     if task.moving_at_first().next().is_some() {
         return None;
@@ -130,7 +135,8 @@ fn if_nothing_moved(task: &Task, options: &Options, progress: &mut dyn FnMut(&st
     }
 }
 
-/// No task ends before what is to be picked on its way may have come within reach, one thing after the other.
+/// Returns a lower bound on the end of the task: each moving object that is picked must first come within reach, one
+/// after the other.
 fn last_passage(task: &Task) -> f64 {
     let mut moving: Vec<usize> = task.moving_at_first().collect();
     let mut after = |step: &Step, time: f64| {
@@ -154,46 +160,47 @@ fn last_passage(task: &Task) -> f64 {
     })
 }
 
-/// A way to a state.
+/// A node of the search: a sequence of steps that leads to a state.
 struct Node<'a> {
     parent: Option<usize>,
-    /// How many steps are done.
+    /// Number of steps done.
     depth: usize,
-    /// When the last of them ends; a lower bound while its motion is not planned.
+    /// End of the last of them, seconds; a lower bound while its motion is not planned.
     seconds: f64,
     stage: Stage<'a>,
 }
 
-/// How far a node is looked into.
+/// State of the evaluation of a node.
 enum Stage<'a> {
     /// The motion is not planned yet.
     Pending(Box<Way<'a>>),
-    /// It is; none to the start.
+    /// The motion is planned. The start has no motion.
     Reached(Box<State>, Option<Box<Done>>),
 }
 
 /// A step that is done.
 struct Done {
     leg: Leg,
-    /// How its motion gets by what moves, on a clock of its own.
+    /// How its motion passes moving obstacles, on a clock of its own.
     timing: Timing,
 }
 
-/// Depth, from which it goes on first while nothing is done; the soonest end of the task; the number of a node.
+/// Rank of a node: its depth, deepest first until the task is done once; the earliest end of the task; and the node's
+/// index.
 type Rank = (Reverse<usize>, Ordered, usize);
 
 struct Search<'a> {
     task: &'a Task,
     options: Options,
     heuristic: &'a Heuristic<'a>,
-    /// Motions as if nothing moved.
+    /// Motions planned without moving obstacles.
     legs: Legs,
-    /// The same with a stop at every corner.
+    /// Options with a stop at every corner.
     stopping: Options,
     stopping_legs: Legs,
     nodes: Vec<Node<'a>>,
     open: BinaryHeap<Reverse<Rank>>,
-    /// Whether a way through the whole task is known.
+    /// True if a sequence through the whole task is known.
     is_done: bool,
     refused: Vec<Refused<'a>>,
     /// Motions planned in time.
@@ -201,7 +208,7 @@ struct Search<'a> {
 }
 
 impl<'a> Search<'a> {
-    /// The node in which all is done at the soonest, as far as was looked.
+    /// Runs the search. Returns the node in which all steps are done at the earliest time found.
     fn run(&mut self, progress: &mut dyn FnMut(&str)) -> Option<usize> {
         let steps = self.task.steps().count();
         let budget = |[some, each]: [usize; 2]| some + each * steps;
@@ -219,7 +226,7 @@ impl<'a> Search<'a> {
             if best.is_some_and(|best| self.nodes[best].seconds <= least) {
                 continue;
             }
-            // More may be known by now.
+            // A higher lower bound may be known by now.
             if self.soonest(index) > least {
                 self.open(index);
                 continue;
@@ -251,7 +258,7 @@ impl<'a> Search<'a> {
         self.open.push(Reverse((Reverse(depth), Ordered(self.soonest(index)), index)));
     }
 
-    /// When the task ends by way of a node at the soonest, as far as is known.
+    /// Returns the earliest known end of the task through a node.
     fn soonest(&self, index: usize) -> f64 {
         let node = &self.nodes[index];
         let left = match &node.stage {
@@ -261,7 +268,7 @@ impl<'a> Search<'a> {
         node.seconds + left
     }
 
-    /// Takes note of where it left off, unless a way is known.
+    /// Records where the search stopped, unless a solution is known.
     fn give_up(&mut self, index: usize, is_known: bool) {
         let node = &self.nodes[index];
         let next = match (&node.stage, node.parent) {
@@ -276,7 +283,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// The state that a node has reached.
+    /// Returns the state that a node has reached.
     fn state(&self, node: usize) -> Option<&State> {
         match &self.nodes[node].stage {
             Stage::Reached(state, _) => Some(state),
@@ -302,7 +309,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Plans the motion to a node, and to a sooner moment.
+    /// Plans the motion to a node, and tries an earlier moment.
     fn settle(&mut self, index: usize) {
         let (Some(parent), Stage::Pending(way)) = (self.nodes[index].parent, &self.nodes[index].stage) else { return };
         let way = way.clone();
@@ -318,7 +325,7 @@ impl<'a> Search<'a> {
                 self.open(index);
             }
             Err(refusal) => {
-                // Of the many places at which something passes none says more than the others.
+                // With a passing object, no single place says more than the others.
                 let ik_solution = way.moment.is_none().then_some(way.candidate.to);
                 let step = way.candidate.step;
                 self.refused.push(Refused { depth, node: parent, step, ik_solution, refusal });
@@ -326,7 +333,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// The next moment of a pick is no sooner one's: what is between is known to work.
+    /// Raises the lower limit of the next moment of a pick, because an earlier moment is now known to work.
     fn leave_later_moments(&mut self, parent: usize, done: &Way) {
         let Some(done_at) = done.moment else { return };
         for node in self.nodes.iter_mut().filter(|node| node.parent == Some(parent)) {
@@ -341,7 +348,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// The same pick at a sooner moment, if it can be done then.
+    /// Returns the same pick at an earlier moment, if it can be done then.
     fn sooner(&mut self, here: Here<'a, '_>, way: &Way<'a>) -> Option<(Done, State, f64)> {
         let moment = way.moment?;
         let (mut since, mut until, mut best) = (moment.since, moment.time, None);
@@ -363,12 +370,12 @@ impl<'a> Search<'a> {
         best
     }
 
-    /// Does a step: what is after it, and when.
+    /// Does a step. Returns the state after it, and the time.
     fn done(&mut self, here: Here<'a, '_>, way: &Way<'a>) -> Result<(Done, State, f64), Refusal> {
         let Here { task, state, time } = here;
         let (candidate, step) = (&way.candidate, way.candidate.step);
         if matches!(candidate.event, Some(Event::Grasp { .. })) {
-            // What touches something where it is taken may be taken elsewhere on its way.
+            // If the payload would touch something at this place, the object may be picked elsewhere on its path.
             unobstructed(&here.standing(candidate, time), candidate.to, "after it")?;
         }
         let [some, each] = ROUNDED_MOTIONS;
@@ -376,11 +383,11 @@ impl<'a> Search<'a> {
             && self.motions >= some + each * self.task.steps().count();
         let (options, legs) =
             if stops { (&self.stopping, &mut self.stopping_legs) } else { (&self.options, &mut self.legs) };
-        // As if nothing moved.
+        // Without moving obstacles.
         let motion = legs.motion(task, state, candidate)?;
         self.motions += 1;
         let problem = MotionProblem::trusted(here.scene(step), state.q, candidate.to);
-        // On the clock of the motion: differences of whole nanoseconds are whole ones, too.
+        // On the clock of the motion. Differences of whole nanoseconds are whole nanoseconds.
         let since = |at: f64| match at.is_finite() {
             true => seconds(nanoseconds(at).saturating_sub(nanoseconds(time))),
             false => at,
@@ -417,7 +424,7 @@ impl<'a> Search<'a> {
         Ok((Done { leg, timing }, state.after(task, candidate, q), after_pause(arrival, step.dwell)))
     }
 
-    /// What is done up to a node.
+    /// Returns the steps done up to a node.
     fn way_to(&self, index: usize) -> Vec<&Done> {
         let nodes = std::iter::successors(Some(index), |&index| self.nodes[index].parent);
         let done = nodes.filter_map(|index| match &self.nodes[index].stage {
@@ -429,12 +436,12 @@ impl<'a> Search<'a> {
         done
     }
 
-    /// The steps up to a node.
+    /// Returns the legs up to a node.
     fn legs(&self, index: usize) -> Vec<Leg> {
         self.way_to(index).into_iter().map(|done| done.leg.clone()).collect()
     }
 
-    /// How the arm gets by what moves in all steps up to a node.
+    /// Returns how the arm passes moving obstacles in all steps up to a node.
     fn timing(&self, index: usize) -> Option<Timing> {
         let task = self.task;
         let mut whole = Timing {
@@ -453,7 +460,7 @@ impl<'a> Search<'a> {
         Some(whole)
     }
 
-    /// Until when the arm may stay where a node has led it; none if for ever.
+    /// Returns the time until which the arm may stay where a node has led it. `None` if it may stay for ever.
     fn free_until(&self, index: usize) -> Option<f64> {
         let (node, state) = (&self.nodes[index], self.state(index)?);
         let released = node.parent.and_then(|parent| self.state(parent)?.released);
@@ -463,7 +470,7 @@ impl<'a> Search<'a> {
         safe.first().filter(|[_, until]| until.is_finite()).map(|[_, until]| node.seconds + until)
     }
 
-    /// Why no more can be done than the steps to a node.
+    /// Returns why the search got no farther than the steps to a node.
     fn failure(&mut self) -> (FailedStep, usize) {
         let state = |node: usize| match &self.nodes[node].stage {
             Stage::Reached(state, _) => Some(&**state),

@@ -1,26 +1,26 @@
-//! When what moves passes where the arm may reach it.
+//! Passages of moving objects through the reach of the arm.
 
 use cplan_core::model::{Arm, Course, JointType, Leg};
 use cplan_core::space::JointRange;
 use cplan_geometry::{Interval, Point};
 use cplan_handling::Object;
 
-/// Radii are larger than they are by this share: far more than rounding.
+/// Share by which radii are enlarged: far more than rounding.
 const ROOM: f64 = 1e-9;
 
-/// A stretch of time in which an object may be within reach, on one leg of its course.
+/// An interval of time in which an object may be within reach, on one leg of its course.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Passage {
     pub times: Interval,
-    /// Whether it stands still all the time.
+    /// True if the object does not move during the passage.
     pub is_still: bool,
 }
 
-/// Parts of a passage between the moments that are looked at.
+/// Number of parts of a passage between the moments that are tried.
 const PARTS: usize = 24;
 
 impl Passage {
-    /// Moments all over it; one where the object stands still.
+    /// Returns moments throughout the passage. Only one if the object does not move.
     pub fn moments(&self) -> Vec<f64> {
         let [from, to] = self.times;
         let parts = if self.is_still || from == to { 0 } else { PARTS };
@@ -28,8 +28,9 @@ impl Passage {
     }
 }
 
-/// When an object that moves may be picked by a point of it, from a time on: in order, and so that at all other times it is certainly out of the
-/// arm's reach, or not to be picked. `when` are the times that are asked for, all if there are none.
+/// Returns the times, in order, at which a moving object may be picked at a given point of it, from the time `from` on.
+/// At all other times it is certainly out of the arm's reach, or must not be picked. `when` lists the allowed times;
+/// all are allowed if it is empty.
 pub(super) fn passages(arm: &Arm, object: &Object, grasp: Point, when: &[Interval], from: f64) -> Vec<Passage> {
     let legs = object.course.as_ref().map_or(&[][..], Course::legs);
     let reach = (tip_reach(arm) + grasp.coords.norm()) * (1.0 + ROOM);
@@ -48,7 +49,7 @@ pub(super) fn passages(arm: &Arm, object: &Object, grasp: Point, when: &[Interva
     all
 }
 
-/// Farthest that the tip gets from the base, metres.
+/// Returns the largest distance of the tip from the base, metres.
 fn tip_reach(arm: &Arm) -> f64 {
     let ways = [arm.offset.norm(), arm.tip.coords.norm()];
     let of = |(joint, way): (usize, f64)| {
@@ -62,7 +63,7 @@ fn tip_reach(arm: &Arm) -> f64 {
     ways.into_iter().enumerate().map(of).sum()
 }
 
-/// The times of a leg at which the frame's origin is in a disc; none if it never is.
+/// Returns the times of a leg at which the frame's origin is in a disc. `None` if it never is.
 fn within(leg: &Leg, center: Point, radius: f64) -> Option<Interval> {
     let (way, speed) = (center - leg.start.at, leg.velocity.norm());
     if speed == 0.0 || radius == f64::INFINITY {

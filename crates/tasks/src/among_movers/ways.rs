@@ -1,4 +1,4 @@
-//! What can be done next among what moves, and when.
+//! Possible next steps among moving obstacles, and their times.
 
 use super::super::least_time::least_time;
 use super::super::legs::Refusal;
@@ -12,49 +12,50 @@ use cplan_handling::{Action, Step, Task};
 use cplan_motion::{SHORTEST_INTERVAL, nanoseconds, nearest_within, not_after, not_before, seconds};
 use cplan_movers::Movers;
 
-/// Stretches of time in which a motion is to arrive, for each IK solution.
+/// Largest number of arrival intervals for each IK solution.
 const MOST_ARRIVALS: usize = 3;
 
-/// The last arrival that may wait for a moment comes so long before it, seconds: pauses that are shorter are none.
+/// Least time, seconds, between the last arrival and the moment for which the arm waits: shorter pauses cannot be
+/// represented.
 const EARLY: f64 = 2.0 * SHORTEST_INTERVAL;
 
-/// A way to do the next step. All times are on the clock of the task.
+/// A candidate for the next step. All times are on the clock of the task.
 #[derive(Debug, Clone)]
 pub(super) struct Way<'a> {
     pub candidate: Candidate<'a>,
-    /// When the motion may arrive.
+    /// Interval in which the motion may arrive.
     pub arrival: Interval,
-    /// When the object is picked, if it moves then.
+    /// The moment at which the object is picked, if it is moving then.
     pub moment: Option<Moment>,
-    /// Which of the candidates it is.
+    /// Index of the candidate.
     pub branch: usize,
-    /// The step does not end before this.
+    /// Lower bound on the end of the step.
     pub ends: f64,
 }
 
-/// When an object passes that is picked.
+/// The moment at which a passing object is picked.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Moment {
     pub time: f64,
-    /// From here on it may be picked as well, but for what is in the way.
+    /// From this time on it might be picked as well, unless obstacles prevent it.
     pub since: f64,
 }
 
-/// Why a step cannot be done with an IK solution, or at all.
+/// The reason why a step cannot be done with an IK solution, or with any.
 pub(super) struct Reason<'a> {
     pub step: &'a Step,
     pub to: Option<Configuration>,
     pub refusal: Refusal,
 }
 
-/// What can be done next, and why other steps cannot.
+/// Candidates for the next step, and the reasons why other steps cannot be done.
 #[derive(Default)]
 pub(super) struct Choices<'a> {
     pub ways: Vec<Way<'a>>,
     pub refused: Vec<Reason<'a>>,
 }
 
-/// A state that is reached at a time.
+/// A state and the time at which it is reached.
 #[derive(Clone, Copy)]
 pub(super) struct Here<'a, 's> {
     pub task: &'a Task,
@@ -63,18 +64,18 @@ pub(super) struct Here<'a, 's> {
 }
 
 impl<'a> Here<'a, '_> {
-    /// What is around the arm in the motion of a step, on a clock that begins with it.
+    /// Returns the scene during the motion of a step, on a clock that begins with it.
     pub fn scene(&self, step: &Step) -> Scene {
         self.state.scene(self.task, step.action.picked()).since(self.time)
     }
 
-    /// What is around the arm when it stands at the end of a candidate's step, on a clock that begins at a time.
+    /// Returns the scene when the arm stands at the end of a candidate's step, on a clock that begins at `time`.
     pub fn standing(&self, candidate: &Candidate, time: f64) -> Scene {
         let left = self.state.left(self.task, candidate, candidate.to);
         left.scene(self.task, self.state.released).since(time)
     }
 
-    /// What can be done next.
+    /// Returns all candidates for the next step.
     pub fn choices(&self) -> Choices<'a> {
         let mut choices = Choices::default();
         for candidates in self.state.candidates(self.task) {
@@ -110,7 +111,7 @@ impl<'a> Here<'a, '_> {
         choices
     }
 
-    /// The same pick at another moment, with the IK solution that is nearest.
+    /// Returns the same pick at another moment, with the nearest IK solution.
     pub fn at_moment(&self, way: &Way<'a>, moment: Moment) -> Option<Way<'a>> {
         let object = way.candidate.step.action.picked()?;
         let scene = self.scene(way.candidate.step);
@@ -120,7 +121,7 @@ impl<'a> Here<'a, '_> {
         ways.into_iter().min_by(|a, b| far(a).total_cmp(&far(b)))
     }
 
-    /// The ways to pick an object that moves, where it may be.
+    /// Adds the candidates for picking a moving object at the places where it may be.
     fn pick(&self, movers: &Movers, step: &'a Step, object: usize, passages: &[Passage], ways: &mut Vec<Way<'a>>) {
         for passage in passages {
             let [mut since, _] = passage.times;
@@ -131,7 +132,7 @@ impl<'a> Here<'a, '_> {
                     }
                     continue;
                 }
-                // Clocks count nanoseconds: the one nearest to the window's beginning may be before it.
+                // Clocks count nanoseconds: the one nearest to the beginning of the interval may be before it.
                 let [begins, ends] = passage.times;
                 let instant = || (begins == ends).then(|| seconds(nanoseconds(time)));
                 let Some(time) = nearest_within(time, passage.times).or_else(instant) else { continue };
@@ -142,7 +143,7 @@ impl<'a> Here<'a, '_> {
         }
     }
 
-    /// The candidates of a pick at a moment.
+    /// Returns the candidates of a pick at a moment.
     fn candidates(&self, step: &Step, object: usize, time: f64) -> Vec<Candidate<'a>> {
         let stopped = self.state.stopped(self.task, object, time);
         let same = |other: &Step| (other.number, other.cycle) == (step.number, step.cycle);
@@ -150,7 +151,7 @@ impl<'a> Here<'a, '_> {
         all.flat_map(|candidates| candidates.ways).collect()
     }
 
-    /// The ways to pick an object at a moment, waiting for it.
+    /// Returns the candidates for picking an object at a moment, after waiting for it.
     fn passing(&self, movers: &Movers, step: &Step, object: usize, moment: Moment) -> Vec<Way<'a>> {
         let way = |(branch, candidate): (usize, Candidate<'a>)| {
             let [safe, stays] = self.safe(movers, &candidate);
@@ -159,15 +160,15 @@ impl<'a> Here<'a, '_> {
             stays.into_iter().find(|[from, to]| *from <= moment.time && stays_until <= *to)?;
             let arrival = [not_before(before[0]), moment.time - EARLY];
             let is_in_time = arrival[0].max(self.soonest(&candidate)) <= arrival[1];
-            // A sooner moment may be found for it.
+            // An earlier moment may be found for it.
             let ends = moment.since + step.dwell;
             is_in_time.then_some(Way { candidate, arrival, moment: Some(moment), branch, ends })
         };
         self.candidates(step, object, moment.time).into_iter().enumerate().filter_map(way).collect()
     }
 
-    /// The ways to arrive at a candidate's target, within some times, and to stay there as long as the step asks for: from a whole nanosecond to another
-    /// one, both within these times.
+    /// Adds the candidates that arrive at a target within an interval, and stay there as long as the step requires. The
+    /// arrival intervals begin and end at whole nanoseconds inside it.
     fn arrivals(&self, movers: &Movers, candidate: &Candidate<'a>, within: Interval, ways: &mut Vec<Way<'a>>) {
         let [safe, stays] = self.safe(movers, candidate);
         let (dwell, soonest) = (candidate.step.dwell, self.soonest(candidate));
@@ -183,12 +184,13 @@ impl<'a> Here<'a, '_> {
         }));
     }
 
-    /// When the arm can be at a candidate's target at the soonest.
+    /// Returns the earliest time at which the arm can be at a candidate's target.
     fn soonest(&self, candidate: &Candidate) -> f64 {
         self.time + least_time(&self.task.arm, self.state.q, candidate.to, candidate.step.speed)
     }
 
-    /// When nothing that moves is at a candidate's target while the arm comes there, and when while it stands there after the step's event.
+    /// Returns the times at which no moving obstacle is at a candidate's target: first for the arriving arm, and then
+    /// for the arm standing there after the step's event.
     fn safe(&self, movers: &Movers, candidate: &Candidate) -> [Vec<Interval>; 2] {
         let after = self.standing(candidate, self.time);
         let then = Movers::new(&after, after.workspace().clearance);
@@ -199,7 +201,7 @@ impl<'a> Here<'a, '_> {
         })
     }
 
-    /// Why an object that moves cannot be picked any more; `passed` are its passages from a time on.
+    /// Explains why a moving object cannot be picked any more. `passed` returns its passages from a time on.
     fn missed(&self, step: &Step, object: usize, passed: impl Fn(f64) -> Vec<Passage>) -> Refusal {
         let name = &self.task.objects[object].name;
         let (all, left) = (passed(0.0), passed(self.time));

@@ -1,19 +1,19 @@
-//! What is known of the orders in which a group can be done.
+//! Conditions on the orders in which a group can be done.
 
 use super::super::legs::{Blockers, Refusal};
 
-/// One pair before another in the order.
+/// A pair that comes before another in the order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Before(pub usize, pub usize);
 
-/// A condition that an order has to meet: all of one of the alternatives.
+/// A condition that an order must satisfy: all requirements of one of the alternatives.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Condition {
     alternatives: Vec<Vec<Before>>,
 }
 
 impl Condition {
-    /// Of these alternatives; none if one of them asks for nothing.
+    /// Creates a condition from these alternatives. `None` if one of them requires nothing.
     pub fn of(alternatives: impl IntoIterator<Item = Vec<Before>>) -> Option<Self> {
         let mut all: Vec<Vec<Before>> = Vec::new();
         for mut alternative in alternatives {
@@ -30,17 +30,17 @@ impl Condition {
         Some(Self { alternatives: all })
     }
 
-    /// What has to be otherwise so that `pair` can be done: after exactly the pairs that are `done`, it could not, for these
-    /// reasons. `pair_of` says which pair moves an obstacle.
+    /// Learns a condition for `pair`, which could not be done after exactly the pairs that are `done`, for these
+    /// reasons. `pair_of` returns the pair that moves an obstacle.
     ///
-    /// What bars the way in one IK solution, or from one place, need not do so from another: it is learned, not proven. Where
-    /// nothing is learned from a reason, the pair is to come sooner or later than just here.
+    /// An obstacle that blocks the path to one IK solution, or from one place, may not block others, so conditions are
+    /// learned and not proven. If the reasons reveal nothing, the pair must come earlier or later in the order.
     pub fn learned(pair: usize, done: &[bool], refusals: &[Refusal], pair_of: impl Fn(usize) -> Option<usize>) -> Self {
         let elsewhere = |other: usize| if done[other] { Before(pair, other) } else { Before(other, pair) };
         let mut alternatives = Vec::new();
         for refusal in refusals {
             match &refusal.blockers {
-                // All of them have to be gone; what no other pair moves stays.
+                // All of them must be elsewhere. Obstacles that no other pair moves stay.
                 Blockers::AtEnd(blockers) => {
                     let others: Option<Vec<usize>> =
                         blockers.iter().map(|&blocker| pair_of(blocker).filter(|&other| other != pair)).collect();
@@ -60,12 +60,12 @@ impl Condition {
         Self::of(alternatives).unwrap_or(Self { alternatives: Vec::new() })
     }
 
-    /// Whether an order meets it, by the place of each pair in it.
+    /// Returns true if an order satisfies the condition, given the position of each pair in it.
     pub fn holds(&self, places: &[usize]) -> bool {
         self.alternatives.iter().any(|all| all.iter().all(|Before(first, then)| places[*first] < places[*then]))
     }
 
-    /// The pairs that it is about.
+    /// Returns the pairs that the condition involves.
     pub fn pairs(&self) -> impl Iterator<Item = usize> + '_ {
         self.alternatives.iter().flatten().flat_map(|&Before(first, then)| [first, then])
     }

@@ -1,5 +1,5 @@
-//! Which pairs have to come before which, as far as the ends of their motions tell: where the arm, or what it carries, would
-//! hit what another pair has not taken away yet, or has placed already.
+//! Conditions that follow from the ends of motions: the arm or its payload would hit an object that another pair has
+//! not yet removed, or has already placed.
 
 use super::super::state::State;
 use super::Group;
@@ -11,10 +11,10 @@ use cplan_handling::{Action, Item, Step, Task};
 use nalgebra::Isometry2;
 use std::sync::Arc;
 
-/// Where all objects lie, as far as that does not depend on IK solutions; elsewhere as if they were not turned.
+/// Poses of all objects as far as they do not depend on IK solutions. Otherwise objects count as not turned.
 type Poses = Arc<[Option<Pose>]>;
 
-/// Where all objects lie before an item of a task.
+/// Returns the poses of all objects before an item of a task.
 fn poses_before(task: &Task, item: usize) -> Poses {
     let mut poses: Vec<Option<Pose>> = task.objects.iter().map(|object| Some(object.at)).collect();
     let mut held = None;
@@ -41,15 +41,15 @@ fn follow(step: &Step, poses: &mut [Option<Pose>], held: &mut Option<(usize, Opt
     }
 }
 
-/// The conditions that the ends of a group's motions make: one for each pick and each place that could be in the way of
-/// others, or they in its.
+/// Returns the conditions that follow from the ends of a group's motions: one for each pick and each place that could
+/// collide with objects of other pairs.
 pub(super) fn conditions(task: &Task, group: &Group) -> Vec<Condition> {
     let before = poses_before(task, group.item);
     let after = poses_before(task, group.item + 1);
     let own = || task.arm.links.iter().flat_map(|link| &link.parts).map(|part| part.heights);
     let objects = || group.objects().map(|object| &task.objects[object]);
     let heights = || own().chain(objects().map(|object| object.carried_heights()));
-    // Where all parts are carried above all others there is nothing to learn.
+    // If all parts are carried above all others, there are no conditions.
     if !objects().any(|object| heights().any(|h| h.meet(object.heights))) {
         return Vec::new();
     }
@@ -102,13 +102,13 @@ impl Ends<'_> {
                 places.extend(at_place.zip(self.alternative(&released, way.to)).map(|(a, b)| [a, b].concat()));
             }
         }
-        // Where there is no alternative at all no order helps: that is for the search to find out.
+        // Without any alternative, no order helps. The search will find that out.
         let made = [picks, places].into_iter().filter(|alternatives| !alternatives.is_empty());
         made.filter_map(Condition::of).collect()
     }
 
-    /// What has to be elsewhere for the arm to be here, in the world before the group and in the one after it; none if no
-    /// order of the group sees to it.
+    /// Returns the pairs that must come before or after for the arm to be at `q`, given the worlds before and after the
+    /// group. `None` if no order of the group makes that possible.
     fn alternative(&self, [before, after]: &[Scene; 2], q: Configuration) -> Option<Vec<Before>> {
         let hit = |scene: &Scene, ahead: bool| {
             let others = scene.obstructions(q).into_iter().map(move |hit| {

@@ -1,5 +1,5 @@
-//! Orders for groups that are too large to try all: proposed by times with nothing in the way, tried without planning motions,
-//! and proposed again with what the failure tells.
+//! Orders for groups that are too large to try all orders. An order is proposed by times without obstacles, tried
+//! without planning motions, and proposed again with the conditions learned from the failure.
 
 mod condition;
 mod ends;
@@ -18,16 +18,16 @@ use std::collections::BTreeSet;
 use tour::Tour;
 use walk::{Layer, advance, walk};
 
-/// Ways that are looked at for an order, at most: some seconds' worth.
+/// Largest number of paths examined for an order: some seconds of work.
 const MOST_WAYS: usize = 20_000;
 
-/// Orders of a group that are proposed by their times before one is built up pair by pair.
+/// Number of proposed orders of a group before one is built pair by pair.
 const PROPOSALS: usize = 64;
 
-/// Pairs of a group whose ends are looked at beforehand.
+/// Largest number of pairs of a group for which the ends of motions are examined in advance.
 const MOST_ENDS: usize = 64;
 
-/// The groups of a task that leave the order free, each with an order.
+/// The groups of a task whose order is free, each with one order.
 pub(super) struct Orders<'a> {
     task: &'a Task,
     groups: Vec<Group<'a>>,
@@ -35,36 +35,36 @@ pub(super) struct Orders<'a> {
 
 /// Pairs of a pick and a place that may be done in any order.
 struct Group<'a> {
-    /// Which item of the task it is.
+    /// Index of the item in the task.
     item: usize,
     pairs: &'a [[Step; 2]],
-    /// None for groups that are too large.
+    /// Times of the group. `None` if the group is too large.
     tour: Option<Tour>,
-    /// The order, pairs by number.
+    /// The order, as indices of pairs.
     order: Vec<usize>,
     conditions: Vec<Condition>,
 }
 
-/// Where an item of a task in a fixed order comes from: a group, and how many of its pairs come before.
+/// Origin of an item of a task in a fixed order: the group, and the number of its pairs that come before.
 type Origin = Option<(usize, usize)>;
 
 /// Result of the search for an order.
 pub(super) enum OrderSearch {
-    /// Nothing is known that rules it out.
+    /// Nothing known rules it out.
     Promising,
-    /// None was found; these pairs of a group were in each other's way at last.
+    /// No order was found. These pairs of a group were the last to block each other.
     Stuck {
-        /// Which item of the task the group is.
+        /// Index of the group among the items of the task.
         item: usize,
         /// Pairs of the group; the first is the one that could not be done.
         pairs: Vec<usize>,
     },
-    /// A step that is in no group cannot be done after the orders before it.
+    /// A step outside the groups cannot be done after the orders before it.
     Elsewhere,
 }
 
 impl<'a> Orders<'a> {
-    /// The orders of the file.
+    /// Returns the orders of the file.
     pub fn of_file(task: &'a Task) -> Self {
         let stops = stops(task);
         let groups = task.items.iter().enumerate().filter_map(|(item, group)| match group {
@@ -80,7 +80,7 @@ impl<'a> Orders<'a> {
         Self { task, groups: groups.collect() }
     }
 
-    /// The task in these orders.
+    /// Returns the task in these orders.
     pub fn settled(&self) -> Task {
         self.with_origins().0
     }
@@ -104,12 +104,12 @@ impl<'a> Orders<'a> {
         (settled, origins)
     }
 
-    /// The order of each group, pairs by number.
+    /// Returns the order of each group, as indices of pairs.
     pub fn order(&self) -> Vec<Vec<usize>> {
         self.groups.iter().map(|group| group.order.clone()).collect()
     }
 
-    /// Seconds that nothing in these orders undercuts.
+    /// Returns a lower bound on the seconds of the task in these orders.
     pub fn least_seconds(&self) -> f64 {
         let settled = self.settled();
         let start = State::at_start(&settled);
@@ -123,7 +123,7 @@ impl<'a> Orders<'a> {
         }
     }
 
-    /// Learns how long motions take that have been planned in these orders.
+    /// Learns the durations of motions that have been planned in these orders.
     pub fn learn_times(&mut self, arm: &Arm, legs: &[Leg]) {
         let (settled, origins) = self.with_origins();
         let steps = settled.items.iter().zip(origins).filter(|(item, _)| matches!(item, Item::Step(_)));
@@ -147,7 +147,8 @@ impl<'a> Orders<'a> {
         }
     }
 
-    /// Other orders that seem faster by what is known now, and that nothing rules out. Whether there are such.
+    /// Finds other orders that seem faster by the known times, and that nothing rules out. Returns true if there are
+    /// any.
     pub fn improve(&mut self, legs: &mut Legs) -> bool {
         for _ in 0..PROPOSALS {
             let before = self.order();
@@ -163,7 +164,7 @@ impl<'a> Orders<'a> {
         false
     }
 
-    /// Whether nothing is known that rules these orders out.
+    /// Returns true if nothing known rules these orders out.
     pub fn promising(&self, legs: &mut Legs) -> bool {
         walk(&self.settled(), legs).is_ok()
     }
@@ -208,18 +209,18 @@ impl<'a> Orders<'a> {
 }
 
 impl Group<'_> {
-    /// The objects that it moves.
+    /// Returns the objects that the group moves.
     fn objects(&self) -> impl Iterator<Item = usize> + '_ {
         self.pairs.iter().filter_map(|[pick, _]| pick.action.picked())
     }
 
-    /// The pair that moves an obstacle.
+    /// Returns the pair that moves an obstacle.
     fn pair_of(&self, task: &Task, obstacle: usize) -> Option<usize> {
         let object = obstacle.checked_sub(task.workspace.obstacles.len())?;
         self.pairs.iter().position(|[pick, _]| pick.action.picked() == Some(object))
     }
 
-    /// Changes the order for one that is faster, or meets more of the conditions. Whether it meets all.
+    /// Replaces the order by one that satisfies more of the conditions, or is faster. Returns true if it satisfies all.
     fn propose(&mut self) -> bool {
         let Some(tour) = &self.tour else { return false };
         let (order, (broken, _)) = tour.improved(self.order.clone(), &self.conditions);
@@ -227,7 +228,8 @@ impl Group<'_> {
         broken == 0
     }
 
-    /// Learns from the pair that cannot be done after so many others. It, and those that it has to do with.
+    /// Learns from the pair that cannot be done after the first `before` pairs. Returns it, and the pairs that its
+    /// condition involves.
     fn learn(&mut self, task: &Task, before: usize, refusals: &[super::legs::Refusal]) -> Vec<usize> {
         let pair = self.order[before];
         let mut done = vec![false; self.pairs.len()];
@@ -241,7 +243,7 @@ impl Group<'_> {
     }
 }
 
-/// The states before an item of a task in a fixed order.
+/// Returns the states before an item of a task in a fixed order.
 fn entered(task: &Task, legs: &mut Legs, item: usize) -> Option<Layer> {
     let mut layer = vec![(0.0, State::at_start(task))];
     while layer[0].1.progress.item < item {
@@ -250,14 +252,14 @@ fn entered(task: &Task, legs: &mut Legs, item: usize) -> Option<Layer> {
     Some(layer)
 }
 
-/// Building up an order pair by pair, the one that comes first in the order proposed before the others.
+/// Builds an order pair by pair. Pairs that come first in the proposed order are tried first.
 struct Build<'a, 'g> {
     group: &'a mut Group<'g>,
     legs: &'a mut Legs,
     most: usize,
-    /// What has been done where it could not go on, with the pair done last.
+    /// Dead ends: the set of pairs done, and the last of them.
     dead: BTreeSet<(Vec<bool>, Option<usize>)>,
-    /// The task of one pair, with something after it.
+    /// The task of one pair, with another step after it.
     alone: Task,
 }
 
@@ -299,7 +301,7 @@ impl<'a, 'g> Build<'a, 'g> {
         false
     }
 
-    /// The states after a pair.
+    /// Returns the states after a pair.
     fn with(&mut self, layer: &Layer, pair: usize) -> Option<Layer> {
         let [pick, place] = &self.group.pairs[pair];
         self.alone.items = [pick, place, place].map(|step| Item::Step(step.clone())).into();

@@ -8,37 +8,39 @@ use cplan_core::space::Configuration;
 use cplan_geometry::Ordered;
 use cplan_handling::Task;
 
-/// Runs of up to so many pairs are moved elsewhere.
+/// Longest run of pairs that is moved elsewhere.
 const LONGEST_RUN: usize = 3;
 
-/// Pairs that all orders that are looked at may have together: some tenths of a second.
+/// Largest total number of pairs in all orders that are evaluated: some tenths of a second of work.
 const MOST_VISITS: usize = 20_000_000;
 
-/// Beyond so many pairs the table of times between them would not fit, and the order stays as it is.
+/// Largest number of pairs for which the table of times between them fits in memory. Larger groups keep their order.
 const MOST_PAIRS: usize = 300;
 
-/// The times of a group with nothing in the way, by IK solutions, and what is known beyond; an IK solution that is not known is one that takes no time.
+/// The times of a group without obstacles, by IK solutions, and the extra times learned since. An unknown IK solution
+/// counts as one that takes no time.
 pub(super) struct Tour {
-    /// From where the group is entered to the pick of each pair.
+    /// From the beginning of the group to the pick of each pair.
     entry: Vec<Vec<f64>>,
-    /// From the pick of each pair to its place: by the pick's IK solution, then the place's.
+    /// From the pick of each pair to its place, by the IK solutions of pick and place.
     carry: Vec<Vec<Vec<f64>>>,
     /// From the place of one pair to the pick of another.
     way: Vec<Vec<Vec<Vec<f64>>>>,
-    /// From the place of each pair to where the group is left to.
+    /// From the place of each pair to the step after the group.
     exit: Vec<Vec<f64>>,
-    /// Seconds that motions take beyond these times, where some have been planned: carrying each pair, ...
+    /// Extra seconds of motions that have been planned, beyond these times: for carrying each pair, ...
     carry_more: Vec<f64>,
-    /// ... and from the place of one to the pick of another; where that is not known, half the mean of what is.
+    /// ... and from the place of one to the pick of another. Unknown ones count as half the mean of the known ones.
     way_more: Vec<Vec<Option<f64>>>,
     unknown_more: f64,
 }
 
-/// How good an order is: conditions that it breaks, then seconds.
+/// Merit of an order: the number of violated conditions, then seconds.
 pub(super) type Merit = (usize, Ordered);
 
 impl Tour {
-    /// Of the group that is item `index` of a task with these stops; none if it is no group, or too large.
+    /// Creates the tour for the group with index `index` in a task with these stops. `None` if that item is not a
+    /// group, or is too large.
     pub fn new(task: &Task, stops: &[Stops], index: usize) -> Option<Self> {
         let Stops::Pairs(pairs) = &stops[index] else { return None };
         if pairs.len() > MOST_PAIRS {
@@ -79,19 +81,21 @@ impl Tour {
         })
     }
 
-    /// A motion that carries a pair's object takes so many seconds more than with nothing in the way.
+    /// Records that the motion which carries a pair's object takes `more` seconds longer than without obstacles.
     pub fn learn_carry(&mut self, pair: usize, more: f64) {
         self.carry_more[pair] = more;
     }
 
-    /// A motion from one pair's place to another's pick takes so many seconds more than with nothing in the way.
+    /// Records that the motion from one pair's place to another's pick takes `more` seconds longer than without
+    /// obstacles.
     pub fn learn_way(&mut self, from: usize, to: usize, more: f64) {
         self.way_more[from][to] = Some(more);
         let known = || self.way_more.iter().flatten().flatten();
         self.unknown_more = known().sum::<f64>() / (2 * known().count()) as f64;
     }
 
-    /// Seconds for the pairs in this order: the shortest way through the layers of IK solutions, and what is known beyond.
+    /// Returns the seconds for the pairs in this order: the shortest path through the layers of IK solutions, plus the
+    /// learned extra times.
     pub fn seconds(&self, order: &[usize]) -> f64 {
         let Some(&first) = order.first() else { return 0.0 };
         let mut times = self.entry[first].clone();
@@ -109,7 +113,7 @@ impl Tour {
         times.into_iter().fold(f64::INFINITY, f64::min) + more.sum::<f64>()
     }
 
-    /// How good an order is; seconds are not looked at where it breaks more than `most` conditions.
+    /// Returns the merit of an order. Seconds are not computed if it violates more than `most` conditions.
     fn merit(&self, order: &[usize], conditions: &[Condition], most: usize) -> Merit {
         let mut places = vec![0; order.len()];
         order.iter().enumerate().for_each(|(at, &pair)| places[pair] = at);
@@ -117,8 +121,8 @@ impl Tour {
         (broken, Ordered(if broken > most { f64::INFINITY } else { self.seconds(order) }))
     }
 
-    /// The order after all changes that make it better, the first found first: of moving a run of up to [`LONGEST_RUN`] pairs
-    /// elsewhere, and of reversing a run.
+    /// Improves the order until no change helps, taking the first improvement found. A change moves a run of up to
+    /// [`LONGEST_RUN`] pairs elsewhere, or reverses a run.
     pub fn improved(&self, mut order: Vec<usize>, conditions: &[Condition]) -> (Vec<usize>, Merit) {
         let count = order.len();
         let mut best = self.merit(&order, conditions, usize::MAX);
@@ -130,7 +134,7 @@ impl Tour {
                 for last in first..count {
                     let run = last - first + 1;
                     let moves = if run <= LONGEST_RUN { count - run + 1 } else { 0 };
-                    // All of these changes are of the same order.
+                    // All of these changes start from the same order.
                     let from = order.clone();
                     for change in 0..=moves {
                         if left == 0 {
@@ -161,7 +165,7 @@ impl Tour {
     }
 }
 
-/// Times after a stage, of those before it.
+/// Computes the times after a stage from those before it.
 fn through(times: &mut Vec<f64>, stage: &[Vec<f64>], next: &mut Vec<f64>) {
     next.clear();
     next.resize(stage.first().map_or(0, Vec::len), f64::INFINITY);
@@ -173,7 +177,7 @@ fn through(times: &mut Vec<f64>, stage: &[Vec<f64>], next: &mut Vec<f64>) {
     std::mem::swap(times, next);
 }
 
-/// Least seconds between IK solutions; none where they are not known.
+/// Returns the least seconds between IK solutions; zero if they are unknown.
 fn between(arm: &Arm, from: Option<&[Configuration]>, to: Option<&[Configuration]>, speed: f64) -> Vec<Vec<f64>> {
     let seconds = |row: usize, column: usize| match (from, to) {
         (Some(from), Some(to)) => least_time(arm, from[row], to[column], speed),

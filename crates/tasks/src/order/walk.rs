@@ -1,4 +1,4 @@
-//! Going through steps in a fixed order, without planning motions.
+//! Tries steps in a fixed order, without planning motions.
 
 use super::super::least_time::least_time;
 use super::super::legs::{Legs, Refusal};
@@ -8,24 +8,24 @@ use cplan_handling::Task;
 use cplan_interrupt::checkpoint;
 use std::collections::BTreeMap;
 
-/// States that are followed at once, those soonest reached: all there are with level payloads, whose places do not depend on
-/// IK solutions.
+/// Largest number of states that are followed at once, the earliest first. That covers all states with level payloads,
+/// whose places do not depend on IK solutions.
 const WIDTH: usize = 8;
 
-/// States of the world after the same steps, with the least seconds to each; never empty.
+/// States of the world after the same steps, each with the least seconds to it. Never empty.
 pub(super) type Layer = Vec<(f64, State)>;
 
 /// The item that cannot be done after those before it.
 pub(super) struct Failure {
     pub item: usize,
-    /// Why, from each state and with each IK solution.
+    /// The reasons, from each state and with each IK solution.
     pub refusals: Vec<Refusal>,
 }
 
-/// Goes through all items of a task without groups in any order, as far as cheap questions tell.
+/// Goes through all items of a task that has no groups in any order, using only inexpensive checks.
 ///
 /// # Errors
-/// The first item that cannot be done.
+/// Returns the first item that cannot be done.
 pub(super) fn walk(task: &Task, legs: &mut Legs) -> Result<(), Failure> {
     let mut layer = vec![(0.0, State::at_start(task))];
     while !layer[0].1.is_done(task) {
@@ -35,12 +35,12 @@ pub(super) fn walk(task: &Task, legs: &mut Legs) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The states after the next step.
+/// Returns the states after the next step.
 ///
 /// # Errors
-/// Why there are none.
+/// Returns the reasons if there are no such states.
 pub(super) fn advance(task: &Task, legs: &mut Legs, layer: &Layer) -> Result<Layer, Vec<Refusal>> {
-    // By what tells states apart, so that each is reached once.
+    // By the key of the state, so that each state is reached once.
     let mut next: BTreeMap<Vec<i64>, (f64, State)> = BTreeMap::new();
     let mut refusals = Vec::new();
     for (seconds, state) in layer {

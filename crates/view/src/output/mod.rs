@@ -68,7 +68,7 @@ pub trait PlanOutput {
     #[must_use]
     fn summary(&self) -> String;
 
-    /// Returns the verdict of the summary: what was found, or why nothing was.
+    /// Returns the verdict of the summary: the result, or the reason why there is none.
     #[must_use]
     fn verdict(&self) -> String;
 }

@@ -12,7 +12,7 @@ use cplan_movers::{Timing, Wait};
 use cplan_solver::{Answer, Bound, GridSpace, Space};
 use cplan_text::{at_least, counted, percent};
 
-/// What the planner found and did; start and goals.
+/// Returns the planner's result and work, and the query.
 pub(super) fn told(plan: &Plan, problem: &MotionProblem, answer: &Answer<Motion>) -> Told {
     let (scene, arm) = (problem.scene(), plan.arm());
     let moving = match scene.workspace().movers.len() {
@@ -47,7 +47,7 @@ fn found(plan: &Plan, problem: &MotionProblem, answer: &Answer<Motion>) -> Vec<L
     lines
 }
 
-/// The motion that was found, and what is proven of it.
+/// Returns the lines of the motion that was found, and the facts that are proven of it.
 fn motion_lines(problem: &MotionProblem, answer: &Answer<Motion>, motion: &Motion) -> Vec<Line> {
     let (scene, arm, path) = (problem.scene(), problem.scene().arm(), motion.path.path());
     let Timed { curve, trajectory } = &motion.timed;
@@ -67,7 +67,7 @@ fn motion_lines(problem: &MotionProblem, answer: &Answer<Motion>, motion: &Motio
     lines
 }
 
-/// How many cells there are, if they are not those that were asked for.
+/// Returns the number of cells, if it differs from the requested one.
 fn cells(plan: &Plan, answer: &Answer<Motion>) -> Option<Line> {
     let Space::Grid(grid) = &answer.space else { return None };
     let asked = plan.options().planner.cells().filter(|asked| asked.0 != grid.cells)?;
@@ -75,7 +75,7 @@ fn cells(plan: &Plan, answer: &Answer<Motion>) -> Option<Line> {
     Some(("cells", format!("{used}: {asked} show no certified path")))
 }
 
-/// What became of the attempt among exact polygons.
+/// Returns the result of the attempt among exact polygons.
 fn exact(plan: &Plan, answer: &Answer<Motion>) -> Option<Line> {
     let Space::Regions(_) = &answer.space else { return None };
     let is_found = matches!(answer.outcome, Outcome::Found(_));
@@ -93,13 +93,14 @@ fn exact(plan: &Plan, answer: &Answer<Motion>) -> Option<Line> {
     })
 }
 
-/// Number of boxes that are examined for each decision about blocking obstacles. `cplan explain` does what takes more.
+/// Number of boxes that are examined for each decision about blocking obstacles. `cplan explain` does longer searches.
 const BOXES: usize = 500;
 
 /// Largest number of pairs of shapes; with more of them, the decisions can take seconds.
 const FEW_PAIRS: usize = 1000;
 
-/// What is in the way, if there is no motion and that is soon told: some milliseconds. `cplan explain` has more to say.
+/// Returns the obstacles that block the motion, if there is no motion and they can be found within milliseconds. `cplan
+/// explain` reports more.
 pub(super) fn blocked_by(problem: &MotionProblem, answer: &Answer<Motion>) -> Option<Line> {
     let (proof, scene) = (answer.outcome.infeasible()?, problem.scene());
     let is_small = scene.pairs().len() <= FEW_PAIRS;

@@ -184,7 +184,7 @@ fn motion_view(plan: &Plan, problem: &MotionProblem, answer: &Answer<Motion>, co
     })
 }
 
-/// What a picture of a task shows.
+/// Returns the data for a picture of a task.
 fn task_picture<'a>(plan: &'a Plan, task: &'a Task, answer: &'a TaskAnswer) -> TaskPicture<'a> {
     let (steps, planner) = (counted(answer.legs.len(), "step"), plan.options().planner.method());
     let before = || format!("{planner}: {steps} before it");

@@ -60,7 +60,7 @@ fn with_movers(stage: &mut Stage, workspace: &Workspace, times: &[f64]) {
     }
 }
 
-/// Objects lie, or move as is told at these times, are carried, and lie again.
+/// Adds the objects: they lie, or move as given for these times, are carried, and lie again.
 fn with_objects(stage: &mut Stage, task: &Task, answer: &TaskAnswer, times: &[f64]) {
     for (number, object) in task.objects.iter().enumerate() {
         let of_all = task.obstacle_number(number);

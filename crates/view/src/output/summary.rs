@@ -63,12 +63,12 @@ pub fn summary_with(plan: &Plan, files: &[String], after: &[(&'static str, Durat
     laid_out(&lines)
 }
 
-/// The verdict in words, the first line of the summary.
+/// Returns the verdict in words, the first line of the summary.
 pub(super) fn verdict(plan: &Plan) -> String {
     told(plan).found.into_iter().next().map_or_else(String::new, |(_, text)| text)
 }
 
-/// What a page says of it: outcome and arm.
+/// Returns the facts for a page: outcome and arm.
 pub(super) fn facts(plan: &Plan) -> Vec<[String; 2]> {
     let lines = told(plan).found.into_iter().chain(arm_lines(plan.arm()));
     lines.map(|(key, text)| [key.to_owned(), text]).collect()

@@ -9,7 +9,7 @@ use cplan_handling::Task;
 use cplan_tasks::{FailedStep, Leg, TaskAnswer, TaskMotion};
 use cplan_text::{at_least, counted, nonzero, percent};
 
-/// What came of the steps; start and steps.
+/// Returns the results of the steps, and the task.
 pub(super) fn told(plan: &Plan, task: &Task, answer: &TaskAnswer) -> Told {
     let moving = match (task.workspace.movers.len(), task.moving_at_first().count()) {
         (0, 0) => String::new(),
@@ -53,7 +53,7 @@ fn row(task: &Task, leg: &Leg, repeated: bool) -> [String; 4] {
     [number, leg.step.action.describe(objects), carried, format!("{seconds:.3} s{turn}, {clearance}")]
 }
 
-/// The step that fails, and why.
+/// Returns the step that fails, and why.
 fn failure_lines(plan: &Plan, answer: &TaskAnswer, failed: &FailedStep) -> Vec<Line> {
     let mut lines = vec![("result", plan.reason().unwrap_or_default())];
     lines.extend(failed.reasons.iter().map(|reason| ("why", reason.clone())));
@@ -62,7 +62,7 @@ fn failure_lines(plan: &Plan, answer: &TaskAnswer, failed: &FailedStep) -> Vec<L
     lines
 }
 
-/// What is done, and what is proven of its time and its clearance.
+/// Returns the lines of the motion, with its proven time and clearance.
 fn motion_lines(arm: &Arm, answer: &TaskAnswer, motion: &TaskMotion) -> Vec<Line> {
     let count = counted(answer.legs.len(), "step");
     let trajectory = &motion.sequence.trajectory;
@@ -93,7 +93,7 @@ fn motion_lines(arm: &Arm, answer: &TaskAnswer, motion: &TaskMotion) -> Vec<Line
     lines
 }
 
-/// What is kept all the time, and in which step it comes nearest.
+/// Returns the clearance of the whole motion, and the step with the nearest place.
 fn clearance(answer: &TaskAnswer) -> Option<Line> {
     let least = answer.legs.iter().min_by(|a, b| a.clearance().total_cmp(&b.clearance()))?;
     let (step, cycle) = (least.step.number, least.step.cycle);

@@ -113,7 +113,7 @@ fn joint(arm: &Arm, k: usize) -> JointView<'_> {
     }
 }
 
-/// The plane's coordinates are named after the root frame's axes if they run along them.
+/// Returns the names of the plane's coordinates: those of the root frame's axes if they are parallel to them.
 pub fn titles(plane: &Plane) -> [String; 2] {
     const ALONG: f64 = 0.9999;
     let name = |v: Vector3<f64>, other: &str| {
@@ -123,8 +123,9 @@ pub fn titles(plane: &Plane) -> [String; 2] {
     [name(plane.u, "u"), name(plane.v, "v")]
 }
 
-/// The region that the tip can never leave: within the greatest distance from the base if joint 1 turns, else the
-/// places that the slides reach, grown by the reach of a turning second link.
+/// Returns the region that the tip can never leave. If joint 1 is revolute, it is the disc of the greatest distance
+/// from the base; otherwise it is the set of places that the prismatic joints reach, grown by the reach of a revolute
+/// second link.
 pub fn reach_shape(arm: &Arm) -> Convex {
     let topology = arm.topology();
     let [first, second] = topology.ranges.map(|axis| axis.domain());

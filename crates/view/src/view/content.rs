@@ -1,4 +1,4 @@
-//! What there is to see.
+//! The content of pictures and pages.
 
 use super::arm;
 use super::motion::{Clock, MotionView, PathView};
@@ -14,42 +14,43 @@ use cplan_core::space::Configuration;
 use cplan_explain::Reach;
 use serde::{Serialize, Serializer};
 
-/// How what is shown ended, for colours and symbols; `shown` where nothing was asked for: a comparison, a configuration.
+/// Writes the outcome for colours and symbols; `shown` if there was no query: for a comparison, or a configuration.
 fn ending<S: Serializer>(status: &Option<Status>, serializer: S) -> Result<S::Ok, S::Error> {
     serializer.serialize_str(status.map_or("shown", Status::name))
 }
 
-/// What a picture or a page shows. Lengths in metres, angles in radians, times in seconds, rounded to what can be seen.
+/// The content of a picture or a page. Lengths in metres, angles in radians, times in seconds, rounded to the visible
+/// resolution.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct View {
     /// The first line is the title; the others follow in smaller type.
     pub title: Vec<String>,
-    /// How it ended, in a word or two.
+    /// The outcome, in a word or two.
     pub status: String,
-    /// The same for colours and symbols.
+    /// The outcome, for colours and symbols.
     #[serde(serialize_with = "ending")]
     pub ending: Option<Status>,
-    /// What is to be said of the result: names and values, such as `length` and `4.4963 rad`.
+    /// Facts about the result: names and values, such as `length` and `4.4963 rad`.
     pub facts: Vec<[String; 2]>,
-    /// Empty-handed.
+    /// The arm without a payload.
     #[serde(serialize_with = "arm::document")]
     pub(crate) arm: Arm,
-    /// What of the workspace is shown: least and greatest of both coordinates.
+    /// The visible part of the workspace: least and greatest of both coordinates.
     pub(crate) frame: [[f64; 2]; 2],
     pub(crate) start: [f64; 2],
     pub(crate) goals: Vec<[f64; 2]>,
     /// Goals along segments: both ends of each.
     pub(crate) goal_lines: Vec<Chain>,
-    /// The first is the one that is there at first.
+    /// The worlds; the first is the initial one.
     pub(crate) worlds: Vec<WorldView>,
     pub(crate) paths: Vec<PathView>,
     pub(super) motions: Vec<MotionView>,
     pub(super) clock: Option<Clock>,
     pub(crate) frames: Vec<FrameView>,
-    /// How the planner came to its answer: phases, one after the other.
+    /// The planner's search: phases, one after the other.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub(crate) replay: Vec<PhaseView>,
-    /// The same of a task's motions.
+    /// The search of each motion of a task.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub(super) replays: Vec<MotionReplayView>,
     #[serde(skip)]
@@ -64,75 +65,75 @@ pub(crate) struct FrameView {
     pub axes: [[f64; 3]; 3],
 }
 
-/// What pictures show side by side, and pages one after the other: these have time.
+/// Content that only pictures show at once; pages show it over time.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct Still {
-    /// None of an arm alone.
+    /// Empty for an arm alone.
     pub panels: Vec<PanelView>,
-    /// What is drawn of a field.
+    /// The lines of a field to draw.
     pub field_lines: FieldLines,
-    /// Objects where they are put, each place once.
+    /// Objects at the places where they are put, each place once.
     pub placed: Vec<ObstacleView>,
-    /// Where the tip can get.
+    /// The places that the tip can reach.
     pub reach: Option<Reach>,
-    /// Where the arm is now, and in which world, while it moves.
+    /// The arm's configuration now, and the world, while it moves.
     pub now: Option<([f64; 2], usize)>,
-    /// What time it is then, seconds.
+    /// The time of that, seconds.
     pub time: f64,
-    /// What is in the way.
+    /// The obstacles that block the motion.
     pub stuck: Option<Stuck>,
-    /// Where the arm is in the end, and in which world.
+    /// The arm's final configuration, and the world.
     pub end: Option<([f64; 2], usize)>,
-    /// The steps of a task, below what the columns are called; none of single motions.
+    /// The steps of a task, below the names of the columns; empty for single motions.
     pub steps: Vec<Row>,
 }
 
-/// A configuration space, and what takes place in it.
+/// A configuration space, with its motions.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct PanelView {
-    /// The text above it.
+    /// The text above the panel.
     pub title: String,
-    /// These differ in what link 2 may reach into alone.
+    /// Its worlds. They differ only in the obstacles that link 2 may reach into.
     pub worlds: Vec<usize>,
-    /// Those that are drawn; those that are repeated once.
+    /// The paths to draw; repeated ones once.
     pub paths: Vec<usize>,
-    /// Where the arm is at first.
+    /// The arm's initial configuration.
     pub start: [f64; 2],
-    /// The step that fails here, if one does.
+    /// The failed step of this panel, if any.
     pub fails: Option<usize>,
 }
 
 impl View {
-    /// Whether it is that of a task, whose steps have numbers.
+    /// Returns true for the view of a task, whose steps have numbers.
     pub(crate) fn is_task(&self) -> bool {
         !self.still.steps.is_empty()
     }
 
-    /// What the planner saw on its way to each motion of a task, as far as that is told.
+    /// Returns the traces of the planner for the motions of a task, if they are shown.
     pub(crate) fn traces_of_steps(&self) -> impl Iterator<Item = &TraceView> {
         self.replays.iter().filter_map(|replay| replay.trace.as_ref())
     }
 
-    /// The same with these lines of a field in pictures; pages show and hide each kind.
+    /// Returns the view with these lines of a field in pictures; pages show and hide each kind.
     #[must_use]
     pub fn with_field_lines(mut self, lines: FieldLines) -> Self {
         self.still.field_lines = lines;
         self
     }
 
-    /// The same with the places that the tip can get to.
+    /// Returns the view with the places that the tip can reach.
     #[must_use]
     pub fn with_reach(mut self, reach: &Reach) -> Self {
         self.still.reach = Some(reach.clone());
         self
     }
 
-    /// How long the motion takes, seconds; none where nothing moves.
+    /// Returns the duration of the motion, seconds; `None` if nothing moves.
     pub(crate) fn duration(&self) -> Option<f64> {
         self.clock.as_ref().map(Clock::duration)
     }
 
-    /// The same with the arm where it is at this time of the motion.
+    /// Returns the view with the arm at this time of the motion.
     pub(crate) fn moving(&self, time: f64) -> Self {
         let mut view = self.clone();
         let world =
@@ -142,30 +143,31 @@ impl View {
         view
     }
 
-    /// The world that is there at first, or now.
+    /// Returns the world now, or the initial one.
     pub(crate) fn world_now(&self) -> &WorldView {
         &self.worlds[self.still.now.map_or(0, |(_, world)| world)]
     }
 
-    /// The same with what is in the way of a motion, and where it gets stuck.
+    /// Returns the view with the obstacles that block a motion, and the place where it gets stuck.
     #[must_use]
     pub fn with_stuck(mut self, stuck: Stuck) -> Self {
         self.still.stuck = Some(stuck);
         self
     }
 
-    /// The world that is there at first.
+    /// Returns the initial world.
     pub(crate) fn first_world(&self) -> &WorldView {
         &self.worlds[0]
     }
 
-    /// Configurations that were to be reached and are not, each with its world.
+    /// Returns the configurations that were to be reached and are not, each with its world.
     pub(crate) fn unreached(&self) -> impl Iterator<Item = (usize, Configuration)> {
         let worlds = self.worlds.iter().enumerate();
         worlds.flat_map(|(index, world)| world.unreached.iter().map(move |&q| (index, q.into())))
     }
 
-    /// Where motions end in a panel or were to, the number of the step, and whether one ends there (or none was found).
+    /// Returns the ends of motions in a panel, found or intended: the configuration, the number of the step, and true
+    /// if a motion ends there (or none was found).
     pub(crate) fn ends(&self, panel: &PanelView) -> Vec<(Configuration, usize, bool)> {
         let paths = panel.paths.iter().map(|&index| &self.paths[index]).filter(|path| !path.grows);
         let is_alone = paths.clone().next().is_none();

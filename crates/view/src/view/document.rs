@@ -1,4 +1,4 @@
-//! A view as the page's code reads it.
+//! The document of a view for the page's code.
 
 use super::content::View;
 use super::numbers::Grain;
@@ -8,7 +8,7 @@ use crate::reach::ReachView;
 use crate::stuck::Stuck;
 use serde::Serialize;
 
-/// A view, what its signs mean, what is in the way of the motion that is not there, and where the tip can get.
+/// A view, the meaning of its signs, the obstacles that block a missing motion, and the places that the tip can reach.
 #[derive(Serialize)]
 struct Document<'a> {
     #[serde(flatten)]
@@ -21,7 +21,7 @@ struct Document<'a> {
 }
 
 impl View {
-    /// The document that the page's code reads.
+    /// Returns the document that the page's code reads.
     ///
     /// # Panics
     /// Never: all keys are strings.

@@ -14,8 +14,8 @@ const WIDTHS: f64 = 4.0;
 /// One of this many points of a line is kept.
 const KEPT: usize = 4;
 
-/// Lines of steepest ascent, as polylines; they end at the goal, at a local maximum, or where there is no value. On a
-/// circle they may leave the domain by less than a cell; there they end, for the seam to be visible.
+/// Returns lines of steepest ascent, as polylines. They end at the goal, at a local maximum, or where there is no
+/// value. On a circle they may leave the domain by less than a cell and end there, so that the seam is visible.
 #[must_use]
 pub fn lines(samples: &Samples, topology: &Topology) -> Vec<Vec<[f64; 2]>> {
     let size = [samples.x.len(), samples.y.len()];
@@ -73,7 +73,8 @@ fn line(samples: &Samples, begin: [f64; 2]) -> Vec<[f64; 2]> {
     points
 }
 
-/// Value and direction of ascent of the bilinear interpolation; none outside, at walls and where the field is flat.
+/// Returns the value and the direction of ascent of the bilinear interpolation; `None` outside, at walls and where the
+/// field is flat.
 fn slope(samples: &Samples, at: [f64; 2]) -> Option<(f64, [f64; 2])> {
     let [(i, u), (j, v)] = [(at[0], samples.x.len()), (at[1], samples.y.len())].map(|(x, n)| {
         let below = x.floor().clamp(0.0, (n - 2) as f64);
@@ -92,7 +93,7 @@ fn slope(samples: &Samples, at: [f64; 2]) -> Option<(f64, [f64; 2])> {
     (length > 0.0).then(|| (here, along.map(|x| x / length)))
 }
 
-/// Coordinates of a spot.
+/// Returns the coordinates of a spot.
 fn place(samples: &Samples, at: [f64; 2]) -> [f64; 2] {
     let along = |axis: &[f64], x: f64| {
         let below = (x.floor().max(0.0) as usize).min(axis.len() - 2);

@@ -1,11 +1,11 @@
-//! Phases of how the planner came to its answer, as pages read them.
+//! Phases of the planner's search, in the document for pages.
 
 use super::numbers::Chain;
 use super::trace::{ScaleView, TraceView};
 use super::waves::Waves;
 use serde::Serialize;
 
-/// How the planner came to a motion of a task, and what it saw.
+/// The planner's search for a motion of a task, with its trace.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct MotionReplayView {
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -19,15 +19,15 @@ pub struct MotionReplayView {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PhaseView {
     pub caption: String,
-    /// How many things are shown, one after the other.
+    /// Number of things shown one after the other.
     pub events: usize,
-    /// How long it takes to show them.
+    /// Time in which they are shown.
     pub seconds: f64,
     #[serde(flatten)]
     pub shows: ShowsView,
 }
 
-/// What a phase shows: see [`Shows`](cplan_solver::Shows).
+/// The content of a phase: see [`Shows`](cplan_engine::Shows).
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(tag = "kind", rename_all = "lowercase")]
 pub enum ShowsView {
@@ -41,22 +41,23 @@ pub enum ShowsView {
     Slices,
     Wave,
     Levels,
-    /// Boxes of the trace by their places among the free, the stuck and the mixed ones, in the order in which they are shown.
+    /// Boxes of the trace, by their numbers among the free, the stuck and the undecided ones, in the order of their
+    /// display.
     Boxes {
         order: Vec<usize>,
     },
-    /// Boxes of slabs, the same way.
+    /// Boxes of slabs, in the same form.
     Slabs {
         free: Chain,
         stuck: Chain,
         mixed: Chain,
         order: Vec<usize>,
     },
-    /// A field after so many sweeps, as levels.
+    /// A field after this many sweeps, as levels.
     Sweeps {
         frames: Vec<(usize, Waves)>,
     },
-    /// A path that is not the answer's.
+    /// A path that differs from the answer's.
     Own {
         points: Chain,
     },

@@ -87,7 +87,7 @@ impl PayloadState<'_> {
     }
 }
 
-/// What is carried, in words.
+/// Returns the payload in words.
 #[must_use]
 pub fn describe(object: Option<&str>) -> String {
     object.map_or("empty-handed".to_owned(), |object| format!("carrying \"{object}\""))

@@ -58,13 +58,13 @@ impl Order {
     }
 }
 
-/// The number of repetitions.
+/// Returns the number of repetitions.
 #[must_use]
 pub fn rounds(legs: &[Leg]) -> usize {
     legs.iter().map(|leg| leg.step.cycle).max().unwrap_or(1)
 }
 
-/// What the columns are called, then each step once, as it is done the first time; then the one that fails.
+/// Returns the names of the columns, then each step in the form of its first execution, then the failed one.
 #[must_use]
 pub fn rows(picture: &TaskPicture) -> Vec<Row> {
     let objects = &picture.task.objects;

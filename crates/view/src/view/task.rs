@@ -19,7 +19,7 @@ use std::sync::Arc;
 /// Poses nearer than this look the same, in metres or radians. It covers rounding.
 const SAME: f64 = 1e-6;
 
-/// Times at which C-obstacles of what moves are drawn, at the most, all worlds together.
+/// Greatest number of times at which C-obstacles of moving obstacles are drawn, all worlds together.
 const MOST_MOMENTS: usize = 120;
 
 impl View {
@@ -193,7 +193,7 @@ impl Worlds<'_> {
         contours(all.iter().filter(|c| c.link == 1), self.grain)
     }
 
-    /// The world of the step that fails, with what proves that.
+    /// Returns the world of the failed step, with its proofs.
     fn failing(&mut self, fails: &FailedStep) -> usize {
         let world = self.add(&fails.scene);
         let proofs = fails.ik_solutions.iter().filter_map(|to| to.proof.as_ref());

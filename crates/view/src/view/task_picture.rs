@@ -1,4 +1,4 @@
-//! A task as it is given to be drawn.
+//! The data for a picture of a task.
 
 use cplan_core::cspace::CObstacle;
 use cplan_core::model::{Scene, Status};
@@ -8,24 +8,25 @@ use cplan_tasks::TaskAnswer;
 /// C-obstacles at some times.
 pub type Moments = Vec<(f64, Vec<CObstacle>)>;
 
-/// What there is to show of a task. Objects count as obstacles, numbered after those that stay: they have the same
-/// colour wherever they are, and in every world.
+/// The content of a task's picture. Objects count as obstacles, numbered after the static ones: they have the same
+/// colour at every place and in every world.
 #[derive(Debug, Clone)]
 pub struct TaskPicture<'a> {
     /// The first line is the title; the others follow in smaller type.
     pub title: Vec<String>,
-    /// How it ended, in a word or two. Where a step fails, its number comes before, and the reason below the title.
+    /// The outcome, in a word or two. For a failed step, its number comes before, and the reason below the title.
     pub status: String,
-    /// The same for colours and symbols.
+    /// The outcome, for colours and symbols.
     pub ending: Option<Status>,
-    /// What is to be said of the result: names and values.
+    /// Facts about the result: names and values.
     pub facts: Vec<[String; 2]>,
-    /// What was asked.
+    /// The task.
     pub task: &'a Task,
-    /// What came of it.
+    /// The answer.
     pub answer: &'a TaskAnswer,
-    /// Contours of a scene in joint space. Asked for each world, and once more where link 2 reaches into an object.
+    /// Returns contours of a scene in joint space. Called for each world, and once more where link 2 reaches into an
+    /// object.
     pub c_obstacles: fn(&Scene) -> Vec<CObstacle>,
-    /// Those of what moves, at some times from one to another, so many at the most.
+    /// C-obstacles of moving obstacles at some times between two, with a greatest number of times.
     pub in_time: fn(&Scene, [f64; 2], usize) -> Moments,
 }

@@ -1,4 +1,4 @@
-//! What the arm carries: taken, turned and let go of.
+//! The carried object: picked, turned and released.
 
 use super::{Manner, Replay, Tool};
 use crate::world::hung;
@@ -17,28 +17,29 @@ use cplan_check::scene::{Present, stay_off};
 use num_bigint::BigInt;
 use std::iter;
 
-/// An object that passes is picked no farther than this from where it is to be then, metres: `10^-3`.
+/// Maximum distance of a moving object from its required position when it is picked, metres: `10^-3`.
 const NEAR: u32 = 3;
 
-/// The wrist turns by less than this, radians: more than once round nobody does.
+/// Limit on turns of the wrist, radians: more than one full turn is implausible.
 const LARGEST_TURN: i128 = 7;
 
-/// What the arm carries.
+/// The carried object.
 pub(super) struct Held {
     pub(super) object: usize,
     pub(super) on: On,
-    /// It as it lies to what it hangs on, and what of it keeps off supports if it has any.
+    /// The object relative to the link or point it is attached to. `pressed` is the part of it that must keep away from
+    /// supports, if it has any.
     pub(super) hanging: Obstacle,
     pub(super) pressed: Option<Obstacle>,
     /// The shapes of both.
     pub(super) solids: [Vec<Solid>; 2],
-    /// A disc that covers it however it turns about the tip, if it is held level.
+    /// A disc that covers the object in all orientations about the tip, if it is held level.
     pub(super) round: Option<Solid>,
     pub(super) carrying: Carrying,
 }
 
 impl Replay<'_> {
-    /// The shapes of an object as it hangs on something, and of what of it keeps off its supports.
+    /// Returns the shapes of an attached object, and of the part that must keep away from its supports.
     fn hung(
         &self,
         chain: &Chain,
@@ -52,7 +53,7 @@ impl Replay<'_> {
         Ok([solids(hanging, &self.kept)?, pressed.map_or(Ok(Vec::new()), |own| solids(own, &guard()))?])
     }
 
-    /// A disc about the tip that covers what is held level however it turns.
+    /// Returns a disc about the tip that covers a level object in all orientations.
     fn round(&self, hanging: &Obstacle) -> Result<Solid, CheckError> {
         let all = hung::solids(hanging)?;
         let reach = |shape: &Shape| {
@@ -64,7 +65,7 @@ impl Replay<'_> {
         Ok(Solid::new(&self.chain, On::Link(1), &disc, &self.kept))
     }
 
-    /// For what is not looked at in time.
+    /// Checks that nothing moves, for actions that are not checked in time.
     pub(super) fn nothing_moves(&self, what: &str) -> Result<(), CheckError> {
         let moves = |present: &Present| present.obstacle.course.is_some();
         match self.present.iter().flatten().any(moves) {
@@ -73,7 +74,7 @@ impl Replay<'_> {
         }
     }
 
-    /// Takes an object as it lies at a time, or passes, with the tip where it is at a configuration.
+    /// Picks an object at its pose at a time, with the tip at its position in a configuration.
     pub(super) fn grasp(
         &mut self,
         object: usize,
@@ -110,7 +111,7 @@ impl Replay<'_> {
         Ok(())
     }
 
-    /// Lets go of what is carried.
+    /// Releases the carried object.
     pub(super) fn release(&mut self, at: &Point, angle: Option<&Interval>, values: &Point) -> Result<(), CheckError> {
         let Some(held) = self.held.take() else { return CheckError::fails("nothing is carried that could be placed") };
         let lying = self.chain.lying(&held.on, &held.hanging, values);
@@ -124,7 +125,7 @@ impl Replay<'_> {
         Ok(())
     }
 
-    /// Turns what is held about the tip, while the arm stands at a configuration.
+    /// Turns the carried object about the tip, while the arm rests in a configuration.
     pub(super) fn turn(&mut self, done: &Done, at: &Point) -> Result<(), CheckError> {
         let Some(by) = &done.turn else { return Ok(()) };
         self.nothing_moves("a turn of the wrist")?;
@@ -139,7 +140,7 @@ impl Replay<'_> {
         let swept = Piece { knot: done.knots[1], curves: vec![vec![[0, 0], [end, 0]]], time };
         let solids = self.hung(&wrist, &On::Link(0), &held.hanging, held.pressed.as_ref())?;
         let seen = |(number, present): (usize, &Option<Present>)| {
-            // A disc about the tip has been looked at.
+            // The disc about the tip has already been checked.
             let meets = || self.meets(&held, number, Tool::Raised).is_some_and(|of| of != Manner::Round);
             let met = present.as_ref().filter(|_| meets());
             met.map(|present| Present::new(&wrist, present.obstacle.clone())).transpose()

@@ -5,8 +5,8 @@ use crate::model::Pair;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-/// A stuck box as it stands in a file: all configurations from `lower` to `upper`, and which shapes are too near in all
-/// of them. Numbers count from 0.
+/// A stuck box in a file: all configurations from `lower` to `upper`, and the shapes that are too near in all of them.
+/// Numbers count from 0.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ProofBox {
@@ -14,7 +14,7 @@ pub struct ProofBox {
     pub lower: [f64; 2],
     /// Greatest value of each joint.
     pub upper: [f64; 2],
-    /// 0 for what the first joint carries, 1 for the second.
+    /// 0 for parts that the first joint carries, 1 for those of the second.
     pub link: usize,
     /// Number of the convex part of the link.
     pub part: usize,
@@ -41,15 +41,15 @@ impl From<ProofBox> for StuckBox {
 /// Why a text holds no proof.
 #[derive(Debug, Error)]
 pub enum ProofFormatError {
-    /// Not JSON, or not the fields of a proof.
+    /// The text is not JSON, or does not have the fields of a proof.
     #[error("not a result with a proof: {0}")]
     Malformed(#[from] serde_json::Error),
-    /// A result without a proof.
+    /// The result has no proof.
     #[error("the result holds no proof: its \"status\" is not \"infeasible\"")]
     Missing,
 }
 
-/// The claim in a result file: its field `proof`. Whether it is true, [`Disconnection::checked`] says.
+/// Reads the claim in a result file, its field `proof`. [`Disconnection::checked`] decides if it is true.
 ///
 /// # Errors
 /// [`ProofFormatError`].

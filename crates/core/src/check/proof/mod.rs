@@ -1,9 +1,9 @@
 //! Proofs that there is no path: boxes of colliding configurations that separate the start from all goals.
 //!
-//! A [`Disconnection`] is a claim, which anybody may make; a [`CheckedProof`] is one that holds, and only
-//! [`Disconnection::checked`] makes it. The check shares no code with the search that makes claims: depths come from the
-//! Minkowski difference, motions from chords, and that the boxes separate start and goals is decided by a sweep over what
-//! they leave of the domain.
+//! A [`Disconnection`] is a claim, which any caller can make. A [`CheckedProof`] is a claim that holds, and only
+//! [`Disconnection::checked`] makes it. The check shares no code with the search for claims: depths come from the
+//! Minkowski difference, motions from chords, and a sweep over the rest of the domain decides if the boxes separate
+//! start and goals.
 
 mod json;
 mod separation;
@@ -24,25 +24,25 @@ use thiserror::Error;
 /// Share of the lengths involved by which a depth must exceed the motion, far above the rounding of either.
 const ROUNDING: f64 = 1e-12;
 
-/// A box of configurations in which one and the same pair is too near everywhere.
+/// A box of configurations in which the same pair is too near everywhere.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StuckBox {
-    /// Which configurations.
+    /// The configurations.
     pub cell: Cell,
-    /// Which shapes.
+    /// The shapes.
     pub pair: Pair,
 }
 
 impl StuckBox {
-    /// Whether it is what it says, with room for rounding.
+    /// Returns true if the pair is too near in the whole box, with room for rounding.
     #[must_use]
     pub fn holds(&self, scene: &Scene, clearance: f64) -> bool {
         is_stuck(&scene.inner(), 0, self, clearance).is_ok()
     }
 }
 
-/// The claim that no motion leads from the start to any goal: what the stuck boxes leave of the domain does not connect
-/// them.
+/// The claim that no motion leads from the start to any goal, because the rest of the domain, without the stuck boxes,
+/// does not connect them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Disconnection {
     stuck: Vec<StuckBox>,
@@ -55,13 +55,13 @@ pub struct CheckedProof {
 }
 
 impl CheckedProof {
-    /// The boxes that separate the start from all goals.
+    /// Returns the boxes that separate the start from all goals.
     #[must_use]
     pub fn stuck(&self) -> &[StuckBox] {
         &self.stuck
     }
 
-    /// Returns what it proves, in words.
+    /// Returns the proven statement in words.
     #[must_use]
     pub fn describe(&self) -> String {
         let boxes = counted(self.stuck.len(), "box");
@@ -70,7 +70,7 @@ impl CheckedProof {
 }
 
 impl Serialize for CheckedProof {
-    /// As a list of [`ProofBox`].
+    /// Writes it as a list of [`ProofBox`].
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.collect_seq(self.stuck.iter().map(ProofBox::from))
     }
@@ -85,45 +85,45 @@ pub enum ProofError {
     /// The box is empty, or not within the domain.
     #[error("stuck box {0} is no part of the configuration space")]
     NotInDomain(usize),
-    /// Its shapes could come apart within the box.
+    /// The shapes could come apart within the box.
     #[error(
         "stuck box {index}: the shapes overlap by {depth:e} m in its middle, but can move by {motion:e} m within it"
     )]
     NotStuck {
-        /// Which box.
+        /// Number of the box.
         index: usize,
         /// Penetration depth in the middle, clearance included, metres.
         depth: f64,
-        /// How far points of the link can move from there, metres.
+        /// Greatest distance that points of the link can move from there, metres.
         motion: f64,
     },
-    /// The start and some of this piece of the goals lie in one connected part of what the boxes leave.
+    /// The start and a part of this goal piece are connected outside the boxes.
     #[error("the stuck boxes do not separate the start from goal {0}")]
     NotSeparated(usize),
 }
 
 impl Disconnection {
-    /// The claim that these boxes prove it.
+    /// Creates the claim that these boxes prove it.
     #[must_use]
     pub fn new(stuck: Vec<StuckBox>) -> Self {
         Self { stuck }
     }
 
-    /// The boxes.
+    /// Returns the boxes.
     #[must_use]
     pub fn stuck(&self) -> &[StuckBox] {
         &self.stuck
     }
 
-    /// The same of a scene in which the pairs are others: those that `pair` names.
+    /// Returns the same claim for a scene with other pairs, as translated by `pair`.
     pub fn of_pairs(mut self, pair: impl Fn(Pair) -> Pair) -> Self {
         self.stuck.iter_mut().for_each(|stuck| stuck.pair = pair(stuck.pair));
         self
     }
 
-    /// Checks the claim, wherever it comes from: that in each of the boxes its pair is nearer than `clearance` (or touches),
-    /// and that together they separate the start from all goals. `O(n log n)` for `n` boxes, times the number of boxes above
-    /// one another.
+    /// Checks the claim, from any source: in each of the boxes its pair is nearer than `clearance` (or touches), and
+    /// together the boxes separate the start from all goals. `O(n log n)` for `n` boxes, times the number of boxes
+    /// above one another.
     ///
     /// # Errors
     /// The first [`ProofError`].
@@ -138,7 +138,7 @@ impl Disconnection {
         for (index, stuck) in self.stuck.iter().enumerate() {
             is_in_space(scene, &topology, index, stuck)?;
         }
-        // What does not separate is found out in less time than what does not overlap.
+        // Boxes that do not separate are found in less time than shapes that do not overlap.
         if let Some(goal) = not_separated(&topology, &self.stuck, start, goals) {
             return Err(ProofError::NotSeparated(goal));
         }
@@ -150,7 +150,7 @@ impl Disconnection {
     }
 }
 
-/// Whether the box is part of the domain, and its shapes can meet.
+/// Returns true if the box is part of the domain, and its shapes can meet.
 fn is_in_space(scene: &Scene, topology: &Topology, index: usize, stuck: &StuckBox) -> Result<(), ProofError> {
     let cell = &stuck.cell;
     for k in 0..2 {
@@ -162,7 +162,7 @@ fn is_in_space(scene: &Scene, topology: &Topology, index: usize, stuck: &StuckBo
     scene.pairs().binary_search(&stuck.pair).map(|_| ()).map_err(|_| ProofError::UnknownPair(index))
 }
 
-/// Whether its shapes are nearer than `clearance` all over the box.
+/// Returns true if its shapes are nearer than `clearance` in the whole box.
 fn is_stuck(scene: &Scene, index: usize, stuck: &StuckBox, clearance: f64) -> Result<(), ProofError> {
     let cell = &stuck.cell;
     let middle = Configuration::from_fn(|k, _| (cell.lower[k] + cell.upper[k]) / 2.0);
@@ -176,8 +176,8 @@ fn is_stuck(scene: &Scene, index: usize, stuck: &StuckBox, clearance: f64) -> Re
     if depth > motion + ROUNDING * scale { Ok(()) } else { Err(ProofError::NotStuck { index, depth, motion }) }
 }
 
-/// Farthest that a corner of the link's part can move from where it is at `q` while each joint moves by at most `half`:
-/// a turn by `t` about a point at distance `r` moves by the chord `2 r sin(t / 2)`.
+/// Returns the farthest that a corner of the link's part can move from its place at `q` while each joint moves by at
+/// most `half`: a turn by `t` about a point at distance `r` moves it by the chord `2 r sin(t / 2)`.
 fn farthest(scene: &Scene, stuck: &StuckBox, q: Configuration, half: [f64; 2]) -> f64 {
     let arm = scene.arm();
     let chord = |angle: f64| 2.0 * (angle.min(std::f64::consts::PI) / 2.0).sin();

@@ -1,11 +1,11 @@
-//! Whether boxes separate the start from all goals.
+//! Decides if boxes separate the start from all goals.
 
 use super::StuckBox;
 use crate::space::{Configuration, GoalSet, Segment, Topology};
 use cplan_interrupt::checkpoint;
 use petgraph::unionfind::UnionFind;
 
-/// The first piece of the goals of which some lies in one connected part with the start of what the boxes leave.
+/// Returns the first piece of the goals that is connected with the start, in whole or in part, outside the boxes.
 pub(super) fn not_separated(
     topology: &Topology,
     boxes: &[StuckBox],
@@ -13,20 +13,21 @@ pub(super) fn not_separated(
     goals: &GoalSet,
 ) -> Option<usize> {
     let slabs = Slabs::new(topology, boxes);
-    // A start or goal inside a stuck box is not free: nothing leads there.
+    // A start or goal inside a stuck box is not free, so no path leads there.
     let from = slabs.locate(topology.wrap(start))?;
     let groups = slabs.groups(topology);
     let joined = |goals: Segment| slabs.holding(&goals).into_iter().any(|to| groups.equiv(to, from));
     goals.wrapped(topology).position(joined)
 }
 
-/// What closed boxes leave of the domain: strips of `q1` between the boxes' sides, and in each the open gaps of `q2`.
+/// The part of the domain outside of closed boxes: strips of `q1` between the boxes' sides, and in each strip the open
+/// gaps of `q2`.
 struct Slabs {
     /// Ends of the strips, ascending.
     ends: Vec<f64>,
     /// Gaps of all strips, strip by strip, ascending.
     gaps: Vec<[f64; 2]>,
-    /// Where each strip's gaps begin in `gaps`; one more at the end.
+    /// Index in `gaps` of each strip's first gap; one more at the end.
     first: Vec<usize>,
 }
 
@@ -70,7 +71,7 @@ impl Slabs {
         self.first[index]..self.first[index + 1]
     }
 
-    /// The gap that holds `q`; none if a box does.
+    /// Returns the gap that holds `q`; `None` if a box does.
     fn locate(&self, q: Configuration) -> Option<usize> {
         let beside = |i: &usize| self.ends[*i] <= q[0] && q[0] <= self.ends[*i + 1];
         let strips: Vec<usize> = (0..self.first.len() - 1).filter(beside).collect();
@@ -78,7 +79,7 @@ impl Slabs {
         strips.into_iter().find_map(within)
     }
 
-    /// The gaps that hold any of a segment, sides included; one of them for a point.
+    /// Returns the gaps that contain a part of a segment, sides included; one of them for a point.
     fn holding(&self, piece: &Segment) -> Vec<usize> {
         let [from, to] = piece.ends();
         if piece.is_point() {
@@ -94,8 +95,8 @@ impl Slabs {
         gaps.filter(meets).map(|(_, gap)| gap).collect()
     }
 
-    /// Gaps that belong together: of neighbouring strips (round the circle too) where they overlap, and of one strip
-    /// across the seam of the second axis.
+    /// Joins gaps that are connected: of neighbouring strips (around the circle too) where they overlap, and of one
+    /// strip across the seam of the second axis.
     fn groups(&self, topology: &Topology) -> UnionFind<usize> {
         let strips = self.first.len() - 1;
         let mut groups = UnionFind::new(self.gaps.len());
@@ -130,7 +131,7 @@ mod tests {
     use crate::space::JointRange;
     use std::f64::consts::PI;
 
-    /// A box all along one axis leaves two parts, which are one across the seam of the other axis if that is a circle.
+    /// A box along a whole axis leaves two parts, which are one across the seam of the other axis if that is a circle.
     #[test]
     fn a_seam_joins_what_a_band_leaves() {
         let turn = JointRange::Circle;

@@ -15,20 +15,20 @@ pub struct Bound {
 }
 
 impl Bound {
-    /// On which side of it `p` lies; exact.
+    /// Returns the side of the line on which `p` lies; exact.
     #[inline]
     pub fn side(&self, p: Point) -> Orientation {
         orientation(self.from, self.to, p)
     }
 
-    /// Whether it leads to a greater abscissa, or straight up.
+    /// Returns true if it points to a greater abscissa, or straight up.
     fn is_forward(&self) -> bool {
         (self.to.x, self.to.y) > (self.from.x, self.from.y)
     }
 }
 
-/// All rays from a root, from one to the `right` to one to the `left`, less than half a turn apart and more than none,
-/// that leave a triangle through the half-edge `edge` of it.
+/// All rays from a root between a ray to the `right` and one to the `left`, which are less than half a turn but not
+/// zero apart. The rays leave a triangle through its half-edge `edge`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cone {
     /// The half-edge through which the rays leave the triangle.
@@ -40,17 +40,17 @@ pub struct Cone {
 }
 
 impl Cone {
-    /// Whether any ray leads to a greater abscissa, or straight up.
+    /// Returns true if any ray points to a greater abscissa, or straight up.
     fn is_forward(&self) -> bool {
         self.right.is_forward() || self.left.is_forward()
     }
 
-    /// Whether `p` lies on one of the rays or on the line of one before the root.
+    /// Returns true if `p` lies on one of the rays or on the line of one before the root.
     fn holds(&self, p: Point) -> bool {
         self.right.side(p) != Orientation::Clockwise && self.left.side(p) != Orientation::CounterClockwise
     }
 
-    /// The part of a segment that lies on the rays or on their lines before the root; exact for a point.
+    /// Returns the part of a segment that lies on the rays or on their lines before the root; exact for a point.
     pub fn part(&self, segment: &Segment) -> Option<Segment> {
         if segment.is_point() {
             return self.holds(segment.corners()[0]).then_some(*segment);
@@ -59,32 +59,32 @@ impl Cone {
     }
 }
 
-/// What a cone meets in the triangle behind its edge.
+/// The crossing of a cone and the triangle behind its edge.
 #[derive(Debug, Clone, Copy)]
 pub struct Crossing {
     /// The half-edge by which it enters.
     pub entry: u32,
     /// The half-edge that begins at the corner ahead, if the root sees that.
     pub seen: Option<u32>,
-    /// Where it goes on.
+    /// The continuation of the cone.
     pub beyond: Beyond,
 }
 
-/// How a cone goes on behind a triangle.
+/// The continuation of a cone behind a triangle.
 #[derive(Debug, Clone, Copy)]
 pub enum Beyond {
-    /// As a whole through this edge, past the corner ahead.
+    /// The whole cone continues through this edge, past the corner ahead.
     Through(u32),
-    /// On one side of the corner, which lies on one of its bounds.
+    /// The cone continues on one side of the corner, which lies on one of its bounds.
     One(Cone),
-    /// To the right of the corner and to the left of it.
+    /// The cone continues to the right of the corner and to the left of it.
     Two(Cone, Cone),
 }
 
-/// What a root at a corner of a triangle, or within one, sees of it.
+/// The view of a triangle from a root at one of its corners, or within it.
 #[derive(Debug, Clone, Copy)]
 pub struct Successor {
-    /// Through an edge that it does not lie on.
+    /// The cone through an edge that the root does not lie on.
     pub cone: Cone,
     /// Half-edges that begin at the right and the left end of that edge, if they are seen.
     pub seen: [Option<u32>; 2],
@@ -93,15 +93,15 @@ pub struct Successor {
 /// Directions to look in from a corner.
 #[derive(Debug, Clone, Copy)]
 pub enum Gaze {
-    /// Wherever free space is.
+    /// All directions of free space.
     Around,
-    /// From a ray to the right to one to the left, less than half a turn apart.
+    /// Directions from a ray to the right to one to the left, less than half a turn apart.
     Between(Bound, Bound),
 }
 
 impl Corner {
-    /// Where a shortest path from `p` may go on that turns at this corner: from straight ahead to along the obstacle.
-    /// None if the line from `p` enters the obstacle.
+    /// Returns the directions in which a shortest path from `p` may continue that turns at this corner: from straight
+    /// ahead to along the obstacle. `None` if the line from `p` enters the obstacle.
     pub fn beyond(&self, p: Point) -> Option<Gaze> {
         let ahead = Bound { from: p, to: self.at };
         match self.tangency(p) {
@@ -112,7 +112,7 @@ impl Corner {
         }
     }
 
-    /// The directions of lines through the corner that do not enter the obstacle there.
+    /// Returns the directions of lines through the corner that do not enter the obstacle there.
     pub fn tangents(&self) -> impl Iterator<Item = Gaze> {
         let away = |from: Point| Bound { from, to: self.at };
         let gazes = match orientation(self.at, self.right, self.left) {
@@ -131,7 +131,7 @@ impl Corner {
 }
 
 impl Mesh {
-    /// Follows a cone from `root` into the next triangle; none at a wall. Exact.
+    /// Follows a cone from `root` into the next triangle; `None` at a wall. Exact.
     #[inline]
     pub fn cross(&self, root: Point, cone: &Cone) -> Option<Crossing> {
         let entry = self.twin(cone.edge)?;
@@ -156,8 +156,8 @@ impl Mesh {
         Some(Crossing { entry, seen: Some(back), beyond })
     }
 
-    /// Everything that a root sees in a cone: `meet` has each triangle that it enters, with the cone as it is there. Time in the
-    /// number of triangles crossed; exact.
+    /// Calls `meet` with each triangle that is seen from a root in a cone, together with the part of the cone there.
+    /// Time in the number of triangles crossed; exact.
     pub fn look(&self, root: Point, cone: Cone, mut meet: impl FnMut(&Crossing, &Cone)) {
         let mut stack = vec![cone];
         while let Some(mut cone) = stack.pop() {
@@ -175,8 +175,8 @@ impl Mesh {
         }
     }
 
-    /// Everything that a root sees in a cone, but for what lies in cones that lead back: the half-edges that begin at the
-    /// corners seen, in no particular order. Time in the number of triangles crossed; exact.
+    /// Calls `see` with the half-edges that begin at the corners seen from a root in a cone, in no particular order.
+    /// Leaves out corners in cones that lead back. Time in the number of triangles crossed; exact.
     pub fn look_forward(&self, root: Point, cone: Cone, stack: &mut Vec<Cone>, mut see: impl FnMut(u32)) {
         stack.extend(Some(cone).filter(Cone::is_forward));
         while let Some(mut cone) = stack.pop() {
@@ -207,12 +207,12 @@ impl Mesh {
         }
     }
 
-    /// What is seen from a corner in the triangles around it, from right to left, each end of an edge once.
+    /// Returns the view from a corner into the triangles around it, from right to left, each end of an edge once.
     pub fn successors(&self, corner: &Corner, gaze: Gaze) -> impl Iterator<Item = Successor> + '_ {
         let root = corner.at;
         let mut spoke = Some(corner.first);
         let mut last_seen = None;
-        // Between two rays that coincide nothing is seen that is not seen from before as well.
+        // Between two rays that coincide nothing new is visible.
         if let Gaze::Between(right, left) = gaze
             && !is_left_of(right, left, root)
         {
@@ -232,7 +232,7 @@ impl Mesh {
         })
     }
 
-    /// What is seen through an edge opposite to the root, if any of it lies within the gaze.
+    /// Returns the view through an edge opposite to the root, if any of it lies within the gaze.
     fn successor(&self, root: Point, edge: u32, gaze: Gaze) -> Option<Successor> {
         let ends = [edge, next(edge)];
         let [x, y] = ends.map(|h| Bound { from: root, to: self.origin(h) });
@@ -252,7 +252,7 @@ impl Mesh {
         Some(Successor { cone, seen: [begins_within.then_some(ends[0]), ends_within.then_some(ends[1])] })
     }
 
-    /// What is seen from any point of a triangle, borders included, through its edges.
+    /// Returns the view from any point of a triangle, borders included, through its edges.
     pub fn successors_within(&self, triangle: u32, p: Point) -> impl Iterator<Item = Successor> + '_ {
         (3 * triangle..3 * triangle + 3).filter_map(move |edge| {
             let ends = [edge, next(edge)];
@@ -265,10 +265,11 @@ impl Mesh {
     }
 }
 
-/// Whether the ray `left` from `root` is strictly to the left of the ray `right`, which it is less than half a turn from.
+/// Returns true if the ray `left` from `root` is strictly to the left of the ray `right`. The rays are less than half a
+/// turn apart.
 fn is_left_of(right: Bound, left: Bound, root: Point) -> bool {
     if left.to == root {
-        // It leads away from where it comes from.
+        // It points away from its origin.
         right.side(left.from) == Orientation::Clockwise
     } else {
         right.side(left.to) == Orientation::CounterClockwise

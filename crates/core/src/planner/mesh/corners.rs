@@ -9,7 +9,7 @@ use cplan_geometry::{Orientation, Point, orientation};
 /// obstacles touch in a vertex it has several sectors.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Corner {
-    /// The vertex of the mesh that it is at.
+    /// The vertex of the mesh.
     pub at: Point,
     /// The end of the side from which free space lies counter-clockwise.
     pub right: Point,
@@ -19,7 +19,7 @@ pub struct Corner {
     pub first: u32,
 }
 
-/// How the line from a point to a corner passes the obstacle there.
+/// The position of the obstacle at a corner relative to the line from a point to that corner.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Tangency {
     /// It enters the obstacle: no shortest path turns here.
@@ -28,12 +28,12 @@ pub enum Tangency {
     Left,
     /// The obstacle is to its right.
     Right,
-    /// Along an obstacle without width.
+    /// The line runs along an obstacle without width.
     Both,
 }
 
 impl Corner {
-    /// How the line from `p`, another point, passes.
+    /// Returns the position of the obstacle relative to the line from `p`, another point.
     pub fn tangency(&self, p: Point) -> Tangency {
         let sides = [self.right, self.left].map(|end| orientation(p, self.at, end));
         match (sides.contains(&Orientation::CounterClockwise), sides.contains(&Orientation::Clockwise)) {
@@ -45,21 +45,21 @@ impl Corner {
     }
 }
 
-/// All corners, and which of them each half-edge begins at.
+/// All corners, and the corner at which each half-edge begins.
 #[derive(Debug, Clone)]
 pub struct Corners {
     pub list: Vec<Corner>,
-    /// `NONE` where the sector is no more than half a turn.
+    /// The corner of each half-edge; `NONE` where the sector is at most half a turn.
     pub of_half_edge: Vec<u32>,
 }
 
 impl Corners {
-    /// Linear.
+    /// Collects the corners. Linear.
     pub fn new(vertices: &[Point], edges: &HalfEdges) -> Self {
         let at = |h: u32| vertices[edges.origin[h as usize] as usize];
         let mut list = Vec::new();
         let mut of_half_edge = vec![NONE; edges.origin.len()];
-        // In the order of the vertices, which makes neighbours neighbours in memory.
+        // In the order of the vertices, so that neighbours are close in memory.
         let mut sides: Vec<u32> = (0..edges.origin.len() as u32).filter(|&h| edges.twin[h as usize] == NONE).collect();
         sides.sort_by_key(|&h| edges.origin[h as usize]);
         for first in sides {
@@ -85,7 +85,7 @@ impl Corners {
     }
 }
 
-/// Whether the sector is more than half a turn.
+/// Returns true if the sector is more than half a turn.
 fn is_convex(corner: &Corner) -> bool {
     match orientation(corner.at, corner.right, corner.left) {
         Orientation::CounterClockwise => false,

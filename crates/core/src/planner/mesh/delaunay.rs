@@ -6,8 +6,8 @@ use cplan_geometry::planar::HalfEdges;
 use cplan_geometry::{Orientation, Point, in_circle, orientation};
 use cplan_interrupt::checkpoint;
 
-/// Most flips a half-edge. Some two are usual; adversarial point sets could ask for a number that grows like the
-/// square. The triangulation is then less good to walk through, and as right.
+/// Greatest number of flips per half-edge. Some two are usual; adversarial point sets could need a number that grows
+/// like the square. With fewer flips the triangulation is slower to walk through, but equally correct.
 const FLIPS: usize = 16;
 
 /// Makes a triangulation the constrained Delaunay triangulation (Lawson 1977): short edges, so that lines of sight cross
@@ -50,8 +50,8 @@ pub fn flip(vertices: &[Point], edges: &mut HalfEdges) {
     }
 }
 
-/// Whether three corners are in counter-clockwise order. Those of a flipped edge always are, but for numbers so small
-/// that the circle's sign underflows.
+/// Returns true if three corners are in counter-clockwise order. Those of a flipped edge always are, except if numbers
+/// are so small that the circle's sign underflows.
 fn is_triangle(a: Point, b: Point, c: Point) -> bool {
     orientation(a, b, c) == Orientation::CounterClockwise
 }

@@ -1,4 +1,4 @@
-//! Which triangle contains a point?
+//! Finds the triangle that contains a point.
 
 use cplan_geometry::planar::HalfEdges;
 use cplan_geometry::{Orientation, Point, orientation};
@@ -9,7 +9,7 @@ pub struct Columns {
     left: f64,
     /// Strips per unit of length.
     density: f64,
-    /// Those of strip `k` are `triangles[first[k]..first[k + 1]]`.
+    /// The triangles of strip `k` are `triangles[first[k]..first[k + 1]]`.
     first: Vec<u32>,
     triangles: Vec<Entry>,
 }
@@ -23,7 +23,7 @@ struct Entry {
 }
 
 impl Columns {
-    /// `O(n)` entries among triangles of even size, `O(n sqrt n)` if all are as wide as free space.
+    /// Builds the index. `O(n)` entries among triangles of even size, `O(n sqrt n)` if all are as wide as free space.
     pub fn new(vertices: &[Point], edges: &HalfEdges) -> Self {
         let count = edges.origin.len() / 3;
         let strips = (count as f64).sqrt().ceil().max(1.0);
@@ -55,10 +55,10 @@ impl Columns {
         columns
     }
 
-    /// The strip of an abscissa, the outermost one if it is outside. Monotone, even when rounded, so a point within a
-    /// triangle's range in x is in one of its strips.
+    /// Returns the strip of an abscissa, the outermost one if it is outside. Monotone, even when rounded, so a point
+    /// within a triangle's range in x is in one of its strips.
     fn strip(&self, x: f64) -> usize {
-        // A cast from a float saturates: 0 to the left of all.
+        // A cast from a float saturates: it gives 0 to the left of all strips.
         (((x - self.left) * self.density) as usize).min(self.first.len() - 2)
     }
 

@@ -1,4 +1,4 @@
-//! Free space as triangles, to be walked through along lines of sight.
+//! Free space as triangles, which lines of sight cross one after the other.
 
 mod cone;
 mod corners;
@@ -18,7 +18,7 @@ use location::Columns;
 
 /// The constrained Delaunay triangulation of free space, its convex corners, and an index of its triangles.
 ///
-/// Triangles are neighbours only through free space, so what touches in a corner only is apart here.
+/// Triangles are neighbours only through free space, so parts that touch only in a corner are separate.
 #[derive(Debug, Clone)]
 pub struct Mesh {
     vertices: Vec<Point>,
@@ -28,7 +28,7 @@ pub struct Mesh {
 }
 
 impl Mesh {
-    /// Triangulates, `O(n log n)` for `n` vertices.
+    /// Builds the triangulation, `O(n log n)` for `n` vertices.
     pub fn new(boundary: Boundary) -> Self {
         let mut edges = triangulate(&boundary);
         let vertices = boundary.vertices;
@@ -38,23 +38,23 @@ impl Mesh {
         Self { vertices, edges, corners, columns }
     }
 
-    /// Number of triangles.
+    /// Returns the number of triangles.
     pub fn triangles(&self) -> usize {
         self.edges.origin.len() / 3
     }
 
-    /// Convex corners of obstacles.
+    /// Returns the convex corners of obstacles.
     pub fn corners(&self) -> &[Corner] {
         &self.corners.list
     }
 
-    /// Triangles that contain `p`, borders included; none outside of free space. Exact; `O(sqrt n)` among triangles of
-    /// even size.
+    /// Returns the triangles that contain `p`, borders included; none outside of free space. Exact; `O(sqrt n)` among
+    /// triangles of even size.
     pub fn triangles_at(&self, p: Point) -> impl Iterator<Item = u32> + '_ {
         self.columns.triangles_at(&self.vertices, &self.edges, p)
     }
 
-    /// The triangles that hold any of a segment, and what. Linear, but for a point.
+    /// Returns the triangles that hold any of a segment, each with the part in it. Linear, except for a point.
     pub fn parts_of(&self, segment: &Segment) -> Vec<(u32, Segment)> {
         if segment.is_point() {
             let [at, _] = segment.corners();
@@ -67,55 +67,55 @@ impl Mesh {
         (0..self.triangles() as u32).filter_map(part).collect()
     }
 
-    /// All corners of free space, each once, in order of abscissae.
+    /// Returns all corners of free space, each once, in order of abscissae.
     pub fn vertices(&self) -> &[Point] {
         &self.vertices
     }
 
-    /// The number of the vertex at which a half-edge begins.
+    /// Returns the number of the vertex at which a half-edge begins.
     pub fn vertex(&self, half_edge: u32) -> u32 {
         self.edges.origin[half_edge as usize]
     }
 
-    /// The point at which a half-edge begins.
+    /// Returns the point at which a half-edge begins.
     pub fn origin(&self, half_edge: u32) -> Point {
         self.vertices[self.edges.origin[half_edge as usize] as usize]
     }
 
-    /// The corner in the sector of free space at the origin of a half-edge, if that is convex for the obstacle.
+    /// Returns the corner in the sector of free space at the origin of a half-edge, if that is convex for the obstacle.
     pub fn corner_at(&self, half_edge: u32) -> Option<u32> {
         let corner = self.corners.of_half_edge[half_edge as usize];
         (corner != NONE).then_some(corner)
     }
 
-    /// The right and the left end of a half-edge, as seen from within its triangle.
+    /// Returns the right and the left end of a half-edge, as seen from within its triangle.
     pub fn ends(&self, half_edge: u32) -> [Point; 2] {
         [self.origin(half_edge), self.origin(next(half_edge))]
     }
 
-    /// The sides of the boundary, free space to the left of each.
+    /// Returns the sides of the boundary, free space to the left of each.
     pub fn walls(&self) -> impl Iterator<Item = [Point; 2]> + '_ {
         (0..self.edges.twin.len() as u32).filter(|&half_edge| self.is_wall(half_edge)).map(|wall| self.ends(wall))
     }
 
-    /// Whether a half-edge is part of the boundary.
+    /// Returns true if a half-edge is part of the boundary.
     pub fn is_wall(&self, half_edge: u32) -> bool {
         self.twin(half_edge).is_none()
     }
 
-    /// The half-edge on the other side of the same edge; none where it is part of the boundary.
+    /// Returns the half-edge on the other side of the same edge; `None` if it is part of the boundary.
     pub fn twin(&self, half_edge: u32) -> Option<u32> {
         let twin = self.edges.twin[half_edge as usize];
         (twin != NONE).then_some(twin)
     }
 }
 
-/// The half-edge that follows in the same triangle.
+/// Returns the half-edge that follows in the same triangle.
 pub fn next(half_edge: u32) -> u32 {
     if half_edge % 3 == 2 { half_edge - 2 } else { half_edge + 1 }
 }
 
-/// The half-edge before in the same triangle.
+/// Returns the half-edge before in the same triangle.
 pub fn previous(half_edge: u32) -> u32 {
     if half_edge.is_multiple_of(3) { half_edge + 2 } else { half_edge - 1 }
 }
@@ -159,8 +159,8 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(256))]
 
-        /// By their definitions: triangles are counter-clockwise, joined in pairs, cover free space, and are Delaunay; an
-        /// index finds those that contain a point.
+        /// Checks the definitions: triangles are counter-clockwise, joined in pairs, cover free space, and are
+        /// Delaunay; an index finds those that contain a point.
         #[test]
         fn is_the_constrained_delaunay_triangulation(
             blocked in proptest::collection::vec(any::<bool>(), 25), matrix in matrices(),
@@ -197,20 +197,20 @@ mod tests {
             }
         }
 
-        /// Against the squares that a segment meets: those that pass through no vertex are decided exactly, all others are free
-        /// if they are said to be.
+        /// Compares with the squares that a segment meets. Segments that pass through no vertex are decided exactly;
+        /// all others are free if they are reported to be.
         #[test]
         fn straight_motions_are_clear_where_no_square_is_met(
             blocked in proptest::collection::vec(any::<bool>(), 25), matrix in matrices(),
             ends in [[-7i8..47, -7i8..47], [-7i8..47, -7i8..47]],
         ) {
             let mesh = Mesh::new(Boundary::new(&board(&blocked, matrix).contours()));
-            // Eighths, and a hair off, so that few lines pass through vertices.
+            // Eighths with a small offset, so that few lines pass through vertices.
             let place = |[x, y]: [i8; 2], off: f64| [f64::from(x) / 8.0 + off, f64::from(y) / 8.0 - off / 4.0];
             let [p, q] = [place(ends[0], 1.0 / 1024.0), place(ends[1], 1.0 / 4096.0)];
             let [a, b, c, d] = matrix;
             let mapped = |[x, y]: [f64; 2]| Point::new(a * x + b * y, c * x + d * y);
-            // Of the square with this lower corner: whether the segment meets it, by the line and by the bounds.
+            // Returns true if the segment meets the square with this lower corner, by the line and by the bounds.
             let meets = |x: f64, y: f64| {
                 let sides = [(x, y), (x + 1.0, y), (x + 1.0, y + 1.0), (x, y + 1.0)]
                     .map(|(x, y)| (q[0] - p[0]) * (y - p[1]) - (q[1] - p[1]) * (x - p[0]));

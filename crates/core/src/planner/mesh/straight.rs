@@ -4,14 +4,15 @@ use super::Mesh;
 use cplan_geometry::{Orientation, Point, orientation};
 
 impl Mesh {
-    /// Whether the segment from `a` to `b` lies in free space. Exact; one that passes through a vertex, or along a side into
-    /// another triangle, counts as not free, which no two points drawn at random come across. Time in the number of triangles
-    /// crossed.
+    /// Returns true if the segment from `a` to `b` lies in free space. Exact. A segment that passes through a vertex,
+    /// or along a side into another triangle, counts as not free; this does not happen between random points. Time in
+    /// the number of triangles crossed.
     pub fn is_clear(&self, a: Point, b: Point) -> bool {
         self.triangles_at(a).any(|triangle| self.walk(triangle, a, b).is_some())
     }
 
-    /// The portals, as half-edges, by which the segment from `a`, in a triangle, to `b` leaves triangles; none as [`Mesh::is_clear`] has it.
+    /// Returns the portals, as half-edges, through which the segment from `a`, in a triangle, to `b` leaves triangles;
+    /// `None` if the segment counts as not free, see [`Mesh::is_clear`].
     pub fn walk(&self, triangle: u32, a: Point, b: Point) -> Option<Vec<u32>> {
         let mut portals = Vec::new();
         let mut at = triangle;
@@ -34,7 +35,7 @@ impl Mesh {
         }
     }
 
-    /// The sides of a triangle that it shares with another one.
+    /// Returns the sides of a triangle that it shares with another one.
     pub fn portals(&self, triangle: u32) -> impl Iterator<Item = u32> + '_ {
         (3 * triangle..3 * triangle + 3).filter(|&side| !self.is_wall(side))
     }

@@ -1,7 +1,7 @@
 //! Roadmaps: graphs whose nodes are configurations and whose edges are straight motions between them.
 //!
-//! A producer makes a [`Roadmap`] of a space once; a query adds its start and its goals as nodes ([`Asked`]), joins them
-//! with what they can reach, and has the whole searched.
+//! A producer makes a [`Roadmap`] of a space once. A query adds its start and its goals as nodes ([`Asked`]), joins
+//! them with the nodes that they can reach, and searches the whole graph.
 
 mod nearby;
 mod search;
@@ -23,11 +23,11 @@ use std::collections::{BTreeMap, BTreeSet};
 #[derive(Debug, Clone, Copy)]
 struct Road {
     length: f64,
-    /// Its least distance from the boundary of free space; infinite where nobody asks for it.
+    /// Least distance from the boundary of free space; infinite if it is not needed.
     width: f64,
 }
 
-/// Configurations and straight motions between them, which are as long as a measure says.
+/// Configurations and straight motions between them, whose lengths follow a measure.
 #[derive(Debug, Clone)]
 pub struct Roadmap {
     graph: UnGraph<Point, Road>,
@@ -35,12 +35,12 @@ pub struct Roadmap {
 }
 
 impl Roadmap {
-    /// Without any node.
+    /// Creates a roadmap without nodes.
     pub fn new(measure: Measure) -> Self {
         Self { graph: UnGraph::new_undirected(), measure }
     }
 
-    /// A node more; nodes are numbered as they come.
+    /// Adds a node; nodes are numbered in the order of their addition.
     pub fn add(&mut self, at: Point) -> NodeIndex {
         self.graph.add_node(at)
     }
@@ -50,7 +50,7 @@ impl Roadmap {
         self.join_of_width(a, b, f64::INFINITY);
     }
 
-    /// The same by a motion that is so far from the boundary of free space.
+    /// Joins two nodes by a motion at this distance from the boundary of free space, if they are not joined yet.
     pub fn join_of_width(&mut self, a: NodeIndex, b: NodeIndex, width: f64) {
         if self.graph.find_edge(a, b).is_none() {
             let length = self.measure.norm(self.graph[b] - self.graph[a]);
@@ -58,14 +58,14 @@ impl Roadmap {
         }
     }
 
-    /// The same with a query's start.
+    /// Adds a query's start.
     pub fn asked(mut self, start: Point) -> Asked {
         let start = self.add(start);
         Asked { roadmap: self, start, goals: BTreeMap::new(), ends: BTreeSet::new() }
     }
 }
 
-/// What a search of a roadmap came to; without one where it was given up before.
+/// Returns the run for a search of a roadmap; without a roadmap if the planner gave up before the search.
 pub fn run(kind: GraphKind, outcome: Proposal, asked: Option<&Asked>, expanded: Vec<Configuration>) -> Run {
     let [nodes, edges] = asked.map_or([0; 2], Asked::size);
     let drawn = asked.map_or_else(Vec::new, Asked::edges);
@@ -81,12 +81,12 @@ pub struct Asked {
     pub start: NodeIndex,
     /// Goals by the bits of their coordinates.
     goals: BTreeMap<[u64; 2], NodeIndex>,
-    /// The same by their nodes.
+    /// The nodes of the goals.
     ends: BTreeSet<NodeIndex>,
 }
 
 impl Asked {
-    /// The goal at a place, a node of its own.
+    /// Returns the goal's node at a place, a separate node.
     pub fn goal(&mut self, at: Point) -> NodeIndex {
         let roadmap = &mut self.roadmap;
         let goal = *self.goals.entry([at.x.to_bits(), at.y.to_bits()]).or_insert_with(|| roadmap.add(at));
@@ -94,7 +94,7 @@ impl Asked {
         goal
     }
 
-    /// A node more, which is no goal.
+    /// Adds a node that is no goal.
     pub fn add(&mut self, at: Point) -> NodeIndex {
         self.roadmap.add(at)
     }
@@ -104,13 +104,13 @@ impl Asked {
         self.roadmap.join(a, b);
     }
 
-    /// The same by a motion that is so far from the boundary of free space.
+    /// Joins two nodes by a motion at this distance from the boundary of free space, if they are not joined yet.
     pub fn join_of_width(&mut self, a: NodeIndex, b: NodeIndex, width: f64) {
         self.roadmap.join_of_width(a, b, width);
     }
 
-    /// What is left of it when all motions are left out that are narrower than the widest way from the start to a goal, of
-    /// those at least so wide; none if there is no such way. Sorts the motions.
+    /// Returns the graph without the motions that are narrower than the widest route from the start to a goal, among
+    /// routes of at least this width. Returns `None` if there is no such route. Sorts the motions.
     pub fn widest(&self, least: f64) -> Option<Self> {
         let graph = &self.roadmap.graph;
         let mut order: Vec<_> = graph.edge_references().filter(|edge| edge.weight().width >= least).collect();
@@ -132,23 +132,23 @@ impl Asked {
         Some(widest)
     }
 
-    /// Where a node is.
+    /// Returns the place of a node.
     pub fn at(&self, node: NodeIndex) -> Point {
         self.roadmap.graph[node]
     }
 
-    /// Nodes and edges.
+    /// Returns the numbers of nodes and edges.
     pub fn size(&self) -> [usize; 2] {
         [self.roadmap.graph.node_count(), self.roadmap.graph.edge_count()]
     }
 
-    /// Both ends of each edge.
+    /// Returns both ends of each edge.
     pub fn edges(&self) -> Vec<[Configuration; 2]> {
         let edges = self.roadmap.graph.raw_edges().iter();
         edges.map(|edge| [edge.source(), edge.target()].map(|node| self.at(node).coords)).collect()
     }
 
-    /// Searches it; with the places that were expanded, in order.
+    /// Searches the roadmap, and returns the expanded places, in order.
     pub fn search(&self, how: RoadmapSearch, terminals: &Terminals) -> (Option<Vec<NodeIndex>>, Vec<Configuration>) {
         let Roadmap { graph, measure } = &self.roadmap;
         let question = Question {

@@ -2,7 +2,7 @@
 
 use cplan_geometry::{Ordered, Point};
 
-/// Points by square buckets, some of them in each.
+/// Points in square buckets, a few in each.
 #[derive(Debug, Clone)]
 pub struct Nearby {
     points: Vec<Point>,
@@ -11,22 +11,22 @@ pub struct Nearby {
     side: f64,
     /// Buckets along each axis.
     shape: [usize; 2],
-    /// Those of bucket `k` are `order[first[k]..first[k + 1]]`.
+    /// The points of bucket `k` are `order[first[k]..first[k + 1]]`.
     first: Vec<usize>,
     order: Vec<usize>,
 }
 
-/// Points a bucket, if they are spread evenly.
+/// Number of points per bucket, if they are spread evenly.
 const IN_BUCKET: f64 = 2.0;
 
 impl Nearby {
-    /// `O(n)`.
+    /// Builds the buckets. `O(n)`.
     pub fn new(points: Vec<Point>) -> Self {
         let infinite = Point::new(f64::INFINITY, f64::INFINITY);
         let lower = points.iter().fold(infinite, |least, p| least.inf(p));
         let upper = points.iter().fold(-infinite, |most, p| most.sup(p));
         let extent = if points.is_empty() { [0.0; 2] } else { [upper.x - lower.x, upper.y - lower.y] };
-        // However slender the space, there are not more buckets than points.
+        // There are at most as many buckets as points, however slender the space.
         let share = IN_BUCKET / points.len().max(1) as f64;
         let side = (extent[0] * extent[1] * share).sqrt().max(extent[0].max(extent[1]) * share);
         let side = if side > 0.0 { side } else { 1.0 };
@@ -49,23 +49,24 @@ impl Nearby {
         nearby
     }
 
-    /// The points, as they came.
+    /// Returns the points, as they came.
     pub fn points(&self) -> &[Point] {
         &self.points
     }
 
-    /// The bucket that a point is in, or the nearest one.
+    /// Returns the bucket that a point is in, or the nearest one.
     fn place(&self, p: Point) -> [usize; 2] {
-        // A cast from a float saturates: 0 on the left of all.
+        // A cast from a float saturates: it gives 0 to the left of all buckets.
         [0, 1].map(|k| (((p[k] - self.lower[k]) / self.side) as usize).min(self.shape[k] - 1))
     }
 
-    /// The `count` points nearest to `p`, nearest first, of equals the first. About `O(count)` where points are spread evenly.
+    /// Returns the `count` points nearest to `p`, nearest first; equals in the order of their addition. About
+    /// `O(count)` where points are spread evenly.
     pub fn nearest(&self, p: Point, count: usize) -> Vec<usize> {
         let mut found: Vec<(Ordered, usize)> = Vec::new();
         let home = self.place(p);
-        // What is beyond so many rings of buckets is at least as far away as they are wide: of places outside of all
-        // buckets even farther.
+        // Points beyond this many rings of buckets are at least as far away as the rings are wide; from places outside
+        // of all buckets they are even farther.
         for ring in 0..self.shape[0].max(self.shape[1]) {
             for i in home[0].saturating_sub(ring)..=(home[0] + ring).min(self.shape[0] - 1) {
                 for j in home[1].saturating_sub(ring)..=(home[1] + ring).min(self.shape[1] - 1) {
@@ -94,7 +95,7 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(256))]
 
-        /// Against all distances, on a small lattice, where many are equal, and in a slender box.
+        /// Compares with all distances, on a small lattice, where many are equal, and in a slender box.
         #[test]
         fn are_those_of_all_that_are_nearest(
             places in proptest::collection::vec([0i8..9, 0i8..9], 0..60), from in [-4i8..13, -4i8..13], count in 0usize..12,

@@ -1,8 +1,8 @@
-//! One search over all roadmaps: what differs is which of the nodes that wait is expanded next.
+//! One search for all roadmaps. Searches differ in the next node to expand.
 //!
-//! petgraph's throughout: its A\* is Dijkstra's algorithm without an estimate, and the greedy search where moves cost
-//! nothing; its walkers go breadth first and depth first, and do not recurse. What they do not keep is kept here: the
-//! order in which nodes are expanded, and from where a walker came.
+//! The algorithms are petgraph's: its A\* is Dijkstra's algorithm without an estimate, and the greedy search where
+//! moves cost nothing; its walkers go breadth first and depth first, and do not recurse. This module adds the order in
+//! which nodes are expanded, and the predecessors of a walker.
 
 use cplan_interrupt::checkpoint;
 use petgraph::algo::astar;
@@ -11,20 +11,21 @@ use petgraph::visit::{Bfs, Dfs, VisitMap};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// Which of the nodes that wait is expanded next.
+/// The rule for the next node to expand.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum SearchOrder {
-    /// First in, first out: a path of fewest edges.
+    /// First in, first out: a path with the fewest edges.
     BreadthFirst,
-    /// Last in, first out: some path, seldom a short one.
+    /// Last in, first out: any path, seldom a short one.
     DepthFirst,
     /// The node of least cost: a shortest path.
     Dijkstra,
-    /// The node of least cost and estimated rest, which is the straight distance: a shortest path, usually found sooner.
+    /// The node with the least sum of cost and estimated rest, which is the straight distance: a shortest path, usually
+    /// found sooner.
     #[default]
     AStar,
-    /// The node of least estimated rest: a path that is found soon, of any length.
+    /// The node with the least estimated rest: a path of any length, found soon.
     Greedy,
 }
 
@@ -32,7 +33,7 @@ impl SearchOrder {
     /// All, in the order of the command line's help.
     pub const ALL: [Self; 5] = [Self::BreadthFirst, Self::DepthFirst, Self::Dijkstra, Self::AStar, Self::Greedy];
 
-    /// Name on the command line.
+    /// Returns the name on the command line.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -44,25 +45,25 @@ impl SearchOrder {
         }
     }
 
-    /// Whether what it finds is a shortest path on the roadmap.
+    /// Returns true if the search finds a shortest path on the roadmap.
     #[must_use]
     pub fn is_optimal(self) -> bool {
         matches!(self, Self::Dijkstra | Self::AStar)
     }
 }
 
-/// How a roadmap is searched (LaValle, *Planning Algorithms*, 2006, section 2.2).
+/// The search method for a roadmap (LaValle, *Planning Algorithms*, 2006, section 2.2).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RoadmapSearch {
-    /// Which node comes next.
+    /// The rule for the next node.
     pub order: SearchOrder,
-    /// From the goals to the start, rather than from the start to a goal.
+    /// True for a search from the goals to the start, rather than from the start to a goal.
     pub backward: bool,
 }
 
 impl RoadmapSearch {
-    /// Whether it is what is done if nothing is said: A\* from the start.
+    /// Returns true for the default search: A\* from the start.
     #[must_use]
     pub fn is_usual(&self) -> bool {
         *self == Self::default()
@@ -75,22 +76,22 @@ impl fmt::Display for RoadmapSearch {
     }
 }
 
-/// What a search found out.
+/// The result of a search.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Searched {
-    /// From the start to a goal, whichever way it was looked for; none if they are not joined.
+    /// The route from the start to a goal, in this order for either direction of search; `None` if they are not joined.
     pub way: Option<Vec<NodeIndex>>,
     /// The nodes that were expanded, in that order, the one that ended the search among them.
     pub expanded: Vec<NodeIndex>,
 }
 
-/// What a search asks of a graph. Estimates are never more than the cost of a way there, and consistent: straight distances.
+/// The input of a search. Estimates never exceed the true cost, and are consistent: straight distances.
 pub struct Question<G, C, A, B> {
     /// The node from which the search begins.
     pub start: NodeIndex,
-    /// Whether a node is a goal.
+    /// Returns true if a node is a goal.
     pub is_goal: G,
-    /// What an edge costs, not less than 0.
+    /// Returns the cost of an edge, not less than 0.
     pub cost: C,
     /// An estimate of the cost from a node to the nearest goal.
     pub ahead: A,
@@ -98,8 +99,8 @@ pub struct Question<G, C, A, B> {
     pub behind: B,
 }
 
-/// Searches a graph from the start to any goal, or back. `O(n + m)` for `n` nodes and `m` edges breadth and depth first,
-/// `O((n + m) log n)` otherwise; both where only some of them are looked at, but for tables of all nodes.
+/// Searches a graph from the start to any goal, or back. `O(n + m)` for `n` nodes and `m` edges breadth and depth
+/// first, `O((n + m) log n)` otherwise. Both count only the expanded part of the graph, except for tables of all nodes.
 pub fn search<N, E, G, C, A, B>(graph: &UnGraph<N, E>, how: RoadmapSearch, question: &Question<G, C, A, B>) -> Searched
 where
     G: Fn(NodeIndex) -> bool,
@@ -111,7 +112,7 @@ where
     if !how.backward {
         return run(graph, *start, is_goal, how.order, cost, ahead);
     }
-    // From all goals at once: from a node that is joined to each of them at no cost.
+    // The search begins at all goals at once, from a node that is joined to each of them at no cost.
     let mut turned = graph.map(|_, _| (), |_, edge| cost(edge));
     let hub = turned.add_node(());
     let mut nearest = f64::INFINITY;
@@ -125,7 +126,7 @@ where
     if let Some(way) = &mut searched.way {
         way.retain(|&node| node != hub);
         way.reverse();
-        // Of goals in a row the first one is where the motion ends.
+        // If several goals are in a row, the motion ends at the first one.
         let end = way.iter().position(|&node| is_goal(node)).map_or(way.len(), |at| at + 1);
         way.truncate(end);
     }
@@ -148,7 +149,7 @@ fn run<N, E>(
     };
     let (mut expanded, mut seen) = (Vec::new(), vec![false; graph.node_count()]);
     let ends_at = |node: NodeIndex| {
-        // A node may come up again that a shorter way has reached since.
+        // A node may come up again although a shorter path has reached it since.
         if !std::mem::replace(&mut seen[node.index()], true) {
             expanded.push(node);
         }
@@ -158,13 +159,13 @@ fn run<N, E>(
         checkpoint();
         if priced { cost(edge.weight()) } else { 0.0 }
     };
-    // Nothing is left at an end, whatever rounding says.
+    // An end has no remaining cost, whatever rounding gives.
     let rest = |node: NodeIndex| if guided && !is_end(node) { estimate(node) } else { 0.0 };
     let way = astar(graph, from, ends_at, passing, rest).map(|(_, way)| way);
     Searched { way, expanded }
 }
 
-/// Breadth or depth first.
+/// Searches breadth or depth first.
 fn walk<N, E>(
     graph: &UnGraph<N, E>,
     from: NodeIndex,
@@ -197,9 +198,9 @@ fn walk<N, E>(
         for neighbor in graph.neighbors(node).filter(|&neighbor| neighbor != from) {
             let parent = &mut parents[neighbor.index()];
             match &walker {
-                // Who came first has put it on the queue.
+                // The first predecessor has put it on the queue.
                 Walker::Breadth(_) => *parent = parent.or(Some(node)),
-                // Who came last is on top of the stack.
+                // The last predecessor has put it on top of the stack.
                 Walker::Depth(dfs) if !dfs.discovered.is_visited(&neighbor) => *parent = Some(node),
                 Walker::Depth(_) => {}
             }
@@ -212,7 +213,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// Places in the plane and edges between them, as long as they are; some places are goals.
+    /// Places in the plane and straight edges between them; some places are goals.
     #[derive(Debug, Clone)]
     struct Case {
         places: Vec<[i16; 2]>,
@@ -256,7 +257,7 @@ mod tests {
             search(&graph, how, &question)
         }
 
-        /// Least sum of this over the edges of a way, between all pairs: Floyd and Warshall.
+        /// Returns the least sum of this over the edges of a route, between all pairs: Floyd and Warshall.
         fn least(&self, of: impl Fn(usize, usize) -> f64) -> Vec<Vec<f64>> {
             let n = self.places.len();
             let mut least = vec![vec![f64::INFINITY; n]; n];
@@ -279,8 +280,8 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(512))]
 
-        /// A way is found if and only if there is one, along edges, with the length and the number of edges that its order
-        /// promises; backward as forward; no node is expanded twice.
+        /// A route is found if and only if there is one, along edges, with the length and the number of edges that its
+        /// order promises, both backward and forward. No node is expanded twice.
         #[test]
         fn each_order_keeps_its_promise_both_ways(case in cases()) {
             let to_goal = |all: &[Vec<f64>]| case.goals.iter().map(|&goal| all[0][goal]).fold(f64::INFINITY, f64::min);
@@ -312,7 +313,7 @@ mod tests {
             }
         }
 
-        /// An estimate saves work: A\* expands no node that is farther off than the goal, nor Dijkstra.
+        /// An estimate saves work: neither A\* nor Dijkstra expands a node that is farther off than the goal.
         #[test]
         fn nothing_beyond_the_goal_is_expanded(case in cases()) {
             let least = case.least(|a, b| case.apart(a, b));

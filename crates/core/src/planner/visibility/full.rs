@@ -1,4 +1,4 @@
-//! The visibility graph by its definition: an arc between any two corners that see each other.
+//! The visibility graph by its definition, with an arc between any two corners that see each other.
 
 use super::VisibilityMap;
 use crate::planner::mesh::{Cone, Mesh};
@@ -9,13 +9,13 @@ use cplan_geometry::{Orientation, Point};
 use cplan_interrupt::checkpoint;
 use petgraph::graph::NodeIndex;
 
-/// Corners of free space up to which the whole graph is made: it may have as many arcs as half the square of their number.
+/// Greatest number of corners of free space for the whole graph, which may have as many arcs as half its square.
 const MOST_VERTICES: usize = 1500;
 
 impl VisibilityMap {
-    /// The graph of all corners of free space, those at joint limits too, the start and the goals. Two are joined where the segment
-    /// between them is a side of free space, or lies in free space and touches no corner between its ends (Latombe, *Robot Motion
-    /// Planning*, 1991, section 4.1).
+    /// Returns the graph of all corners of free space, including those at joint limits, the start and the goals. Two
+    /// are joined if the segment between them is a side of free space, or lies in free space and touches no corner
+    /// between its ends (Latombe, *Robot Motion Planning*, 1991, section 4.1).
     ///
     /// Time in the number of triangles that lines of sight cross; exact.
     ///
@@ -52,7 +52,7 @@ impl VisibilityMap {
     }
 }
 
-/// A place that looks around.
+/// The view from a place.
 struct Sight<'a> {
     mesh: &'a Mesh,
     terminals: &'a Terminals,
@@ -60,7 +60,7 @@ struct Sight<'a> {
 }
 
 impl Sight<'_> {
-    /// Adds the numbers of the vertices that it sees, and the parts of goals.
+    /// Adds the numbers of the visible vertices, and the visible parts of goals.
     fn look(&self, seen: &mut Vec<u32>, goals: &mut Vec<Segment>) {
         let Self { mesh, terminals, root } = *self;
         for triangle in mesh.triangles_at(root) {
@@ -81,12 +81,13 @@ impl Sight<'_> {
     }
 }
 
-/// Whether a place lies strictly between the bounds of a cone. On one of them a corner lies before it, which the line of sight touches.
+/// Returns true if a place lies strictly between the bounds of a cone. A place on a bound has a corner before it, which
+/// the line of sight touches.
 fn is_within(cone: &Cone, p: Point) -> bool {
     cone.right.side(p) == Orientation::CounterClockwise && cone.left.side(p) == Orientation::Clockwise
 }
 
-/// The same, or whether it is such a corner itself.
+/// Returns true if a place is within the cone or is a corner on one of its bounds.
 fn is_seen(cone: &Cone, p: Point) -> bool {
     is_within(cone, p) || [cone.right.to, cone.left.to].contains(&p)
 }

@@ -11,7 +11,7 @@ pub(super) const NEAR: f64 = 1e-6;
 const LOOKS: u8 = 4;
 
 /// Checks that a motion follows a path from beginning to end. Its deviation may be that of cut corners: half of the
-/// greatest stated `radius`, or none without a statement. Samples the whole motion.
+/// greatest stated `radius`, or zero without a statement. Samples the whole motion.
 ///
 /// # Errors
 /// The deviation.
@@ -23,7 +23,7 @@ pub(super) fn follows(path: &Path, recording: &Recording, radius: Option<f64>) -
     let within = NEAR + largest * f64::EPSILON * 16.0 + radius.map_or(0.0, |radius| radius.clamp(0.0, longest) / 2.0);
     let last = q.len().saturating_sub(2);
     let off = |at: Configuration, leg: usize| to_leg(at, q[leg], q[(leg + 1).min(q.len() - 1)]);
-    // Where legs are close to each other, or turn back, it may be on any of several.
+    // Where legs are close to each other, or turn back, the motion may be on any of several.
     let (mut legs, mut before) = (vec![0], q[0]);
     for (sample, piece) in recording.pieces().iter().enumerate() {
         for look in 0..=LOOKS {
@@ -32,7 +32,7 @@ pub(super) fn follows(path: &Path, recording: &Recording, radius: Option<f64>) -
             let near = 2.0 * within + (at - before).norm();
             let (mut found, mut next): (Vec<usize>, usize) = (Vec::new(), 0);
             for &leg in &legs {
-                // From one that was passed it gets no farther.
+                // A leg that was passed already gets no farther.
                 if leg >= next {
                     let passed = q[leg + 1..].iter().take_while(|corner| (*corner - at).norm() <= near).count();
                     next = (leg + passed).min(last) + 1;

@@ -190,7 +190,7 @@ pub fn claims_kept(scene: &Scene, recording: &Recording, claims: &Claims, found:
 impl Ledger {
     /// Checks the claims about any motion.
     fn general(&mut self, arm: &Arm, recording: &Recording, claims: &Claims) {
-        // An exploration's motion is one, too, however it ended; what ends otherwise without a motion has none to judge.
+        // An exploration has a motion, however it ended. Any other result without a motion has nothing to judge.
         let of_exploration = ["reached", "explored", "unreachable", "unknown"];
         if let Some(status) = claims.status.as_ref().filter(|status| !of_exploration.contains(&status.as_str())) {
             self.same("status", status, &"found".to_owned());

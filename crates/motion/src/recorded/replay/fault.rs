@@ -26,22 +26,22 @@ pub enum Fault {
     /// A moving object is picked at a time outside its window.
     #[error("the object is picked at {time:.6} s, outside the times that are asked for")]
     When {
-        /// When it is, seconds.
+        /// The recorded time, seconds.
         time: f64,
     },
-    /// The object that is placed is not where it was to go.
+    /// The placed object is not at its required place.
     #[error("the object's origin ends {off:.6} m from its target")]
     Origin {
         /// Distance of the object from there, metres.
         off: f64,
     },
-    /// The object that is placed is not turned as it was to be.
+    /// The placed object does not have its required orientation.
     #[error("the object is let go of {off:.6} rad from the angle asked for")]
     Angle {
         /// The difference, radians.
         off: f64,
     },
-    /// The arm does not stand still for long enough.
+    /// The arm does not rest for long enough.
     #[error("the arm stands still for {stood:.6} s, not for {asked:.6} s")]
     Rest {
         /// The recorded rest, seconds.
@@ -74,14 +74,14 @@ pub enum Fault {
 /// The point at which a record departs from the sequence of its task.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum Departure {
-    /// Something else was to be done.
+    /// Another step was required.
     #[error("steps[{index}] is step {number} (cycle {cycle}), where the world asks for {expected}")]
     Order {
-        /// Into the recorded steps.
+        /// Index of the recorded step.
         index: usize,
         /// The recorded step's number.
         number: usize,
-        /// The repetition that the record says it belongs to.
+        /// The repetition to which the record assigns the step.
         cycle: usize,
         /// Description of the expected step.
         expected: String,
@@ -94,22 +94,22 @@ pub enum Departure {
         /// Description of the expected step.
         expected: String,
     },
-    /// A step begins before the one before it ends.
+    /// A step begins before the previous one ends.
     #[error("steps[{index}] begins with sample {first}, before sample {last}, with which the step before it ends")]
     Overlap {
-        /// Into the recorded steps.
+        /// Index of the recorded step.
         index: usize,
-        /// Its first sample.
+        /// The step's first sample.
         first: usize,
-        /// The last sample of the step before.
+        /// The last sample of the previous step.
         last: usize,
     },
-    /// The arm moves where no step says so.
+    /// The arm moves between steps.
     #[error("the arm moves between samples {sample} and {}, which belong to no step", sample + 1)]
     Moves {
-        /// Into the recorded steps: that before which it does, or their number.
+        /// Index of the recorded step that follows the motion, or the number of steps.
         index: usize,
-        /// The sample at which it does not stand, or after which it stands elsewhere.
+        /// The sample at which it moves, or after which its place has changed.
         sample: usize,
     },
 }

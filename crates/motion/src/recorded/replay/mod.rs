@@ -1,4 +1,4 @@
-//! Replays and judges a recorded task: whether it is the task of the world, and whether every motion and every turn is
+//! Replays and judges a recorded task: checks that it is the task of the world, and that every motion and every turn is
 //! free.
 //!
 //! It shares only data types with the search for tasks. The places of objects, the load, its pose and the permitted
@@ -29,9 +29,9 @@ const SHORT: f64 = 1e-6;
 /// A turn of the wrist that was judged.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ReplayedTurn {
-    /// The turn as the record has it.
+    /// The recorded turn.
     pub turn: RecordedTurn,
-    /// Proven free, or where it first hits something.
+    /// A proof that it is free, or the first place of contact.
     pub verdict: Result<WristTurn, TurnContact>,
 }
 
@@ -44,8 +44,8 @@ pub struct Happening {
     pub cycle: usize,
     /// The object that it takes or releases.
     pub object: usize,
-    /// Seconds from the beginning of the record: the end of the motion, of the turn before a release, and of the tool's
-    /// way down.
+    /// Seconds from the beginning of the record to the event: the end of the motion, of the turn before a release, and
+    /// of the tool's downward stroke.
     pub time: f64,
     /// Position of the tip.
     pub tip: Point,
@@ -69,21 +69,23 @@ pub struct ReplayedStep<'a> {
     pub carried: Option<usize>,
     /// Seconds from the beginning to the end of the motion.
     pub seconds: f64,
-    /// Seconds from the beginning of the record to that of the motion, to its end, and to the next motion or the end.
+    /// Seconds from the beginning of the record to three times: the beginning of the motion, its end, and the next
+    /// motion or the end of the record.
     pub times: [f64; 3],
     /// The gripper event, if there is one.
     pub event: Option<Happening>,
-    /// The motion among the obstacles of the scene; moments are the whole recording's.
+    /// The check of the motion among the obstacles of the scene; moments are those of the whole recording.
     pub collision_check: CollisionCheck,
-    /// Limits of the joints that the motion does not keep: their own, whatever share of them the step asks for.
+    /// Joint limits that the motion violates. These are the joints' own limits, even if the step requires only a share
+    /// of them.
     pub broken: Vec<Excess>,
-    /// The turn of the wrist after it. None too for one that was recorded with nothing in the hand to turn, which is a fault.
+    /// The turn of the wrist after the motion. Also `None` if a turn was recorded without a payload, which is a fault.
     pub turn: Option<ReplayedTurn>,
     /// Differences from the required step.
     pub faults: Vec<Fault>,
 }
 
-/// Judges recorded steps one after the other: an iterator, since each has a scene of its own.
+/// A judge of recorded steps, one after the other. It is an iterator, since each step has its own scene.
 #[derive(Debug, Clone)]
 pub struct Replay<'a> {
     task: &'a Task,
@@ -96,18 +98,18 @@ pub struct Replay<'a> {
 }
 
 /// Matches the steps of a record with those of the task: fixed steps in order, pairs of a free group in any order;
-/// between them the arm stands still. Iteration then judges each step, up to the point where the record departs from
-/// the task:
+/// between them the arm is at rest. Iteration then judges each step, up to the point where the record departs from the
+/// task:
 ///
 /// - Each motion from rest to rest, by [`check_collision`] with the workspace's clearance in the scene of its moment,
-///   and by [`limits_kept`]. Objects are where previous steps have left them, and the load is held as it
-///   was taken. Link 2 may touch the object that it takes and the one that it has just released; payloads may rest on
-///   their supports. The state after the last step is judged, too.
+///   and by [`limits_kept`]. Objects are where previous steps have left them, and the load has the pose in which it was
+///   taken. Link 2 may touch the object that it takes and the one that it has just released; payloads may rest on their
+///   supports. The state after the last step is judged, too.
 /// - Moving obstacles, at their places on the clock of the record, from its first sample. Moving objects must be picked
-///   within their windows, and the arm must stay free where it stands between motions.
+///   within their windows, and the resting arm must stay free between motions.
 /// - The end of each step: the tip is at the grasp, and the object or the arm at its target, within a micrometre. Turns
 ///   start at the object's orientation, take as long as the wrist needs, and are free ([`super::given_turn`]). The arm
-///   stands still for the dwell, the turn, and the stroke of the tool, which must be free at all its heights.
+///   rests for the dwell, the turn, and the stroke of the tool, which must be free at all its heights.
 ///
 /// `O(n)` for `n` samples, plus the checks of motions.
 #[must_use]
@@ -117,7 +119,8 @@ pub fn replay<'a>(task: &'a Task, recording: &'a Recording, recorded: &'a [Recor
 }
 
 impl Replay<'_> {
-    /// Seconds from the beginning of the record to that of a step's motion, to its end, and to the next one's.
+    /// Returns the seconds from the beginning of the record to that of a step's motion, to its end, and to the next
+    /// one's.
     fn times(&self, index: usize, recorded: &RecordedStep) -> [f64; 3] {
         let times = self.recording.times();
         let since = |sample: usize| times.and_then(|times| Some(times.get(sample)? - times[0])).unwrap_or(0.0);
@@ -198,7 +201,7 @@ impl<'a> Iterator for Replay<'a> {
             + recorded.turn.map_or(0.0, |turn| turn.seconds)
             + object.map_or(0.0, |object| stroke_seconds(task, object));
         let standing = || self.recording.part(*recorded.samples.end()..=*recorded.samples.end());
-        // A moving obstacle may hit the arm where it stands.
+        // A moving obstacle may hit the resting arm.
         if task.has_movers()
             && matches!(collision_check, CollisionCheck::Free { .. })
             && let Some(standing) = self.recording.part(*recorded.samples.end()..=self.next_begins(index))

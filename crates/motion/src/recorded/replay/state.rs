@@ -27,11 +27,11 @@ impl State {
 
     pub fn renew(&mut self, task: &Task, objects: &[usize]) {
         objects.iter().for_each(|&object| self.poses[object] = Some(task.objects[object].at));
-        // A new one is not the one that may be touched.
+        // A new object is not the one that may be touched.
         self.released = self.released.filter(|released| !objects.contains(released));
     }
 
-    /// Stops an object that moves where it is at a time. Whether it moved.
+    /// Stops a moving object at its place at a time. Returns true if it was moving.
     pub fn stop(&mut self, task: &Task, object: usize, time: f64) -> bool {
         let moved = self.moving.iter().position(|&other| other == object);
         if let Some((place, course)) = moved.zip(task.objects[object].course.as_ref()) {
@@ -70,7 +70,7 @@ impl State {
         let Action::Pick { object, supports, .. } = &step.action else { return None };
         let (object, arm) = (*object, &task.arm);
         self.released = None;
-        // Picks of a task find their objects.
+        // In a task, every pick has an object at its place.
         let lies = self.poses[object].take()?;
         let tip = arm.tip_at(q);
         let grip = match task.objects[object].holding {
@@ -86,7 +86,7 @@ impl State {
 
     /// Releases the load with the arm at `q`. Returns the differences from the required place.
     pub fn release(&mut self, task: &Task, q: Configuration, at: Point, angle: Option<f64>) -> Vec<Fault> {
-        // Places of a task follow picks.
+        // In a task, every place follows a pick.
         let Some((object, payload)) = self.held.take() else { return Vec::new() };
         let pose = payload.pose(&task.arm, q);
         self.poses[object] = Some(pose);

@@ -1,4 +1,4 @@
-//! What is called closed along a motion, against distances by brute force.
+//! Compares motions that are called closed with distances by brute force.
 
 use super::*;
 use cplan_core::model::{Arm, Heights, Joint, JointType, Link, Obstacle, OutlineSource, Part, Plane, Shape, Workspace};
@@ -8,10 +8,10 @@ use nalgebra::Vector3;
 use proptest::prelude::*;
 use std::f64::consts::TAU;
 
-/// Places along a line at which the shapes are looked at.
+/// Number of samples along a line at which the shapes are compared.
 const SAMPLES: usize = 96;
 
-/// A link and an obstacle, and two rows.
+/// A link and an obstacle, and two slices.
 #[derive(Debug, Clone)]
 struct Case {
     scene: Scene,
@@ -63,7 +63,7 @@ fn scene(turns: [bool; 2], ranges: [JointRange; 2], offset: Vector, part: Convex
     Scene::trusted(arm, Workspace { name, obstacles, clearance: 0.0, preferences: Vec::new(), movers: Vec::new() })
 }
 
-/// All kinds of arms, those whose joint 2 is on the axis of joint 1 among them.
+/// All kinds of arms, including those with joint 2 on the axis of joint 1.
 fn case() -> impl Strategy<Value = Case> {
     let far = JointRange::Interval { lower: -4.0, upper: 5.0 };
     let arm = ([any::<bool>(); 2], any::<bool>(), prop_oneof![Just((0.0, 0.0)), (-0.7..0.7_f64, -0.7..0.7_f64)]);
@@ -82,7 +82,7 @@ fn case() -> impl Strategy<Value = Case> {
     )
 }
 
-/// Least distance of two convex cores; 0 where they meet.
+/// Returns the least distance of two convex cores; 0 if they intersect.
 fn apart(a: &[Point], b: &[Point]) -> f64 {
     let cross = |u: Vector, v: Vector| u.x * v.y - u.y * v.x;
     let sides = |core: &[Point]| -> Vec<[Point; 2]> {
@@ -116,7 +116,8 @@ fn apart(a: &[Point], b: &[Point]) -> f64 {
 }
 
 impl Case {
-    /// Lines between all walls of the rows, to their copies a turn away, too, and one between anywhere and anywhere.
+    /// Returns lines between all walls of the slices, and to their copies a turn away, and one line between arbitrary
+    /// values.
     fn lines(&self, closed: &mut Closed) -> Vec<[Configuration; 2]> {
         let [before, after] = self.rows.map(|q1| closed.walls(q1));
         let mut ends = Vec::new();
@@ -130,7 +131,7 @@ impl Case {
         ends.into_iter().map(|ends| [0, 1].map(|side| Configuration::new(self.rows[side], ends[side]))).collect()
     }
 
-    /// The greatest distance of the shapes along a line, as far as samples tell.
+    /// Returns the greatest sampled distance of the shapes along a line.
     fn farthest(&self, [from, to]: [Configuration; 2]) -> f64 {
         let pair = self.scene.pairs()[0];
         let (part, piece) = (self.scene.part(pair), self.scene.piece(pair));
@@ -146,7 +147,7 @@ impl Case {
 proptest! {
     #![proptest_config(cplan_cases::cases(10))]
 
-    /// And much is called closed.
+    /// A good part of the lines must be called closed.
     #[test]
     fn what_is_called_closed_is_closed_all_along(cases in prop::collection::vec(case(), 60)) {
         let (mut lines, mut closed_lines) = (0, 0);

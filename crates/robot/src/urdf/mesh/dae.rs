@@ -1,18 +1,18 @@
 //! Collada: geometries, and the scene of nodes that place them, in the unit of the file.
 //!
-//! As in RViz and MoveIt, coordinates are the file's own, whichever axis it declares as up.
+//! As in RViz and MoveIt, coordinates are those of the file, for any axis that it declares as up.
 
 use nalgebra::{Matrix4, Point3, Rotation3, Unit, Vector3};
 use roxmltree::{Document, Node, ParsingOptions};
 use std::collections::HashMap;
 
-/// Nodes within each other, and nodes of the scene, at most.
+/// Greatest depth of nested nodes, and greatest number of nodes of the scene.
 const DEEPEST: usize = 64;
 const MOST_NODES: usize = 1 << 16;
-/// Vertices of all instances of geometries, at most.
+/// Greatest number of vertices of all instances of geometries.
 const MOST_POINTS: usize = 1 << 24;
 
-/// Vertices of all geometries of the scene, metres.
+/// Reads the vertices of all geometries of the scene, metres.
 pub(super) fn read(bytes: &[u8]) -> Result<Vec<Point3<f64>>, String> {
     let text = std::str::from_utf8(bytes).map_err(|_| "the file is no UTF-8 text".to_owned())?;
     let options = ParsingOptions { allow_dtd: true, ..ParsingOptions::default() };
@@ -39,7 +39,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Vec<Point3<f64>>, String> {
     if let Some(shown) = shown {
         scene.children(shown, &pose, 0)?;
     }
-    // Some programs write geometries and no scene: they lie where their own coordinates say.
+    // Some programs write geometries without a scene; these use their own coordinates.
     if scene.points.is_empty() {
         named(root, "geometry").try_for_each(|geometry| scene.geometry(geometry, &pose))?;
     }
@@ -83,7 +83,7 @@ impl<'a, 'i> Scene<'a, 'i> {
         self.ids.get(id).copied()
     }
 
-    /// Nodes and geometries of a node, whose coordinates `pose` takes to those of the file.
+    /// Reads nodes and geometries of a node. `pose` maps its coordinates to those of the file.
     fn children(&mut self, node: Node<'a, 'i>, pose: &Matrix4<f64>, depth: usize) -> Result<(), String> {
         self.nodes += 1;
         if depth > DEEPEST || self.nodes > MOST_NODES {

@@ -1,4 +1,4 @@
-//! Mesh files: where they are, their vertices and edges.
+//! Mesh files: their search, vertices and edges.
 
 mod dae;
 mod obj;
@@ -29,7 +29,7 @@ impl Mesh {
     }
 }
 
-/// Why a mesh is not read, and what to do about it.
+/// The reason why a mesh cannot be read, with a hint.
 pub(super) struct Unread {
     pub message: String,
     pub cure: &'static str,
@@ -50,8 +50,8 @@ impl From<String> for Unread {
 /// relative to the URDF's folder.
 ///
 /// # Errors
-/// With the searched places: the file is missing, the URDF is not a file, or the mesh has an unknown format, is
-/// damaged, or is too large.
+/// The reason with the searched places: the file is missing, the URDF is not a file, or the mesh has an unknown format,
+/// is damaged, or is too large.
 pub(super) fn read(filename: &str, scale: [f64; 3], urdf: &Source) -> Result<Mesh, Unread> {
     let extension = Path::new(filename).extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default();
     if !["stl", "dae", "obj"].contains(&extension.as_str()) {
@@ -92,7 +92,7 @@ fn too_far(vertex: &Point3<f64>, scale: [f64; 3], path: &Path) -> Unread {
 /// Returns the file of a mesh.
 ///
 /// # Errors
-/// With the searched places.
+/// A message with the searched places.
 pub fn find(filename: &str, urdf: &Path) -> Result<PathBuf, String> {
     if let Some(path) = candidates(filename, urdf).find(|path| path.is_file()) {
         return Ok(path);

@@ -4,7 +4,7 @@ use super::Mesh;
 use nalgebra::Point3;
 use std::io::Cursor;
 
-/// Bytes of a binary STL before its triangles, and of each triangle.
+/// Number of bytes of a binary STL before its triangles, and of each triangle.
 const HEADER: usize = 84;
 const TRIANGLE: usize = 50;
 
@@ -13,7 +13,8 @@ pub(super) fn read(mut bytes: Vec<u8>) -> Result<Mesh, String> {
     let count = bytes.get(80..HEADER).and_then(|c| c.try_into().ok()).map(u32::from_le_bytes);
     let binary = count.is_some_and(|n| bytes.len() as u64 == HEADER as u64 + TRIANGLE as u64 * u64::from(n));
     let mesh = if binary {
-        // Exporters begin binary headers with "solid" too, by which readers tell text; the header means nothing else.
+        // Exporters begin binary headers with "solid" too, by which readers recognise text; otherwise the header has no
+        // meaning.
         bytes[..5].fill(0);
         let mesh = stl_io::read_stl(&mut Cursor::new(bytes)).map_err(|e| format!("the STL is broken: {e}"))?;
         let points =
@@ -34,7 +35,7 @@ fn text(text: &str) -> Result<Mesh, String> {
     /// The lines of a facet.
     const FACET: [&str; 7] = ["facet normal", "outer loop", "vertex", "vertex", "vertex", "endloop", "endfacet"];
     let mut mesh = Mesh::default();
-    // The line of a facet that is next; none outside of solids.
+    // The next line of a facet; `None` outside of solids.
     let mut next: Option<usize> = None;
     for (number, line) in text.lines().enumerate() {
         let words: Vec<&str> = line.split_whitespace().collect();

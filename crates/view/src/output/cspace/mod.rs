@@ -306,7 +306,7 @@ impl Way {
     }
 }
 
-/// A space for each world, in the order in which the arm moves in them; that of the step that fails comes last.
+/// Returns a space for each world, in the order of the arm's motion; the space of the failed step comes last.
 fn spaces_of_task(task: &Task, answer: &TaskAnswer, is_exact: bool) -> Vec<CSpace> {
     let mut scenes: Vec<&Arc<Scene>> = Vec::new();
     let mut spaces: Vec<CSpace> = Vec::new();
