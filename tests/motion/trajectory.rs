@@ -1,8 +1,8 @@
 //! From a certified path to files, and back through independent readers.
 
-use crate::common::{disc, placed};
+use crate::common::{disc, placed, shipped_feasible};
 use cplan::check::{CertifiedPath, blend, certify};
-use cplan::engine::{Method, Options, Plan, Problem, plan};
+use cplan::engine::{GridSpace, Method, Options, Plan, Planner, Problem, plan};
 use cplan::geometry::{Point, Vector};
 use cplan::model::{
     Arm, Heights, Joint, JointType, Link, MotionProblem, Obstacle, OutlineSource, Part, Plane, RobotJoints, Scene,
@@ -149,28 +149,36 @@ fn infinite_clearance_is_null() {
 
 #[test]
 fn without_a_path_there_is_a_reason() {
-    // A post blocks a link that turns within limits. With a budget of one box, the planner does not search for a path
-    // past it.
-    let answer = |at: f64, boxes: usize| {
-        let mut arm = Arm::rr([1.0, 0.8], 0.06).expect("an ordinary arm");
-        arm.joints[0] = Joint::turning("shoulder", -2.0, 2.0);
-        let post = Obstacle::circle("post", [at, 0.0], 0.1).expect("a disc");
-        let ends = [-1.0, 1.0].map(|q1| Configuration::new(q1, 2.5));
-        let problem = Problem::new(arm, Workspace::new([post]), ends[0], ends[1]).expect("both are free");
-        plan(&problem, &Options { boxes, ..Method::Subdivision.into() }).expect("the options make sense")
-    };
-    for (plan, status, word, more) in [
-        (answer(0.4, 200_000), Status::Infeasible, "infeasible", "proof "),
-        (answer(1.6, 1), Status::Unknown, "unknown", ""),
+    // A post blocks a link that turns within limits.
+    let mut arm = Arm::rr([1.0, 0.8], 0.06).expect("an ordinary arm");
+    arm.joints[0] = Joint::turning("shoulder", -2.0, 2.0);
+    let post = Obstacle::circle("post", [0.4, 0.0], 0.1).expect("a disc");
+    let ends = [-1.0, 1.0].map(|q1| Configuration::new(q1, 2.5));
+    let closed = Problem::new(arm, Workspace::new([post]), ends[0], ends[1]).expect("both are free");
+    let infeasible = plan(&closed, &Method::Subdivision.into()).expect("an ordinary problem");
+    // A slot that a coarse grid does not show.
+    let (_, slot) = shipped_feasible().into_iter().find(|(name, _)| name == "narrow_slot").expect("a shipped world");
+    let coarse = Planner::named(Method::Wavefront).with_space(GridSpace::Sampled).with_cells(16);
+    let unknown = plan(&slot.into(), &Options { levels: 1, ..coarse.into() }).expect("an ordinary problem");
+    for (plan, status, order) in [
+        (
+            infeasible,
+            Status::Infeasible,
+            "certified clearance joints length path planner proof reason size status trajectory units",
+        ),
+        (
+            unknown,
+            Status::Unknown,
+            "certified clearance joints length name path path_exists planner reason search size space status trajectory units",
+        ),
     ] {
         assert_eq!(plan.status(), status);
         let json: Value = serde_json::from_str(&plan.to_json()).expect("JSON");
         let keys: Vec<_> = json.as_object().expect("an object").keys().map(String::as_str).collect();
-        let order = format!("certified clearance joints length path planner {more}reason status trajectory units");
         assert_eq!(keys.join(" "), order);
         assert_eq!(json["certified"], false);
         assert!(["path", "length", "clearance", "trajectory"].iter().all(|k| json[k].is_null()), "{json}");
-        assert_eq!(json["status"], word);
+        assert_eq!(json["status"], status.name());
         assert_eq!((plan.encoded(Format::Csv), plan.encoded(Format::Yaml)), (None, None));
         assert_eq!(plan.encoded(Format::Json), Some(plan.to_json().into_bytes()));
     }

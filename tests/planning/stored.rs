@@ -163,7 +163,7 @@ fn what_no_constructor_makes_is_no_problem() {
         (format!("{scene}/workspace/obstacles/0/pieces/0/radius"), json!(1e200), "within 1e15 m"),
         ("/problem/robot/joints/joints/0/driver".to_owned(), json!({"planned": 2}), "planned ones are 0 and 1"),
         ("/options/levels".to_owned(), json!(0), "levels"),
-        ("/options/planner".to_owned(), json!("magic"), "unknown variant"),
+        ("/options/planner".to_owned(), json!("magic"), "no planner is called"),
     ] {
         let refused = refusal(&valid, &place, other);
         assert!(refused.contains(why), "{place}: {refused}");

@@ -13,12 +13,13 @@
 //! similar to Polyanya, over all turns at once, finds the shortest path around both. No motion is shorter than this
 //! path. Slices are added where the path crosses a collision region, so along smooth boundaries the gap falls with the
 //! square of their spacing. [`short_motion`] is the same search among obstacles that are grown slightly.
+//!
 //! ```
 //! use cplan_core::model::{Arm, MotionProblem, Obstacle, Scene, Workspace};
 //! use cplan_proofs::{Connectivity, slab_connectivity};
 //! use cplan_core::space::Configuration;
 //!
-//! Two posts leave less space between them than the arm is thick, so nothing beyond the elbow can pass.
+//! // Two posts leave less space between them than the arm is thick, so nothing beyond the elbow can pass.
 //! let posts = [Obstacle::circle("left", [0.55, 0.35], 0.2)?, Obstacle::circle("right", [0.55, -0.35], 0.2)?];
 //! let scene = Scene::new(Arm::rr([1.0, 0.8], 0.06)?, Workspace::new(posts))?;
 //! let problem = MotionProblem::new(scene, Configuration::new(0.0, 0.5), Configuration::new(2.0, 0.5))?;

@@ -87,21 +87,21 @@ use cplan_core::cspace::{Grid, Regions};
 use std::ops::Add;
 use std::time::Duration;
 
-/// The representation that the last attempt worked on.
+/// The representation used by the last attempt.
 #[derive(Debug, Clone)]
 pub enum Space {
-    /// Polygons, with the margin that obstacles were grown by, metres.
+    /// Polygons, with the margin by which obstacles were grown, metres.
     Regions(Box<Regions>),
     /// Cells of a grid.
     Grid(Box<Grid>),
-    /// None: subdivision judges the scene itself.
+    /// No representation: subdivision judges the scene itself.
     Scene,
 }
 
 /// Time spent in each stage, over all attempts.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Stages {
-    /// Building the configuration space, and what the planner prepares without start and goal.
+    /// Building the configuration space, and the planner's preparation that does not depend on start and goal.
     pub build: Duration,
     /// Answering the query.
     pub query: Duration,
@@ -114,7 +114,7 @@ pub struct Stages {
 }
 
 impl Stages {
-    /// All of them.
+    /// Returns the total time.
     #[must_use]
     pub fn total(&self) -> Duration {
         self.build + self.query + self.certify + self.prove + self.bound
