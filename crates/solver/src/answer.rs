@@ -10,7 +10,7 @@ use std::cmp::Ordering;
 use std::fmt;
 
 /// The outcome of a single motion, and how the planner came to it. [`solve`](super::solve) finds a path,
-/// [`plan`](super::plan()) also computes the motion along it; `F` is the type of the result.
+/// `plan` of the engine also computes the motion along it; `F` is the type of the result.
 #[derive(Debug, Clone)]
 pub struct Answer<F = BoundedPath> {
     /// The planner.
