@@ -107,7 +107,7 @@ fuzz_target!(|draft: Draft| {
     for method in [chosen, Method::Subdivision] {
         match solve(&problem, &options(method), &mut |_| {}).outcome {
             Outcome::Found(path) => {
-                check_path(&problem, &path);
+                check_path(&problem, &path.certified);
                 found = true;
             }
             Outcome::Infeasible(proof) => {
