@@ -18,7 +18,8 @@ use serde::de::IgnoredAny;
 use std::fmt::Display;
 use std::path::{Path, PathBuf};
 
-/// Share of a bound that its evidence may miss. The evidence is computed again, from fewer and larger steps than the search took.
+/// Share of a bound that its evidence may miss, because the evidence is computed again and finds walls at finitely many
+/// points.
 const MISSED: f64 = 1e-3;
 /// Share of a bound that is lost to rounding, too little to report.
 const ROUNDING: f64 = 1e-6;
@@ -53,8 +54,9 @@ pub fn run(args: &RecheckArgs) -> Result<u8, Failure> {
     scene.robot.warnings.iter().for_each(|w| sinks::say(&format!("warning: {w}")));
     let source = Source::read(&args.proof)?;
     let asked = args.query.overrides();
+    let evidence = Evidence::of(source.text());
     // A certificate contains its query.
-    let said = if asked == Overrides::default() && holds_certificate(source.text()) {
+    let said = if asked == Overrides::default() && evidence.certificate {
         format!("the certificate holds: {}", judged(args, "certificate", source.text())?)
     } else {
         let problem = scene.clone().problem(&asked)?.problem;
@@ -63,7 +65,7 @@ pub fn run(args: &RecheckArgs) -> Result<u8, Failure> {
             Ok(claim) => proof_holds(args, &problem, claim.stuck(), &asked)?,
             Err(missing @ ProofFormatError::Missing) => {
                 // A file without a proof and a bound may be no recording.
-                let stated = if source.text().contains("\"optimum\"") { stated(args, &scene)? } else { None };
+                let stated = if evidence.bound { stated(args, &scene)? } else { None };
                 let none = || failed(args, format!("{missing}, and it has no bound in \"optimum\""));
                 bound_holds(args, &problem, &stated.ok_or_else(none)?, &asked)?
             }
@@ -79,14 +81,32 @@ fn failed(args: &RecheckArgs, why: impl Display) -> Failure {
     Failure::Option(format!("{}: {why}", args.proof.display()))
 }
 
-/// Returns true if a text is a certificate, or a result with one.
-fn holds_certificate(text: &str) -> bool {
-    #[derive(Deserialize)]
-    struct Members {
-        format: Option<IgnoredAny>,
-        certificate: Option<IgnoredAny>,
+/// The kinds of evidence that a file may have.
+#[derive(Default)]
+struct Evidence {
+    /// It is a certificate, or a result with one.
+    certificate: bool,
+    /// It is a result with a bound on the optimum.
+    bound: bool,
+}
+
+impl Evidence {
+    /// Looks for the members of a JSON object. Any other text has no evidence.
+    fn of(text: &str) -> Self {
+        #[derive(Deserialize)]
+        struct Members {
+            format: Option<IgnoredAny>,
+            certificate: Option<IgnoredAny>,
+            optimum: Option<IgnoredAny>,
+        }
+        serde_json::from_str(text).map_or_else(
+            |_| Self::default(),
+            |Members { format, certificate, optimum }| Self {
+                certificate: format.is_some() || certificate.is_some(),
+                bound: optimum.is_some(),
+            },
+        )
     }
-    serde_json::from_str::<Members>(text).is_ok_and(|members| members.format.is_some() || members.certificate.is_some())
 }
 
 /// Returns the checker's statement of a certificate's claim. `what` names the evidence in messages.

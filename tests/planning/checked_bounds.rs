@@ -9,7 +9,8 @@ use cplan::engine::{Bound, BoundCertificate, Criterion, Method, Planner, certifi
 use cplan::input::Overrides;
 use cplan::model::MotionProblem;
 
-/// Share of a bound that its evidence may miss, because walls are found at finitely many points: that of `cplan recheck`.
+/// Share of a bound that its evidence may miss, because walls are found at finitely many points: that of `cplan
+/// recheck`.
 const MISSED: f64 = 1e-3;
 
 /// Returns the bound that accompanies a path close to the shortest.

@@ -1,7 +1,10 @@
 //! Certificates written by hand, and falsified ones.
 
-use cplan_cases as random;
+#[path = "common/code.rs"]
+mod code;
 
+use code::code;
+use cplan_cases as random;
 use cplan_check_files::{CheckError, Input, check};
 
 /// Returns a robot with a bar of 1 m by 0.1 m about the origin, and one of 0.8 m at its end.
@@ -56,15 +59,6 @@ const UPPER: &str = r#"{"link": "upper", "collision": 0}"#;
 const FORE: &str = r#"{"link": "fore", "collision": 0}"#;
 const WALL: &str = "[[obstacle]]\npolyline = [[0.5, 0], [2.5, 0]]\n";
 const WALL_PART: &str = r#"{"obstacle": 0, "corners": [[0.5, 0], [2.5, 0]]}"#;
-
-/// Judges a certificate, and returns the exit code.
-fn code(urdf: &str, world: &str, certificate: &str) -> i32 {
-    match check(urdf, world, certificate) {
-        Ok(_) => 0,
-        Err(CheckError::Fails(_)) => 3,
-        Err(CheckError::Input { .. }) => 1,
-    }
-}
 
 /// The bar overlaps a wall along the x axis by 0.05 / cos q in the wall's direction. A box of half-width `w` around 0
 /// holds as long as the farthest corner, at sqrt(1 + 0.05^2), moves by less than that.

@@ -1,12 +1,14 @@
 //! From files or a model to the result that is printed and written: one call, [`plan()`].
 //!
 //! - [`Problem`]: what is asked for, a motion or a task, read from files or made in code.
-//! - [`Plan`]: the answer. `motion` drives along the path that the solver found, `fastest` compares several, [`Refutation`] is a proof.
+//! - [`Plan`]: the answer. `motion` drives along the path that the solver found, `fastest` compares several,
+//!   [`Refutation`] is a proof.
 //! - `result`: the figures of a plan, its JSON, and the formats of files. `stored`: problems and plans as data.
 //! - `certificate`: evidence that a checker can judge alone, such as [`Plan::certificate`].
 //! - [`findings`]: the verdict on configurations and recordings that others chose.
 //!
-//! The search itself is in the crates below: `solver` for one motion, `movers` for moving obstacles, `tasks` for sequences.
+//! The search itself is in the crates below: `solver` for one motion, `movers` for moving obstacles, `tasks` for
+//! sequences.
 
 mod certificate;
 mod clock;

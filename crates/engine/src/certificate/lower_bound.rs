@@ -29,9 +29,9 @@ pub(super) struct LowerBound {
 }
 
 impl LowerBound {
-    /// Computes evidence for the bound again. It looks more closely if more than the share `loss` of the bound is lost, because shapes
-    /// that come apart slowly, as in a slot, make walls end too early. Returns `None` if the goals are a curve, or cannot be
-    /// separated from the configurations beside them.
+    /// Computes evidence for the bound again. It looks more closely if more than the share `loss` of the bound is lost,
+    /// because shapes that come apart slowly, as in a slot, make walls end too early. Returns `None` if the goals are a
+    /// curve, or cannot be separated from the configurations beside them.
     pub fn of(problem: &MotionProblem, stated: &Bound, asked: &Overrides, loss: f64) -> Option<Self> {
         let scene = problem.scene();
         let topology = scene.arm().topology();

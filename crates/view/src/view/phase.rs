@@ -27,7 +27,7 @@ pub struct PhaseView {
     pub shows: ShowsView,
 }
 
-/// The content of a phase: see [`Shows`](cplan_engine::Shows).
+/// The content of a phase: see [`Shows`](cplan_solver::Shows).
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(tag = "kind", rename_all = "lowercase")]
 pub enum ShowsView {
