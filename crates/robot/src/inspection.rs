@@ -5,6 +5,7 @@ use cplan_core::model::{OutlineSource, Scene};
 use cplan_geometry::Point;
 use nalgebra::Vector3;
 use serde::Serialize;
+use std::path::PathBuf;
 
 /// The report on a robot. Facts that are unknown because of defects in the file are empty or missing.
 #[derive(Debug, Clone, Default, Serialize)]
@@ -51,6 +52,9 @@ pub struct Inspection {
     /// The arm among the world's obstacles, for a picture. Missing ranges and outlines are replaced by assumed ones.
     #[serde(skip)]
     pub scene: Option<Scene>,
+    /// Paths of the files that were read: the URDF, the files of its xacro, its meshes, and those of the world.
+    #[serde(skip)]
+    pub files: Vec<PathBuf>,
     /// Frames of the two joints' links and of the tip's link at the zero configuration.
     #[serde(skip)]
     pub frames: Vec<Frame>,
