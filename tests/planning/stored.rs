@@ -1,6 +1,6 @@
 //! Problems and plans as data: files round-trip, and the reader refuses problems that nobody could plan.
 
-use cplan::geometry::Convex;
+use cplan::geometry::{Convex, Pose};
 use cplan::model::{Heights, MotionProblem, Scene, Task};
 use cplan::{Arm, Obstacle, Options, Outcome, Plan, Planner, Problem, Status, Workspace, plan};
 use serde_json::{Value, json};
@@ -228,7 +228,7 @@ fn corners_that_rounding_has_bent_are_read() {
     let flat = [[0.0, 0.0], [0.1, 0.0], [0.7, 0.0], [1.0, 0.0], [1.0, 0.3], [0.0, 0.3]];
     let shape = Convex::new(flat.map(Into::into).to_vec(), 0.01).unwrap();
     for turn in 0..100 {
-        let moved = shape.at(&cplan::nalgebra::Isometry2::new([0.3, -0.2].into(), 0.1 * f64::from(turn)));
+        let moved = shape.at(&Pose::new([0.3, -0.2].into(), 0.1 * f64::from(turn)));
         let read: Convex = serde_json::from_str(&serde_json::to_string(&moved).unwrap()).unwrap();
         assert_eq!(read, moved);
     }

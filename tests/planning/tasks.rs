@@ -8,7 +8,6 @@ use crate::random_tasks::replay;
 use cplan::Outcome;
 use cplan::engine::task::{TaskAnswer, plan};
 use cplan::engine::{Method, Options};
-use cplan::geometry::Point;
 use cplan::input::{self, Overrides};
 use cplan::model::{Action, Goal, Holding, Item, Object, Step, Task, Workspace, inverse, within};
 use cplan::space::Configuration;
@@ -120,7 +119,7 @@ fn reasons_name_the_motions_that_were_tried() {
 /// Returns all IK solutions within the limits that put the tip at a step's target, from the closed form.
 fn ik_solutions(task: &Task, step: &Step) -> Vec<Configuration> {
     let target = match &step.action {
-        Action::Pick { object, .. } => Point::from(task.objects[*object].at.translation.vector),
+        Action::Pick { object, .. } => task.objects[*object].at.translation,
         Action::Place { at, .. } => *at,
         Action::Move(_) => panic!("picks and places only"),
     };

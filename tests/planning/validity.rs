@@ -50,9 +50,9 @@ fn no_convex_shape_is_made_of_what_is_none() {
         assert_eq!(Convex::new(points(corners), *radius), Err(*error), "{corners:?}");
     }
     assert!(matches!(Convex::new(points(&pentagram), 0.0), Err(NotConvex { .. })), "{pentagram:?}");
-    assert!(matches!(Convex::disc(Point::origin(), NAN), Err(Radius { .. })));
+    assert!(matches!(Convex::disc(Point::zeros(), NAN), Err(Radius { .. })));
     assert_eq!(Convex::disc(Point::new(NAN, 0.0), 1.0), Err(NotFinite { corner: 0 }));
-    assert_eq!(Convex::segment(Point::origin(), Point::new(0.0, NAN)), Err(NotFinite { corner: 1 }));
+    assert_eq!(Convex::segment(Point::zeros(), Point::new(0.0, NAN)), Err(NotFinite { corner: 1 }));
 }
 
 #[test]
@@ -183,7 +183,7 @@ fn nothing_is_carried_that_cannot_be() {
         mass: 0.0,
         supports,
     };
-    let level = |angle| Grip::Level { angle, point: Point::origin() };
+    let level = |angle| Grip::Level { angle, point: Point::zeros() };
     let cases = [
         (payload(level(NAN), Heights::ALL, vec![]), vec![], SceneError::Grip { object: "part".into() }),
         (payload(level(0.0), Heights::ALL, vec![1]), vec![], SceneError::NoObstacle { number: 1, count: 1 }),
@@ -316,7 +316,7 @@ fn a_hair_decides() {
         assert_eq!(orientation(corners[0], corners[1], corners[2]) == Orientation::CounterClockwise, convex);
         assert_eq!(Convex::new(corners, 0.0).is_ok(), convex, "{y}");
     }
-    let thin = wall(Point::origin(), Point::new(5e-324, 0.0));
+    let thin = wall(Point::zeros(), Point::new(5e-324, 0.0));
     assert_eq!(thin.core().len(), 2);
     assert_eq!(link("thin", vec![thin]).parts.len(), 1);
 }

@@ -3,7 +3,7 @@
 use super::reader::Reader;
 use super::schema::NotNegative;
 use cplan_core::model::{Course, CourseError, Stop};
-use cplan_geometry::{Point, Pose, Vector};
+use cplan_geometry::{Pose, Vector};
 use cplan_robot::{AngleOrLength, Diagnostic, Number, Numbers, Two, Written};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -53,8 +53,8 @@ impl CourseTable {
             return Err(reader.source.diagnostic_at(at, message).help(HELP));
         }
         let given = |time: f64| {
-            let origin = place.map_or_else(Vector::zeros, |place| place.translation.vector);
-            Stop { time, at: Point::from(origin), angle: place.map_or(0.0, |place| place.rotation.angle()) }
+            let origin = place.map_or_else(Vector::zeros, |place| place.translation);
+            Stop { time, at: origin, angle: place.map_or(0.0, |place| place.rotation.angle()) }
         };
         let tables = self.stops.iter().flat_map(|stops| stops.get_ref());
         let stops = tables.clone().zip(1..).map(|(stop, number)| {

@@ -10,7 +10,6 @@ use cplan_core::model::{Course, Mover, Obstacle};
 use cplan_geometry::{Point, Pose};
 use cplan_handling::{Holding, Object};
 use cplan_robot::{AngleOrLength, Diagnostic, HeldAs, Number, Numbers, Two, Written, quoted};
-use nalgebra::{Isometry2, Translation2};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -248,11 +247,11 @@ fn placed<'a>(
         let what = format!("object \"{name}\"");
         let angle =
             given.angle.as_ref().map(|a| reader.quantity(a, &format!("{what}, angle"))).transpose()?.unwrap_or(0.0);
-        let turned = Isometry2::rotation(angle);
+        let turned = Pose::rotation(angle);
         match (&given.at, &given.pallet) {
             (Some(at), None) => {
                 let at = reader.point(at, &format!("{what}, at"))?;
-                all.push(Placed { table, name: name.clone(), at: Translation2::from(at.coords) * turned });
+                all.push(Placed { table, name: name.clone(), at: turned.shifted(at) });
             }
             (None, Some(pallet)) => {
                 let places = pallets.named(reader, pallet)?.places();
@@ -336,7 +335,7 @@ fn movable(
         mass: mass.unwrap_or(0.0),
         course,
     };
-    Ok(Movable { object, grasp: grasp.unwrap_or_else(Point::origin), supports, is_renewed: given.renew })
+    Ok(Movable { object, grasp: grasp.unwrap_or_else(Point::zeros), supports, is_renewed: given.renew })
 }
 
 /// Returns the motion of an object. Stops without a position take this one.

@@ -143,7 +143,7 @@ pub(super) fn polyline(
 
 fn moved(mut points: Vec<Point>, place: Option<&Pose>) -> Vec<Point> {
     if let Some(place) = place {
-        points.iter_mut().for_each(|point| *point = place * *point);
+        points.iter_mut().for_each(|point| *point = place.point(*point));
     }
     points
 }

@@ -75,7 +75,7 @@ impl Reader<'_> {
         let at = at.map(|at| self.point(at, &format!("{what}, at"))).transpose()?;
         let angle = angle.map(|angle| self.quantity(angle, &format!("{what}, angle"))).transpose()?;
         let is_given = at.is_some() || angle.is_some();
-        let place = || Pose::new(at.map_or_else(Vector::zeros, |at| at.coords), angle.unwrap_or(0.0));
+        let place = || Pose::new(at.unwrap_or_else(Vector::zeros), angle.unwrap_or(0.0));
         Ok(is_given.then(place))
     }
 

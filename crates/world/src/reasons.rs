@@ -113,7 +113,7 @@ pub(super) fn out_of_reach(scene: &Scene, what: &str, point: Point) -> String {
     let arm = scene.arm();
     let from_joint = (point - arm.base).norm();
     let [distance, reach] = if arm.only_turns() {
-        let (upper, lower) = (arm.offset.norm(), arm.tip.coords.norm());
+        let (upper, lower) = (arm.offset.norm(), arm.tip.norm());
         let [distance, least, most] = told_apart([from_joint, (upper - lower).abs(), upper + lower], 4);
         [distance, format!(", the tip reaches from {least} to {most} m")]
     } else {
@@ -128,7 +128,7 @@ pub(super) fn out_of_reach(scene: &Scene, what: &str, point: Point) -> String {
 /// Returns the hint for a point out of reach.
 pub(super) fn help_for_reach(scene: &Scene, point: Point) -> String {
     let arm = scene.arm();
-    let (upper, lower) = (arm.offset.norm(), arm.tip.coords.norm());
+    let (upper, lower) = (arm.offset.norm(), arm.tip.norm());
     let is_inside = arm.only_turns() && (point - arm.base).norm() < (upper - lower).abs();
     let place = if is_inside { "farther from joint 1" } else { "nearer by" };
     format!("choose a point {place}; coordinates are metres in the arm's plane")

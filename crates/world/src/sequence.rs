@@ -72,14 +72,14 @@ impl Lying {
     fn at_first(movable: &Movable) -> Self {
         let pose = &movable.object.at;
         let moves = movable.object.course.is_some();
-        Self { at: Point::from(pose.translation.vector), angle: Some(pose.rotation.angle()), tip: None, moves }
+        Self { at: pose.translation, angle: Some(pose.rotation.angle()), tip: None, moves }
     }
 
     /// Returns the position of a point of the object, if it is known.
     fn point(&self, own: Point) -> Option<Point> {
         match self.angle {
-            _ if own == Point::origin() => Some(self.at),
-            Some(angle) => Some(self.at + Rotation2::new(angle) * own.coords),
+            _ if own == Point::zeros() => Some(self.at),
+            Some(angle) => Some(self.at + Rotation2::new(angle) * own),
             None => None,
         }
     }

@@ -421,8 +421,7 @@ impl<'a> StepReader<'a> {
         let pair = |(object, (_, pose)): (usize, (String, Pose))| {
             let Movable { grasp, supports: resting, .. } = &self.objects[object];
             let pick = LeafAction::Pick { object, grasp: *grasp, supports: resting.clone(), when: None };
-            let at = pose.translation.vector.into();
-            let place = LeafAction::Place { at, angle: angle.clone(), supports: supports.clone() };
+            let place = LeafAction::Place { at: pose.translation, angle: angle.clone(), supports: supports.clone() };
             [(objects.span(), pick), (to.span(), place)]
         };
         Ok(family.zip(pallet.places()).flat_map(pair).collect())

@@ -223,7 +223,7 @@ pub(super) fn read(source: Source) -> Result<World, InputError> {
     let place = reader.pose(file.robot.at.as_ref(), file.robot.angle.as_ref(), "[robot]")?;
     let mut notes = reader.taken.lines();
     notes.extend(place.as_ref().map(|place| {
-        let (at, angle) = (place.translation.vector, place.rotation.angle());
+        let (at, angle) = (place.translation, place.rotation.angle());
         format!("robot: its root frame stands at ({}, {}) m in the world, turned by {angle} rad", at.x, at.y)
     }));
     Ok(World {

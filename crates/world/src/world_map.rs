@@ -54,9 +54,9 @@ pub(super) fn read(reader: &Reader, table: &MapTable) -> Result<MapContent, Inpu
     let scale = table.scale.as_ref().map(|s| scale(reader, s)).transpose()?.unwrap_or(MILLIMETRE);
     let offset = table.offset.as_ref().map(|o| reader.two(o, "map offset")).transpose()?.unwrap_or_default();
     let heights = reader.heights(table.height.as_ref(), "map")?;
-    let place = |p: Point| Point::from(p.coords * scale + Vector::from(offset));
+    let place = |p: Point| p * scale + Vector::from(offset);
     let within = |bounds: [Point; 2], file: &Spanned<String>| {
-        let farthest = bounds.map(place).iter().map(|p| p.coords.amax()).fold(0.0, f64::max);
+        let farthest = bounds.map(place).iter().map(|p| p.amax()).fold(0.0, f64::max);
         if farthest <= LARGEST {
             return Ok(());
         }

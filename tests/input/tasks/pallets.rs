@@ -57,7 +57,7 @@ fn objects_lie_on_the_places_of_a_pallet() {
     assert_eq!(loaded.task.objects.len(), expected.len());
     for (object, (name, [x, y])) in loaded.task.objects.iter().zip(expected) {
         assert_eq!(object.name, name);
-        let at = object.at.translation.vector;
+        let at = object.at.translation;
         assert!((at.x - x).hypot(at.y - y) < 1e-12, "{name}: {at}");
         assert!((object.at.rotation.angle() - FRAC_PI_2 - 0.25).abs() < 1e-12, "{name}");
     }

@@ -3,7 +3,6 @@
 use super::{Arm, Heights};
 use crate::space::Configuration;
 use cplan_geometry::{Convex, Point, Pose};
-use nalgebra::{Isometry2, Translation2};
 use serde::{Deserialize, Serialize};
 
 /// The connection of an object with the arm.
@@ -27,11 +26,7 @@ impl Grip {
     pub fn pose(&self, arm: &Arm, q: Configuration) -> Pose {
         match *self {
             Grip::Rigid(in_link) => arm.pose(1, q) * in_link,
-            Grip::Level { angle, point } => {
-                Translation2::from(arm.tip_at(q).coords)
-                    * Isometry2::rotation(angle)
-                    * Translation2::from(-point.coords)
-            }
+            Grip::Level { angle, point } => Pose::rotation(angle).shifted(arm.tip_at(q)).shifted_in_frame(-point),
         }
     }
 }
@@ -78,6 +73,6 @@ impl Payload {
     /// Returns the grip of an object at `pose` with the arm at `q`, so that link 2 turns it.
     #[must_use]
     pub fn rigid_grip(arm: &Arm, q: Configuration, pose: &Pose) -> Grip {
-        Grip::Rigid(arm.pose(1, q).inv_mul(pose))
+        Grip::Rigid(arm.pose(1, q).inverse_pose(pose))
     }
 }

@@ -3,8 +3,7 @@
 
 use super::pairing::{Kind, Reading, obstacles};
 use super::{Arm, Carrier, Grip, Part, Payload, Workspace};
-use cplan_geometry::{Convex, Point, drawn_in};
-use nalgebra::{Isometry2, Translation2};
+use cplan_geometry::{Convex, Point, Pose, drawn_in};
 use std::ops::Range;
 
 /// Share of the penetration allowance by which corners are moved: a little less than 1, so that a checker that moves
@@ -38,7 +37,7 @@ impl Payload {
             let (on_link, level) = match self.grip {
                 Grip::Rigid(in_link) => (shape.at(&in_link), None),
                 Grip::Level { angle, point } => {
-                    let about_tip = Isometry2::rotation(angle) * Translation2::from(-point.coords);
+                    let about_tip = Pose::rotation(angle).shifted_in_frame(-point);
                     (Convex::point(arm.tip), Some(shape.at(&about_tip)))
                 }
             };
@@ -58,11 +57,11 @@ impl Payload {
                 // A moving obstacle has its pieces in its own frame, which does not turn while something level is
                 // carried.
                 let seen = |level: &Convex| match kind {
-                    Kind::Moving(mover) => level.at(&Isometry2::rotation(-mover.course.stops()[0].angle)),
+                    Kind::Moving(mover) => level.at(&Pose::rotation(-mover.course.stops()[0].angle)),
                     Kind::Standing | Kind::Own(_) => level.clone(),
                 };
                 let all_round =
-                    |level: &Convex| Convex::trusted(vec![Point::origin()], level.reach_from(Point::origin()));
+                    |level: &Convex| Convex::trusted(vec![Point::zeros()], level.reach_from(Point::zeros()));
                 let level = level.as_ref().map(|level| if is_turned { all_round(level) } else { seen(level) });
                 let made = &mut differences[number];
                 let first = own + made.len();

@@ -160,7 +160,7 @@ pub(super) fn check(
 
 fn check_arm(arm: &Arm) -> Result<(), SceneError> {
     arm.joints.iter().try_for_each(check_joint)?;
-    for (what, place) in [("base", arm.base.coords), ("offset", arm.offset), ("tip", arm.tip.coords)] {
+    for (what, place) in [("base", arm.base), ("offset", arm.offset), ("tip", arm.tip)] {
         if !are_small(place.iter().copied()) {
             return Err(SceneError::NotFinite { what });
         }
@@ -185,8 +185,13 @@ fn check_arm(arm: &Arm) -> Result<(), SceneError> {
 fn check_dynamics(dynamics: &Dynamics) -> Result<(), SceneError> {
     let error = |what: String| Err(SceneError::Dynamics { what });
     for (k, Body { mass, center, inertia }) in dynamics.bodies.iter().enumerate() {
-        if !is_mass(*mass) || !is_mass(*inertia) || !are_small(center.coords.iter().copied()) {
-            return error(format!("link {} of {mass} kg, {inertia} kg m2, its centre at {center}", k + 1));
+        if !is_mass(*mass) || !is_mass(*inertia) || !are_small(center.iter().copied()) {
+            return error(format!(
+                "link {} of {mass} kg, {inertia} kg m2, its centre at {{{}, {}}}",
+                k + 1,
+                center.x,
+                center.y
+            ));
         }
     }
     if let Some(effort) = dynamics.effort.into_iter().find(|effort| !(is_mass(*effort) && *effort > 0.0)) {
@@ -202,7 +207,7 @@ fn is_mass(value: f64) -> bool {
 /// Returns true if a shape covers another one, up to rounding: each corner of the inner shape's core lies inside the
 /// shape by at least the inner shape's radius.
 fn covers(shape: &Convex, inner: &Convex) -> bool {
-    let room = SHAPE_ROUNDING * shape.reach_from(Point::origin());
+    let room = SHAPE_ROUNDING * shape.reach_from(Point::zeros());
     let beyond = |corner: &Point| separation(shape, &Convex::point(*corner)).distance + inner.radius();
     inner.core().iter().all(|corner| beyond(corner) <= room)
 }
@@ -289,7 +294,7 @@ pub fn is_small(shape: &Convex) -> bool {
 /// Returns true if a pose is a rigid motion.
 #[must_use]
 pub fn is_pose(pose: &Pose) -> bool {
-    are_small(pose.translation.vector.iter().copied()) && (pose.rotation.as_ref().norm() - 1.0).abs() <= UNIT_ROUNDING
+    are_small(pose.translation.iter().copied()) && (pose.rotation.as_ref().norm() - 1.0).abs() <= UNIT_ROUNDING
 }
 
 fn check_size<'a>(of: &str, shapes: impl IntoIterator<Item = &'a Convex>) -> Result<(), SceneError> {

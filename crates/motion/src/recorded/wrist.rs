@@ -2,8 +2,7 @@
 
 use cplan_core::model::{Arm, Payload, Workspace};
 use cplan_core::space::{Configuration, JointRange};
-use cplan_geometry::{Features, Hits, Point, ROUNDING, Vector, turning_from};
-use nalgebra::Translation2;
+use cplan_geometry::{Features, Hits, Point, Pose, ROUNDING, Vector, turning_from};
 use std::f64::consts::TAU;
 
 /// A turn of a payload about the tip, proven free.
@@ -84,9 +83,8 @@ struct Turning {
 
 impl Turning {
     fn new(arm: &Arm, workspace: &Workspace, payload: &Payload, point: Point, q: Configuration) -> Self {
-        let about = Translation2::from(-point.coords);
-        let parts: Vec<_> =
-            payload.parts(arm).map(|(shape, kind)| (Features::new(&shape.at(&about.into())), kind)).collect();
+        let about = Pose::translation(-point);
+        let parts: Vec<_> = payload.parts(arm).map(|(shape, kind)| (Features::new(&shape.at(&about)), kind)).collect();
         let mut pairs = Vec::new();
         for (number, obstacle) in workspace.obstacles.iter().enumerate() {
             if !payload.heights.object_meets(obstacle.heights) {

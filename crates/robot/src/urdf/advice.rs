@@ -92,7 +92,7 @@ fn length(arm: &Arm) -> Option<String> {
 /// Returns the warning about shapes that reach far beyond the arm's joints.
 fn outreach(arm: &Arm) -> Option<String> {
     let usual = (MOST_OUTREACH * lengths(arm).iter().sum::<f64>()).max(USUAL_OUTREACH);
-    let reach = |part: &cplan_core::model::Part| part.shape.reach_from(Point::origin());
+    let reach = |part: &cplan_core::model::Part| part.shape.reach_from(Point::zeros());
     let parts: Vec<_> = arm.links.iter().flat_map(|link| &link.parts).filter(|part| reach(part) > usual).collect();
     let first = parts.first()?;
     let farthest = parts.iter().map(|part| reach(part)).fold(0.0, f64::max);
@@ -109,5 +109,5 @@ fn outreach(arm: &Arm) -> Option<String> {
 
 /// Returns the distances between the joints, and from the second one to the tip, metres.
 fn lengths(arm: &Arm) -> [f64; 2] {
-    [arm.offset.norm(), arm.tip.coords.norm()]
+    [arm.offset.norm(), arm.tip.norm()]
 }

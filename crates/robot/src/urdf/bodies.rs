@@ -10,9 +10,9 @@ use super::tree::Tree;
 use crate::error::{Diagnostic, InputError, quoted};
 use crate::settings::RobotSettings;
 use cplan_core::model::{Heights, Link, OutlineSource, Part, Plane, SelfObstacle};
-use cplan_geometry::{Convex, Point, Vector, separation};
+use cplan_geometry::{Convex, Point, Pose, separation};
 use cplan_text::counted;
-use nalgebra::{Isometry3, Translation2};
+use nalgebra::Isometry3;
 use std::collections::BTreeSet;
 
 /// Largest number of corners of an outline that stays one shape. The time of queries grows with them.
@@ -234,7 +234,8 @@ impl Bodies<'_> {
     /// If it turns with the wrist and covers a different region at each angle.
     fn parts(&self, index: usize, shape: &PlacedShape, cuts: &[f64]) -> Result<Vec<Part>, Diagnostic> {
         let PlacedShape { link, number, is_visual, solid, pose, .. } = shape;
-        let to_link = Translation2::from(-self.joint_at(index).0.coords);
+        let joint = self.joint_at(index).0;
+        let to_link = Pose::translation(-joint);
         let body = &self.document.robot.links[*link].name;
         let part = |shape, inner, heights| Part {
             shape,
@@ -244,10 +245,10 @@ impl Bodies<'_> {
             heights,
             body: body.clone(),
         };
-        let Some(axis) = self.wrist_axis(*link).map(|axis| to_link * axis) else {
-            let inner = solid.inner(pose, self.plane).map(|inner| inner.at(&to_link.into()));
+        let Some(axis) = self.wrist_axis(*link).map(|axis| axis - joint) else {
+            let inner = solid.inner(pose, self.plane).map(|inner| inner.at(&to_link));
             let layers = solid.layers(pose, self.plane, cuts).into_iter();
-            let layers = layers.map(|(outline, heights)| (outline.at(&to_link.into()), heights));
+            let layers = layers.map(|(outline, heights)| (outline.at(&to_link), heights));
             let in_pieces = |(outline, heights): (Convex, Heights)| {
                 let pieces = if outline.core().len() > MOST_CORNERS { outline.cut_up() } else { vec![outline] };
                 pieces.into_iter().map(move |piece| (piece, heights))
@@ -257,8 +258,8 @@ impl Bodies<'_> {
                 .map(|(piece, heights)| part(piece, inner.clone(), heights))
                 .collect());
         };
-        let outline = solid.outline(pose, self.plane).at(&to_link.into());
-        let inner = solid.inner(pose, self.plane).map(|inner| inner.at(&to_link.into()));
+        let outline = solid.outline(pose, self.plane).at(&to_link);
+        let inner = solid.inner(pose, self.plane).map(|inner| inner.at(&to_link));
         match all_round(axis, &outline, inner.as_ref().unwrap_or(&outline)) {
             Some((outline, inner)) => Ok(vec![part(outline, inner, shape.heights)]),
             None => {
@@ -296,7 +297,7 @@ impl Bodies<'_> {
             inner: None,
             number: 0,
             is_visual: false,
-            shape: capsule(Point::origin(), Point::from(Vector::from(to - from)), radius),
+            shape: capsule(Point::zeros(), to - from, radius),
             heights: Heights { lower: low.min(high) - radius, upper: low.max(high) + radius },
             body: body.to_owned(),
         }

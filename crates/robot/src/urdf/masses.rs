@@ -108,7 +108,7 @@ impl Bodies<'_> {
                 let at = &self.document.links[body].at;
                 return Err(self.document.diagnostic_at(at, message).help("no body has less than 0 of either"));
             }
-            let center = (project(self.plane, &pose.translation.vector) - joint).into();
+            let center = project(self.plane, &pose.translation.vector) - joint;
             whole = joined(&whole, &Body { mass, center, inertia });
         }
         if whole.mass > 0.0 {

@@ -103,7 +103,7 @@ pub(super) fn joint_type_in(plane: &Plane, axis: SpatialAxis) -> JointType {
         let turn = axis.direction.dot(&plane.u.cross(&plane.v));
         return JointType::Revolute { sign: if turn > 0.0 { 1.0 } else { -1.0 } };
     }
-    JointType::Prismatic { direction: clean(project(plane, &axis.direction).coords.normalize()) }
+    JointType::Prismatic { direction: clean(project(plane, &axis.direction).normalize()) }
 }
 
 /// Removes rounding from a unit direction: within 1e-12 of an axis it becomes that axis.

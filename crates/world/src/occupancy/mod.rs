@@ -18,10 +18,9 @@ mod rectangles;
 pub use picture::{MOST_CELLS, Occupancy};
 pub use rectangles::{PixelRectangle, rectangles};
 
-use cplan_geometry::{Convex, Point, Pose};
+use cplan_geometry::{Convex, Point, Pose, Vector};
 use cplan_robot::{Diagnostic, InputError, LARGEST, Source, read_bounded};
 use description::Description;
-use nalgebra::{Isometry2, Vector2};
 use picture::{Broken, Judge, Picture};
 use std::path::{Path, PathBuf};
 
@@ -84,7 +83,7 @@ impl OccupancyMap {
                 .help(format!("the resolution is in metres a pixel, and a map may reach {LARGEST:e} m"))
                 .into());
         }
-        let pose = Isometry2::new(Vector2::new(x, y), yaw);
+        let pose = Pose::new(Vector::new(x, y), yaw);
         let notes = description.notes(picture.cells.contains(&Occupancy::Unknown));
         Ok(Self { size, resolution: description.resolution, pose, cells: picture.cells, notes, picture: Some(path) })
     }
@@ -92,7 +91,7 @@ impl OccupancyMap {
     /// Returns the occupancy at a place, or `None` outside the picture. A cell includes its lower and its left side.
     #[must_use]
     pub fn at(&self, place: Point) -> Option<Occupancy> {
-        let cell = self.pose.inverse_transform_point(&place) / self.resolution;
+        let cell = self.pose.inverse_point(place) / self.resolution;
         let [width, height] = self.size;
         if cell.x < 0.0 || cell.y < 0.0 || cell.x >= width as f64 || cell.y >= height as f64 {
             return None;
@@ -117,7 +116,7 @@ impl OccupancyMap {
     pub fn rectangles_of(&self, is_among: impl Fn(usize) -> bool, most: usize) -> Option<Vec<Convex>> {
         let [width, height] = self.size;
         let corner = |x: usize, y: usize| {
-            self.pose * Point::new(x as f64 * self.resolution, (height - y) as f64 * self.resolution)
+            self.pose.point(Point::new(x as f64 * self.resolution, (height - y) as f64 * self.resolution))
         };
         let piece = |r: &PixelRectangle| {
             let ([left, right], [top, bottom]) = (r.columns, r.rows);

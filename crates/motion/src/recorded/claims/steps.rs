@@ -128,7 +128,7 @@ impl Ledger {
             self.place("tip", event.tip, is.tip);
             match (event.pose, is.pose) {
                 (Some((at, angle)), Some(pose)) => {
-                    self.place("pose.at", at, Point::from(pose.translation.vector));
+                    self.place("pose.at", at, pose.translation);
                     let is = pose.rotation.angle();
                     if angle_between(angle, is) > AT {
                         self.note("pose.angle", format!("stated as {angle}, but it is {is}"));
