@@ -50,7 +50,7 @@ impl Reduction<'_> {
                     axis: Point::from(project(plane, &self.poses[child].translation.vector) - elbow),
                 })
             }
-            _ => Err("turns what is not carried by both of the arm's joints".into()),
+            _ => Err("turns links that the arm's two joints do not both carry".into()),
         }
     }
 }
