@@ -302,22 +302,22 @@ fn meshes_of_collada_and_obj_are_those_of_stl() {
     }
     let spoilt = |this: &str, that: &str| COLLADA.replace(this, that);
     for (mesh, text, message) in [
-        ("t.obj", "v 0 0 0\nf 1 2 3\n".to_owned(), "line 2: there is no vertex \"2\""),
+        ("t.obj", "v 0 0 0\nf 1 2 3\n".to_owned(), "line 2: no vertex \"2\" precedes"),
         ("t.obj", "v 0 0\n".to_owned(), "line 1: a vertex needs three numbers"),
         ("t.obj", "v 0 0 0\n".to_owned(), "no face"),
         ("t.obj", "v 0 nan 0\nf 1 1 1\n".to_owned(), "not finite"),
-        ("t.dae", "<svg/>".to_owned(), "no Collada"),
-        ("t.dae", "<COLLADA>".to_owned(), "no well-formed XML"),
+        ("t.dae", "<svg/>".to_owned(), "not Collada"),
+        ("t.dae", "<COLLADA>".to_owned(), "not well-formed XML"),
         ("t.dae", spoilt("0.01", "-1"), "makes no sense"),
         ("t.dae", spoilt("0 1 0 0 -1", "0 1 x 0 -1"), "\"x\" is no number"),
-        ("t.dae", spoilt("0 1 0 0 -1", "0 1 0 0"), "make no positions"),
+        ("t.dae", spoilt("0 1 0 0 -1", "0 1 0 0"), "numbers for positions"),
         ("t.dae", spoilt("url=\"#g\"", "url=\"#none\""), "a geometry that the file does not have"),
-        ("t.dae", spoilt("<instance_geometry url=\"#g\"/>", "<instance_node url=\"#inner\"/>"), "hold themselves"),
+        ("t.dae", spoilt("<instance_geometry url=\"#g\"/>", "<instance_node url=\"#inner\"/>"), "contains itself"),
         ("t.dae", "<COLLADA/>".to_owned(), "no mesh"),
         ("t.3ds", String::new(), "neither STL, Collada (.dae) nor OBJ"),
     ] {
         let error = load(mesh, &text).unwrap_err().to_string();
-        assert!(error.contains(message) && error.contains("cure: "), "{message}: {error}");
+        assert!(error.contains(message) && error.contains("hint: "), "{message}: {error}");
     }
 }
 
@@ -374,7 +374,7 @@ fn meshes_are_held_to_a_range_as_they_are_scaled() {
         let error = load(mesh, text, scale).unwrap_err().to_string();
         let place = format!("{}: line 2, column ", urdf.display());
         assert!(error.contains(&place) && error.contains(mesh), "{error}");
-        assert!(error.contains(message) && error.contains("cure: give the scale"), "{message}: {error}");
+        assert!(error.contains(message) && error.contains("hint: give the scale"), "{message}: {error}");
     }
     // Its scale brings a distant shape near.
     assert!(load("t.obj", &far.replace("1e300", "2e9"), "1e-9 1 1").is_ok());

@@ -55,7 +55,7 @@ fn table() -> Vec<(&'static str, String, Outcome)> {
             Loads("RR", [Bar; 2], "link2"),
         ),
         row("drake_pendulum_1dof", "", Refused(&["two joints", "only one, \"theta\" (continuous)"])),
-        row("gepetto_asr_twodof", "", Refused(&["line ", "qb_c_flange_m.dae", "is not there", "bar = "])),
+        row("gepetto_asr_twodof", "", Refused(&["line ", "qb_c_flange_m.dae", "does not exist", "bar = "])),
         row("gepetto_asr_twodof", "bar = 0.03", Loads("RR", [Bar; 2], "Tip")),
         row(
             "gepetto_double_pendulum",

@@ -94,7 +94,7 @@ fn carrying_closes_a_passage() {
     // The reported data of the failed motion must hold: a gantry has one IK solution for a place, its coordinates.
     let [to] = &impossible.ik_solutions[..] else { panic!("{:?}", impossible.ik_solutions) };
     assert_eq!((impossible.from, to.ik_solution), (Configuration::new(0.4, 1.1), Configuration::new(1.6, 0.9)));
-    assert!(impossible.reasons[0].starts_with("to joints (1.6, 0.9) m: there is no way"), "{:?}", impossible.reasons);
+    assert!(impossible.reasons[0].starts_with("to joints (1.6, 0.9) m: there is no path"), "{:?}", impossible.reasons);
     let clearance = impossible.scene.workspace().clearance;
     let stuck = to.proof.as_ref().expect("a proof").stuck();
     assert_eq!(recheck(stuck, &impossible.scene, impossible.from, &to.ik_solution.into(), clearance), Ok(()));

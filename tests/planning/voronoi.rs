@@ -195,7 +195,7 @@ proptest! {
         let copies = turns(0).into_iter().flat_map(|x| turns(1).into_iter().map(move |y| Point::new(goal.x + x, goal.y + y)));
         let copies: Vec<Point> = copies.collect();
         assert_is_diagram(&regions, &run, &[&[start][..], &copies].concat());
-        let path = path(&run).expect("there are ways");
+        let path = path(&run).expect("a path exists");
         assert_free(&regions, path);
         prop_assert!(copies.iter().any(|copy| (copy - path.goal()).norm() < 1e-9));
         let width = least_clearance(&obstacles(&regions), path);

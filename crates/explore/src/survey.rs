@@ -73,7 +73,7 @@ impl Survey {
             let [width, height] = own.size;
             let at = self.origin();
             return Err(format!(
-                "has other cells than the {width} x {height} of {} m from ({}, {}) that the arm and its sensor ask for",
+                "has other cells than the {width} x {height} cells of {} m from ({}, {}) that the arm and its sensor need",
                 own.resolution, at.x, at.y
             ));
         }
@@ -89,7 +89,7 @@ impl Survey {
                 let at = map.pose.point(Point::new(x, y));
                 let (said, is) =
                     if self.truth[cell].is_some() { ("free", "something") } else { ("occupied", "nothing") };
-                return Err(format!("says that it is {said} about ({:.4}, {:.4}), where there is {is}", at.x, at.y));
+                return Err(format!("has {said} space near ({:.4}, {:.4}), but the world has {is} there", at.x, at.y));
             }
         }
         self.known.cells.clone_from(&map.cells);

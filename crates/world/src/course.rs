@@ -49,7 +49,7 @@ impl CourseTable {
     pub fn read(&self, reader: &Reader, what: &str, place: Option<&Pose>, at: Span) -> Result<Course, Diagnostic> {
         let what = format!("{what}, motion");
         if self.stops.is_none() && self.velocity.is_none() {
-            let message = format!("{what} says neither stops nor a velocity");
+            let message = format!("{what} has neither `stops` nor `velocity`");
             return Err(reader.source.diagnostic_at(at, message).help(HELP));
         }
         let given = |time: f64| {
@@ -74,9 +74,12 @@ impl CourseTable {
         Course::new(stops, velocity.map_or_else(Vector::zeros, Vector::from)).map_err(|error| {
             let (message, at, help) = match error {
                 CourseError::Time { stop, time } => (
-                    format!("{what}, stop {}: the time {time} s does not come after the one before", stop + 1),
+                    format!(
+                        "{what}, stop {}: the time {time} s is not later than the time of the previous stop",
+                        stop + 1
+                    ),
                     tables.clone().nth(stop).map_or(at, |stop| stop.get_ref().time.span()),
-                    "times increase from stop to stop",
+                    "sort the stops by time; times must increase",
                 ),
                 CourseError::Empty | CourseError::Place { .. } => {
                     (format!("{what}: {error}"), self.stops.as_ref().map_or(at, Spanned::span), HELP)

@@ -99,7 +99,7 @@ impl<'a> Pallets<'a> {
             if pallets.by_name.insert(name, pallet).is_some() {
                 let diagnostic =
                     reader.source.diagnostic_at(table.name.span(), format!("a second pallet is named \"{name}\""));
-                return Err(diagnostic.help("objects and steps refer to pallets by name: give each a name of its own"));
+                return Err(diagnostic.help("objects and steps refer to pallets by name: give each a unique name"));
             }
         }
         Ok(pallets)

@@ -55,7 +55,7 @@ const CLOSED: &str = "the last point of a ring repeats the first; taken once";
 /// Note about repeated points.
 const REPEATED: &str = "points that repeat the one before them are taken once";
 /// Note about a polygon that is not simple but whose inside is well defined.
-const TOUCHING: &str = "the boundary touches itself in single points; what it surrounds is solid";
+const TOUCHING: &str = "the boundary touches itself in single points; the enclosed area is solid";
 
 impl Coordinates {
     fn list(&self) -> &[Spanned<Coordinates>] {

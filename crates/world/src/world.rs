@@ -179,11 +179,7 @@ pub(super) fn read(source: Source) -> Result<World, InputError> {
     let file: WorldFile = toml::from_str(source.text()).map_err(|error| match error.span() {
         Some(span) => {
             let is_unknown = error.message().contains("unknown field");
-            let help = if is_unknown {
-                "use a key that is known, or remove this one"
-            } else {
-                help(source.text(), span.start)
-            };
+            let help = if is_unknown { "use a known key, or remove this one" } else { help(source.text(), span.start) };
             source.diagnostic_at(span, in_toml_words(error.message())).help(help)
         }
         None => source.diagnostic(in_toml_words(error.message())).help(help("", 0)),
@@ -255,7 +251,7 @@ fn steps(
 ) -> Result<Option<Sequence>, Diagnostic> {
     if file.step.is_empty() {
         return file.task.as_ref().map_or(Ok(None), |task| {
-            let diagnostic = reader.source.diagnostic_at(task.span(), "[task] is about steps, and there are none");
+            let diagnostic = reader.source.diagnostic_at(task.span(), "[task] needs steps, but there are none");
             Err(diagnostic.help("give the world a [[step]], or remove [task]"))
         });
     }

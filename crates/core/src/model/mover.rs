@@ -59,7 +59,7 @@ impl TryFrom<CourseRecord> for Course {
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum CourseError {
     /// There are no stops.
-    #[error("a course needs a stop")]
+    #[error("a moving obstacle needs at least one stop")]
     Empty,
     /// A time that is not later than the previous one, or negative, or beyond [`LATEST`].
     #[error("stop {} is at {time} s; times begin at 0 or later, increase, and end before {LATEST:e}", stop + 1)]
@@ -70,7 +70,7 @@ pub enum CourseError {
         time: f64,
     },
     /// A place, angle or velocity that is not finite, or too large.
-    #[error("stop {} has a place or a velocity that is none", stop + 1)]
+    #[error("stop {} has a position or a velocity that is not finite or too large", stop + 1)]
     Place {
         /// Number of the stop, from 0.
         stop: usize,

@@ -15,7 +15,9 @@ const SHAPE_ROUNDING: f64 = 1e-9;
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum SceneError {
     /// A joint's range is empty, not finite, or too long.
-    #[error("joint \"{joint}\": no range from {lower} to {upper}")]
+    #[error(
+        "joint \"{joint}\": the range from {lower} to {upper} is invalid; it needs finite numbers, the lower one first"
+    )]
     Range {
         /// The joint's name in the URDF.
         joint: String,
@@ -31,7 +33,7 @@ pub enum SceneError {
         joint: String,
     },
     /// A revolute joint's sign is neither 1 nor -1, or a prismatic one's direction is not of length 1.
-    #[error("joint \"{joint}\": a sign is 1 or -1, a direction of length 1")]
+    #[error("joint \"{joint}\": its sign must be 1 or -1, and its direction must have length 1")]
     JointType {
         /// The joint's name in the URDF.
         joint: String,
@@ -47,34 +49,34 @@ pub enum SceneError {
         value: f64,
     },
     /// A coordinate of the arm is not a number, or too large.
-    #[error("the arm's {what} is no place within 1e15 m")]
+    #[error("the arm's {what} must be finite and within 1e15 m")]
     NotFinite {
         /// The point with that coordinate, in words.
         what: &'static str,
     },
     /// The plane's vectors are not of length 1 and at right angles.
-    #[error("the plane's vectors are not of length 1 and at right angles")]
+    #[error("the plane's vectors must have length 1 and be at right angles")]
     Plane,
     /// A shape is too large, or too far away.
-    #[error("\"{of}\": its shape is not within 1e15 m")]
+    #[error("\"{of}\": its shape must be within 1e15 m of the origin")]
     Size {
         /// Name of the obstacle or link.
         of: String,
     },
     /// A mass, an inertia, an effort or the gravity is negative or not finite, or there is no effort at all.
-    #[error("masses, efforts and gravity make no sense: {what}")]
+    #[error("masses, efforts and gravity are invalid: {what}")]
     Dynamics {
         /// The quantity.
         what: String,
     },
     /// The inner shape, on which proofs rest, is not within the outline.
-    #[error("\"{of}\": its inner shape is not within its outline")]
+    #[error("\"{of}\": its inner shape must be within its outline")]
     Inner {
         /// Name of the link.
         of: String,
     },
     /// A height range has no finite numbers, or ends below its beginning.
-    #[error("\"{of}\": no heights from {lower} to {upper}")]
+    #[error("\"{of}\": the heights from {lower} to {upper} are invalid; they need finite numbers, the lower one first")]
     Heights {
         /// Name of the obstacle, link or payload.
         of: String,
@@ -90,19 +92,19 @@ pub enum SceneError {
         clearance: f64,
     },
     /// A preference's strength is not finite, or its direction not of length 1.
-    #[error("preference \"{name}\": its epsilon must be finite, its direction of length 1")]
+    #[error("preference \"{name}\": its epsilon must be finite, and its direction must have length 1")]
     Preference {
         /// The preference's name in the world.
         name: String,
     },
     /// The payload's pose is not finite, or the payload is too large.
-    #[error("payload \"{object}\": its grip is no place and angle within 1e15 m, or its shape larger")]
+    #[error("payload \"{object}\": its grip and its shape must be finite and within 1e15 m")]
     Grip {
         /// The object's name in the world.
         object: String,
     },
     /// There is no obstacle of this number, which is an allowed contact or a support.
-    #[error("there is no obstacle number {number} among {count}")]
+    #[error("obstacle number {number} does not exist: there are {count} obstacles, numbered from 0")]
     NoObstacle {
         /// The number as given; the first obstacle is 0.
         number: usize,
@@ -110,7 +112,9 @@ pub enum SceneError {
         count: usize,
     },
     /// The payload keeps its orientation, and a moving obstacle turns.
-    #[error("payload \"{object}\" is held level, and \"{mover}\" turns")]
+    #[error(
+        "payload \"{object}\" is held level, but \"{mover}\" turns; level payloads need moving obstacles that do not turn"
+    )]
     TurnsAboutLevel {
         /// The object's name in the world.
         object: String,

@@ -58,7 +58,7 @@ fn speed(reduction: &Reduction, index: usize, joint: &Joint) -> Option<String> {
     let given = format!("joint \"{name}\": velocity=\"{velocity}\" in the URDF");
     let help = format!("[robot] velocity = {{ {} = {example} }} in the world file gives its top speed", key(name));
     if velocity == 0.0 {
-        return Some(format!("{given} is taken as not given: {help}"));
+        return Some(format!("{given} counts as missing: {help}"));
     }
     let degrees = if turns { format!(" ({} deg/s)", short(velocity.to_degrees())) } else { String::new() };
     (velocity > fastest)
@@ -69,10 +69,7 @@ fn speed(reduction: &Reduction, index: usize, joint: &Joint) -> Option<String> {
 fn slide(joint: &Joint) -> Option<String> {
     let JointRange::Interval { lower, upper } = joint.range else { return None };
     (!joint.joint_type.is_revolute() && upper - lower > 2.0 * LONGEST).then(|| {
-        format!(
-            "joint \"{}\" slides from {lower} to {upper} m: limits in millimetres are to be divided by 1000",
-            joint.name
-        )
+        format!("joint \"{}\" slides from {lower} to {upper} m: divide limits in millimetres by 1000", joint.name)
     })
 }
 
@@ -101,7 +98,7 @@ fn outreach(arm: &Arm) -> Option<String> {
     let others = if bodies.len() > 1 { format!(" (and {})", counted(bodies.len() - 1, "link")) } else { String::new() };
     Some(format!(
         "the shape of link \"{}\"{others} reaches {} m from its joint, far beyond the arm's own length: a mesh in millimetres needs \
-         scale=\"0.001 0.001 0.001\", other sizes are to be in metres",
+         scale=\"0.001 0.001 0.001\", other sizes must be in metres",
         first.body,
         short(farthest)
     ))

@@ -58,7 +58,7 @@ pub(super) struct Outlines {
 
 /// Returns the message about a link without outline, whose mesh cannot be read.
 fn left_out(unread: &Diagnostic) -> String {
-    format!("{}; the link is left out, and the arm may hit it", unread.message)
+    format!("{}; the link is ignored, so the arm may collide with it", unread.message)
 }
 
 /// Names the URDF links of an arm link whose visual geometry is used, if others have collision geometry.
@@ -106,7 +106,7 @@ impl Bodies<'_> {
         let links: [Link; 2] = links.try_into().expect("two links");
         if links.iter().all(|l| l.source == OutlineSource::None) {
             let message = format!(
-                "neither link \"{}\" nor link \"{}\" has collision or visual geometry: nothing of the arm can be hit",
+                "neither link \"{}\" nor link \"{}\" has collision or visual geometry: the arm cannot collide with anything",
                 links[0].name, links[1].name
             );
             let help = "add <collision> geometry to the URDF, or let bars between the joints stand in for the links, in the \
@@ -165,7 +165,7 @@ impl Bodies<'_> {
             match bar {
                 Some(radius) => {
                     for diagnostic in &unread {
-                        warnings.push(format!("{}; the bar stands in for it", diagnostic.message));
+                        warnings.push(format!("{}; the bar replaces it", diagnostic.message));
                     }
                     parts.push(self.bar_part(index, radius, &name));
                     source = OutlineSource::Bar;
@@ -200,12 +200,12 @@ impl Bodies<'_> {
         match source {
             OutlineSource::Collision => format!("outline from the collision geometry ({shapes})"),
             OutlineSource::Visual => {
-                format!("outline from the visual geometry, for want of collision geometry ({shapes})")
+                format!("outline from the visual geometry, because there is no collision geometry ({shapes})")
             }
             OutlineSource::Bar if parts.len() > 1 => {
                 format!("outline from the collision geometry and a bar ({shapes})")
             }
-            OutlineSource::Bar => "outline is a bar between the joints, as the world file asks".to_owned(),
+            OutlineSource::Bar => "outline is a bar between the joints, as the world file requests".to_owned(),
             OutlineSource::None => "no outline: it has no geometry".to_owned(),
         }
     }
@@ -264,9 +264,9 @@ impl Bodies<'_> {
             Some((outline, inner)) => Ok(vec![part(outline, inner, shape.heights)]),
             None => {
                 let message = format!(
-                    "link \"{body}\" turns with the wrist and is not about its axis, so that what it covers is another thing at each angle"
+                    "link \"{body}\" turns with the wrist, but its shape is not centred on the wrist's axis, so it covers another area at each angle"
                 );
-                let help = "give it <collision> geometry that covers it all round: a <cylinder> along the axis of the wrist's joint";
+                let help = "give it <collision> geometry that covers all angles: a <cylinder> along the axis of the wrist's joint";
                 Err(self.document.diagnostic_at(&shape.at, message).help(help))
             }
         }

@@ -47,7 +47,7 @@ impl Reduction<'_> {
                 let elbow = self.at(plane, self.tree.child[self.chain.joints[1]]);
                 Ok(HeldEffect::Turns { axis: project(plane, &self.poses[child].translation.vector) - elbow })
             }
-            _ => Err("turns what is not carried by both of the arm's joints".into()),
+            _ => Err("turns links that the arm's two joints do not both carry".into()),
         }
     }
 }

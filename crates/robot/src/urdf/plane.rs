@@ -55,7 +55,7 @@ pub(super) fn deviation(plane: &Plane, axes: [SpatialAxis; 2]) -> Option<String>
     };
     let off = axes.iter().map(off).fold(0.0, f64::max);
     (off > NOTICED).then(|| {
-        format!("the joints' axes are up to {off:.1e} rad off the plane that they are taken to move in ({off:.1e} m over a metre)")
+        format!("the joints' axes are up to {off:.1e} rad off the assumed plane of motion ({off:.1e} m over a metre)")
     })
 }
 

@@ -75,12 +75,12 @@ impl OccupancyMap {
         let extent = size[0].max(size[1]) as f64 * description.resolution;
         if x.abs().max(y.abs()) + 2.0 * extent > LARGEST {
             let message = format!(
-                "a picture of {} x {} pixels with a resolution of {} m reaches farther than {LARGEST:e} m",
+                "a picture of {} x {} pixels with a resolution of {} m extends beyond {LARGEST:e} m",
                 size[0], size[1], description.resolution
             );
             return Err(source
                 .diagnostic(message)
-                .help(format!("the resolution is in metres a pixel, and a map may reach {LARGEST:e} m"))
+                .help(format!("the resolution is in metres per pixel, and a map may extend to {LARGEST:e} m"))
                 .into());
         }
         let pose = Pose::new(Vector::new(x, y), yaw);
@@ -143,7 +143,7 @@ fn picture(bytes: &[u8], judge: Judge) -> Result<Picture, Broken> {
             };
             Err(Broken::new(format!("is {format}, not a greymap (PGM)"), SAVE))
         }
-        [0xff, 0xd8, ..] => Err(Broken::new("is a JPEG, whose shades are not those that were drawn", SAVE)),
+        [0xff, 0xd8, ..] => Err(Broken::new("is a JPEG, which does not preserve the shades of pixels", SAVE)),
         [] => Err(Broken::new("is empty", SAVE)),
         _ => Err(Broken::new("is neither PGM nor PNG", SAVE)),
     }
