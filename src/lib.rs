@@ -77,8 +77,8 @@ pub mod model {
     pub use cplan_dynamics::{Torques, TorquesAt, keep_efforts};
     pub use cplan_handling::{
         Action, BlendsClaim, Claims, Driver, Drives, EventClaim, HeldEffect, HeldJoint, HeldMotion, Holding, Item,
-        Object, OptimumClaim, RecordedStep, RecordedTurn, RobotJoint, RobotJoints, Step, StepClaims, Stroke, Task,
-        TaskClaims, TaskError, ToolJoint, Wrist,
+        Object, OptimumClaim, Payload, RecordedStep, RecordedTurn, RobotJoint, RobotJoints, Step, StepClaims, Stroke,
+        Task, TaskClaims, TaskError, ToolJoint, Wrist,
     };
     pub use cplan_robot::AssumedLimits;
     pub use cplan_world::{Mount, Sensor};

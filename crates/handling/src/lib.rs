@@ -1,6 +1,7 @@
 //! Descriptions of tasks, and records of their execution.
 //!
-//! - [`Task`]: objects, and the steps in which an arm picks, carries and places them.
+//! - [`Task`]: objects, and the steps in which an arm picks, carries and places them. A [`Payload`] is an object while
+//!   the arm carries it.
 //! - The tool: a [`Stroke`] that lowers it, a [`Wrist`] that turns it, and all other joints of the robot
 //!   ([`RobotJoints`], [`HeldJoint`]).
 //! - Records of motions: a [`Recording`] holds samples, [`Piece`]s of polynomials join them, and [`Claims`] hold the
@@ -12,6 +13,7 @@ mod bernstein;
 mod claims;
 mod held;
 mod interpolation;
+mod payload;
 mod piece;
 mod recording;
 mod robot_joints;
@@ -22,6 +24,7 @@ mod task_error;
 pub use claims::{BlendsClaim, Claims, EventClaim, OptimumClaim, RecordedStep, RecordedTurn, StepClaims, TaskClaims};
 pub use held::{HeldEffect, HeldJoint, HeldMotion};
 pub use interpolation::{INTERPOLATION, Interpolation, SMOOTH_INTERPOLATION};
+pub use payload::Payload;
 pub use piece::{Derivative, Piece, State};
 pub use recording::{Recording, RecordingError};
 pub use robot_joints::{Driver, Drives, RobotJoint, RobotJoints};

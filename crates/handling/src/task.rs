@@ -1,7 +1,7 @@
 //! Tasks: objects, and the steps to execute with them.
 
-use super::Stroke;
-use cplan_core::model::{Arm, Course, Goal, Grip, Heights, Mover, Obstacle, Payload, Shape, Workspace};
+use super::{Payload, Stroke};
+use cplan_core::model::{Arm, Course, Goal, Heights, Mover, Obstacle, Shape, Workspace};
 use cplan_core::space::Configuration;
 use cplan_geometry::{Convex, Interval, Point, Pose};
 use cplan_text::short;
@@ -144,20 +144,6 @@ pub struct Task {
 }
 
 impl Task {
-    /// Returns the arm and the extent of an object in its hand while the tool is lowered to pick or place the object.
-    /// Returns `None` if the tool is not lowered. Without a stroke, only the final pose of a placed object is
-    /// considered: the path that lowers it to there is unknown.
-    pub fn lowered(&self, object: usize, is_placed: bool) -> Option<(Arm, Heights)> {
-        let object = &self.objects[object];
-        match &self.stroke {
-            Some(stroke) => {
-                let depth = Some(stroke.depth(object)).filter(|depth| *depth != 0.0)?;
-                Some((stroke.swept(&self.arm, depth), object.handled_heights()))
-            }
-            None => (is_placed && object.lift != 0.0).then(|| (self.arm.clone(), object.heights)),
-        }
-    }
-
     /// Returns the number of an object as an obstacle: objects follow the workspace's own obstacles.
     #[must_use]
     pub fn obstacle_number(&self, object: usize) -> usize {
@@ -242,13 +228,6 @@ impl Object {
             Obstacle { name: self.name.clone(), shape, pieces, heights: self.heights }
         };
         self.course.clone().map(|course| Mover { obstacle: obstacle(), course })
-    }
-
-    /// Returns the object as a payload that may touch `supports`.
-    #[must_use]
-    pub fn carried(&self, grip: Grip, supports: Vec<usize>) -> Payload {
-        let (object, pieces) = (self.name.clone(), self.pieces.clone());
-        Payload { object, pieces, heights: self.carried_heights(), grip, mass: self.mass, supports }
     }
 
     /// Returns its extent along the plane's normal over all heights from where it lies to where it is carried.

@@ -419,7 +419,7 @@ fn the_motion_that_fails_is_drawn() {
     let Outcome::Infeasible(why) = &answer.outcome else { panic!("{:?}", answer.outcome) };
     assert_eq!((why.step.number, why.ik_solutions.len()), (2, 2));
     assert_eq!(why.from, answer.legs[0].timed.curve.curve().path().goal());
-    assert_eq!(why.scene.payload().map(|payload| payload.object.as_str()), Some("part"));
+    assert_eq!(why.scene.attachment().map(|payload| payload.name.as_str()), Some("part"));
     for to in &why.ik_solutions {
         let tip = blocked.arm.tip_at(to.ik_solution);
         assert!((tip - Point::new(-1.1, 0.4)).norm() < 1e-9, "{tip}");

@@ -15,6 +15,7 @@
 //! ```
 
 mod arm;
+mod attachment;
 mod carried;
 mod contacts;
 mod inverse;
@@ -25,8 +26,6 @@ mod mover;
 mod obstruction;
 mod outcome;
 mod pairing;
-mod payload;
-mod payload_parts;
 mod preference;
 mod problem;
 mod scene;
@@ -39,6 +38,7 @@ mod tip_area;
 mod workspace;
 
 pub use arm::{Arm, Plane};
+pub use attachment::{AttachedPart, Attachment, Grip};
 pub use carried::Carried;
 pub use carried::on_axis;
 use carried::swept;
@@ -50,7 +50,6 @@ pub use masses::{Body, Dynamics};
 pub use mover::{Course, CourseError, Drift, LATEST, Leg, Mover, Stop};
 pub use obstruction::Obstruction;
 pub use outcome::{Outcome, Status};
-pub use payload::{Grip, Payload};
 pub use preference::{Preference, Region};
 pub use problem::{Goal, MotionProblem, MotionProblemError};
 pub use scene::{Contact, Pair, Scene};

@@ -22,7 +22,7 @@ const SHALLOW: f64 = 1e-9;
 const DEEP: f64 = 1e-3;
 
 impl Scene {
-    /// Returns the reasons why `q` is not free of static obstacles: for each link (or payload) and obstacle the worst
+    /// Returns the reasons why `q` is not free of static obstacles: for each link (or its attachment) and obstacle the worst
     /// pair of shapes. Empty if `q` is free.
     #[must_use]
     pub fn obstructions(&self, q: Configuration) -> Vec<Obstruction> {
@@ -54,7 +54,7 @@ impl Scene {
             let found = Obstruction { contact, touches };
             let whose = |o: &Obstruction| {
                 let pair = o.contact.pair;
-                (pair.link, self.is_payload(pair), pair.obstacle)
+                (pair.link, self.is_attached(pair), pair.obstacle)
             };
             match worst.iter_mut().find(|known| whose(known) == whose(&found)) {
                 Some(known) if known.contact.separation.distance <= distance => {}

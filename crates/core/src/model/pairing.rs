@@ -1,6 +1,6 @@
 //! Decides which pairs of shapes of a scene can meet.
 
-use super::payload_parts::Meetable;
+use super::attachment::Meetable;
 use super::{Arm, Carrier, Heights, Mover, Obstacle, Pair, Part, SelfObstacle, Workspace};
 use cplan_geometry::{Convex, separation};
 
@@ -14,9 +14,9 @@ pub(super) enum Meet {
 }
 
 impl Meet {
-    /// Returns true if a part of the arm, or of an object that it carries, shares a height with an obstacle.
-    pub fn holds(self, is_carried: bool, part: Heights, obstacle: Heights) -> bool {
-        match (self, is_carried) {
+    /// Returns true if a part of the arm, or one that is attached to it, shares a height with an obstacle.
+    pub fn holds(self, is_attached: bool, part: Heights, obstacle: Heights) -> bool {
+        match (self, is_attached) {
             (Self::Perhaps, false) => part.meet(obstacle),
             (Self::Perhaps, true) => part.object_meets(obstacle),
             (Self::Surely, false) => part.surely_meet(obstacle),
@@ -70,14 +70,14 @@ pub(super) fn obstacles<'a>(arm: &'a Arm, workspace: &'a Workspace) -> impl Iter
 
 /// The data that decide which pairs a scene has.
 pub(super) struct Pairing<'a> {
-    /// The arm, with its payload.
+    /// The arm, with its attachment.
     pub arm: &'a Arm,
     pub workspace: &'a Workspace,
     pub reading: Reading,
-    /// Number of link 2's own parts; those after them belong to the payload.
+    /// Number of link 2's own parts; those after them are attached.
     pub own_parts: usize,
-    /// The pieces that each carried part can meet.
-    pub carried: &'a [Meetable],
+    /// The pieces that each attached part can meet.
+    pub attached: &'a [Meetable],
     /// Obstacles that link 2 itself is free to meet.
     pub allowed_contacts: &'a [usize],
 }
@@ -86,18 +86,18 @@ impl Pairing<'_> {
     /// Returns the pairs with static and with moving obstacles, each ordered by link, part, obstacle and piece.
     pub fn pairs(&self) -> [Vec<Pair>; 2] {
         let left_out = self.left_out();
-        // Shapes derived from pieces come after the pieces: one full set of pieces per piece of the payload.
+        // Shapes derived from pieces come after the pieces: one full set of pieces per attached part.
         let is_kept = |pair: &Pair| left_out.get(pair.obstacle).is_none_or(|all| !all[pair.piece % all.len()]);
         let (mut pairs, mut moving, mut folding) = (Vec::new(), Vec::new(), Vec::new());
         let parts = |link: usize| self.arm.links[link].parts.iter().enumerate().map(move |(part, p)| (link, part, p));
         for (link, part, p) in parts(0).chain(parts(1)) {
-            let carried = if link == 1 { part.checked_sub(self.own_parts) } else { None };
-            let carried = carried.map(|number| &self.carried[number]);
+            let attached = if link == 1 { part.checked_sub(self.own_parts) } else { None };
+            let attached = attached.map(|number| &self.attached[number]);
             for (obstacle, (kind, o)) in obstacles(self.arm, self.workspace).enumerate() {
-                if !self.can_meet(link, p, carried.is_some(), kind, o) {
+                if !self.can_meet(link, p, attached.is_some(), kind, o) {
                     continue;
                 }
-                let pieces = match carried {
+                let pieces = match attached {
                     Some(meetable) => meetable[obstacle].clone(),
                     None if link == 1 && self.allowed_contacts.contains(&obstacle) => 0..0,
                     None => 0..o.pieces.len(),
@@ -115,12 +115,12 @@ impl Pairing<'_> {
     }
 
     /// Returns true if a part of a link and an obstacle can meet, by their heights and their carriers.
-    fn can_meet(&self, link: usize, part: &Part, is_carried: bool, kind: Kind, obstacle: &Obstacle) -> bool {
-        let Kind::Own(own) = kind else { return self.reading.meet.holds(is_carried, part.heights, obstacle.heights) };
+    fn can_meet(&self, link: usize, part: &Part, is_attached: bool, kind: Kind, obstacle: &Obstacle) -> bool {
+        let Kind::Own(own) = kind else { return self.reading.meet.holds(is_attached, part.heights, obstacle.heights) };
         // Links of a robot lie on top of each other.
         (link == 1 || own.carrier == Carrier::Base)
             && part.heights.surely_meet(obstacle.heights)
-            && (is_carried || !own.ignores(&part.body))
+            && (is_attached || !own.ignores(&part.body))
     }
 
     /// Returns, for each obstacle, true for each piece that is in no pair; nothing at all if every piece may be in one.

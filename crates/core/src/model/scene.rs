@@ -4,7 +4,7 @@ use super::pairing::{Meet, Pairing, Reading, obstacles};
 use super::scene_error::{check, check_clearance};
 use super::scene_record::SceneRecord;
 use super::{
-    Arm, Carrier, Grip, Heights, Joint, Link, Mover, Obstacle, Part, Payload, SceneError, SelfObstacle, Workspace,
+    Arm, Attachment, Carrier, Heights, Joint, Link, Mover, Obstacle, Part, SceneError, SelfObstacle, Workspace,
 };
 use crate::space::{Configuration, JointRange};
 use cplan_geometry::{Convex, Separation, separation};
@@ -20,7 +20,7 @@ pub struct Pair {
     pub part: usize,
     /// Index into the workspace's obstacles, followed by the moving obstacles, followed by the arm's self obstacles.
     pub obstacle: usize,
-    /// Index into the obstacle's pieces, followed by the shapes derived from them for a payload.
+    /// Index into the obstacle's pieces, followed by the shapes derived from them for an attachment.
     pub piece: usize,
 }
 
@@ -36,24 +36,25 @@ pub struct Contact {
 /// Arm and workspace, with the pairs of shapes that can meet at all. Every module that asks about collisions asks
 /// about these pairs, so a pair that heights rule out is ruled out everywhere.
 ///
-/// A payload is a part of link 2. One that a wrist keeps level only translates with the tip: it meets a piece exactly
-/// when the tip lies in their Minkowski difference, so its part is the tip, a point, and its pieces are these differences.
+/// The shapes of an [`Attachment`] are parts of link 2. One that is kept level only translates with the tip: it meets a
+/// piece exactly when the tip lies in their Minkowski difference, so its part is the tip, a point, and its pieces are
+/// these differences.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "SceneRecord", into = "SceneRecord")]
 pub struct Scene {
     arm: Arm,
     workspace: Workspace,
-    payload: Option<Payload>,
+    attachment: Option<Attachment>,
     /// Obstacles that link 2 itself is free to meet.
     allowed_contacts: Vec<usize>,
-    /// Number of link 2's own parts; those that follow are the payload's.
+    /// Number of link 2's own parts; those that follow are attached.
     own_parts: usize,
     reading: Reading,
     pairs: Vec<Pair>,
     /// The pairs with moving obstacles.
     moving: Vec<Pair>,
     /// For each obstacle, mover and self obstacle, in this order: the shapes derived from its pieces for a level
-    /// payload, and the smaller pieces of supports.
+    /// attachment, and the smaller pieces of supports.
     differences: Vec<Vec<Convex>>,
 }
 
@@ -69,64 +70,64 @@ impl Scene {
     /// # Errors
     /// If a number of either makes no sense: see [`SceneError`].
     pub fn new(arm: Arm, workspace: Workspace) -> Result<Self, SceneError> {
-        Self::handling(arm, workspace, None, &[])
+        Self::with_attachment(arm, workspace, None, &[])
     }
 
-    /// Puts the arm with a payload into the workspace. Link 2 itself is free to meet the `allowed_contacts` obstacles,
-    /// which it has just released or is about to take; moving obstacles are numbered after the static ones. A payload
-    /// presses into its supports by at most [`Payload::penetration_allowance`], its corners included. No clearance is
-    /// kept there: in every distance, a support counts as farther away by the clearance.
+    /// Puts the arm with an attachment into the workspace. Link 2 itself is free to meet the `allowed_contacts`
+    /// obstacles; moving obstacles are numbered after the static ones. No clearance is kept between the attachment and
+    /// its supports: in every distance, a support counts as farther away by the clearance.
     ///
     /// # Errors
-    /// Same as for [`Scene::new`]; also if the payload's pose is not finite, or there is no obstacle of a given number.
-    pub fn handling(
+    /// Same as for [`Scene::new`]; also if there is no obstacle of a given number.
+    pub fn with_attachment(
         arm: Arm,
         workspace: Workspace,
-        payload: Option<Payload>,
+        attachment: Option<Attachment>,
         allowed_contacts: &[usize],
     ) -> Result<Self, SceneError> {
-        check(&arm, &workspace, payload.as_ref(), allowed_contacts)?;
-        Ok(Self::handling_trusted(arm, workspace, payload, allowed_contacts))
+        check(&arm, &workspace, attachment.as_ref(), allowed_contacts)?;
+        Ok(Self::with_attachment_trusted(arm, workspace, attachment, allowed_contacts))
     }
 
     /// Same as [`Scene::new`], without checks.
     #[must_use]
     #[doc(hidden)]
     pub fn trusted(arm: Arm, workspace: Workspace) -> Self {
-        Self::handling_trusted(arm, workspace, None, &[])
+        Self::with_attachment_trusted(arm, workspace, None, &[])
     }
 
-    /// Same as [`Scene::handling`], without checks.
+    /// Same as [`Scene::with_attachment`], without checks.
     #[must_use]
     #[doc(hidden)]
-    pub fn handling_trusted(
+    pub fn with_attachment_trusted(
         arm: Arm,
         workspace: Workspace,
-        payload: Option<Payload>,
+        attachment: Option<Attachment>,
         allowed_contacts: &[usize],
     ) -> Self {
-        Self::assembled(arm, workspace, payload, allowed_contacts, Reading::ALL)
+        Self::assembled(arm, workspace, attachment, allowed_contacts, Reading::ALL)
     }
 
     /// Creates the scene without checks.
     fn assembled(
         mut arm: Arm,
         workspace: Workspace,
-        payload: Option<Payload>,
+        attachment: Option<Attachment>,
         allowed_contacts: &[usize],
         reading: Reading,
     ) -> Self {
-        debug_assert_eq!(check(&arm, &workspace, payload.as_ref(), allowed_contacts), Ok(()));
+        debug_assert_eq!(check(&arm, &workspace, attachment.as_ref(), allowed_contacts), Ok(()));
         let own_parts = arm.links[1].parts.len();
         let mut differences = vec![Vec::new(); obstacles(&arm, &workspace).count()];
-        let parts = payload.as_ref().map_or_else(Vec::new, |p| p.on_link(&arm, &workspace, &reading, &mut differences));
-        let (parts, carried): (Vec<_>, Vec<_>) = parts.into_iter().unzip();
+        let attached = |attachment: &Attachment| attachment.on_link(&arm, &workspace, &reading, &mut differences);
+        let parts = attachment.as_ref().map_or_else(Vec::new, attached);
+        let (parts, attached): (Vec<_>, Vec<_>) = parts.into_iter().unzip();
         arm.links[1].parts.extend(parts);
         let [pairs, moving] =
-            Pairing { arm: &arm, workspace: &workspace, reading, own_parts, carried: &carried, allowed_contacts }
+            Pairing { arm: &arm, workspace: &workspace, reading, own_parts, attached: &attached, allowed_contacts }
                 .pairs();
         let allowed_contacts = allowed_contacts.to_vec();
-        Self { arm, workspace, payload, allowed_contacts, own_parts, reading, pairs, moving, differences }
+        Self { arm, workspace, attachment, allowed_contacts, own_parts, reading, pairs, moving, differences }
     }
 
     /// Returns the scene for proofs of collisions. It uses inner shapes where an outline covers more than the real
@@ -135,7 +136,7 @@ impl Scene {
     pub fn inner(&self) -> Cow<'_, Self> {
         let parts = || self.arm.links.iter().flat_map(|link| &link.parts);
         let all = || obstacles(&self.arm, &self.workspace).map(|(_, obstacle)| obstacle);
-        let is_level = self.payload.as_ref().is_some_and(|payload| matches!(payload.grip, Grip::Level { .. }));
+        let is_level = self.attachment.as_ref().is_some_and(|attachment| attachment.grip.is_level());
         let is_covered = is_level && self.arm.self_obstacles.iter().any(|own| own.carrier == Carrier::FirstJoint);
         // The heights of the robot's links are always known.
         let is_known = |is_carried: bool, part: &Part| {
@@ -147,9 +148,10 @@ impl Scene {
                 let (own, carried) = (self.own_parts(link), &self.arm.links[link].parts[self.own_parts(link).len()..]);
                 own.iter().all(|part| is_known(false, part)) && carried.iter().all(|part| is_known(true, part))
             });
-        let carried = self.payload.iter().flat_map(|payload| &payload.pieces);
-        let mut pieces = all().flat_map(|obstacle| &obstacle.pieces).chain(carried);
-        let is_whole = self.reading.is_evidence() || !pieces.any(Convex::is_sliver);
+        let mut attached = self.attachment.iter().flat_map(|attachment| &attachment.parts);
+        let mut pieces = all().flat_map(|obstacle| &obstacle.pieces);
+        let is_whole =
+            self.reading.is_evidence() || !(pieces.any(Convex::is_sliver) || attached.any(|part| !part.is_evidence));
         if is_exact && is_whole && !is_covered && parts().all(|part| part.inner.is_none()) {
             return Cow::Borrowed(self);
         }
@@ -166,7 +168,7 @@ impl Scene {
     }
 
     /// Returns the scene with other shapes for the arm's own parts and for the pieces of obstacles. Each part stays one
-    /// part, each obstacle stays one obstacle, and the payload is unchanged.
+    /// part, each obstacle stays one obstacle, and the attachment is unchanged.
     #[must_use]
     pub fn reshaped(&self, reshape: impl Fn(&mut Part), pieces: impl FnMut(&Obstacle) -> Vec<Convex>) -> Self {
         self.remade(reshape, pieces, self.reading)
@@ -184,10 +186,10 @@ impl Scene {
     }
 
     /// Returns the scene without the pairs of static obstacles that are out of the arm's reach, clearance included.
-    /// Returns `None` if these are few, or if there is a payload. Each part, obstacle and piece keeps its number.
+    /// Returns `None` if these are few, or if there is an attachment. Each part, obstacle and piece keeps its number.
     #[must_use]
     pub fn within_reach(&self) -> Option<Self> {
-        if self.payload.is_some() || self.pairs.len() <= MANY_OUT_OF_REACH {
+        if self.attachment.is_some() || self.pairs.len() <= MANY_OUT_OF_REACH {
             return None;
         }
         let slide = |joint: &Joint| match (joint.joint_type.is_revolute(), joint.range) {
@@ -216,8 +218,8 @@ impl Scene {
         })
     }
 
-    /// Returns the scene with a change of the arm (without its payload) or the workspace, without checks. Moving
-    /// obstacles and the payload keep their numbers.
+    /// Returns the scene with a change of the arm (without its attachment) or the workspace, without checks. Moving
+    /// obstacles and the attachment's supports keep their numbers.
     #[must_use]
     #[doc(hidden)]
     pub fn changed(&self, change: impl FnOnce(&mut Arm, &mut Workspace)) -> Self {
@@ -228,7 +230,7 @@ impl Scene {
         let (mut arm, mut workspace) = (self.arm.clone(), self.workspace.clone());
         arm.links[1].parts.truncate(self.own_parts);
         change(&mut arm, &mut workspace);
-        Self::assembled(arm, workspace, self.payload.clone(), &self.allowed_contacts, reading)
+        Self::assembled(arm, workspace, self.attachment.clone(), &self.allowed_contacts, reading)
     }
 
     /// Returns the scene with another distance to keep, metres.
@@ -265,7 +267,7 @@ impl Scene {
         scene.changed(|_, workspace| workspace.obstacles.push(obstacle))
     }
 
-    /// Returns the arm without its payload, and the workspace, from which another scene can be made.
+    /// Returns the arm without its attachment, and the workspace, from which another scene can be made.
     #[must_use]
     pub fn into_parts(mut self) -> (Arm, Workspace) {
         self.arm.links[1].parts.truncate(self.own_parts);
@@ -278,7 +280,7 @@ impl Scene {
         &self.allowed_contacts
     }
 
-    /// Returns the arm, with its payload.
+    /// Returns the arm, with its attachment as parts of link 2.
     #[must_use]
     pub fn arm(&self) -> &Arm {
         &self.arm
@@ -296,13 +298,13 @@ impl Scene {
         &mut self.arm
     }
 
-    /// Returns the payload, if any.
+    /// Returns the attachment, if any.
     #[must_use]
-    pub fn payload(&self) -> Option<&Payload> {
-        self.payload.as_ref()
+    pub fn attachment(&self) -> Option<&Attachment> {
+        self.attachment.as_ref()
     }
 
-    /// Returns the link's own outline, without the payload.
+    /// Returns the link's own outline, without the attachment.
     #[must_use]
     pub fn own_parts(&self, link: usize) -> &[Part] {
         let parts = &self.arm.links[link].parts;
@@ -340,7 +342,7 @@ impl Scene {
         &self.link(pair).parts[pair.part].shape
     }
 
-    /// Returns the obstacle piece of a pair, or the shape derived from it for a payload, in plane coordinates. For a
+    /// Returns the obstacle piece of a pair, or the shape derived from it for an attachment, in plane coordinates. For a
     /// moving obstacle it is in the obstacle's own frame.
     #[must_use]
     pub fn piece(&self, pair: Pair) -> &Convex {
@@ -375,18 +377,18 @@ impl Scene {
         self.closest(q).map_or(f64::INFINITY, |c| c.separation.distance)
     }
 
-    /// Returns true if a pair's part belongs to the payload.
+    /// Returns true if a pair's part belongs to the attachment.
     #[must_use]
-    pub fn is_payload(&self, pair: Pair) -> bool {
+    pub fn is_attached(&self, pair: Pair) -> bool {
         pair.link > 0 && pair.part >= self.own_parts
     }
 
     /// Returns the original piece of the obstacle in a pair, at its place, even if the pair uses a shape derived from
-    /// it for a payload.
+    /// it for an attachment.
     #[must_use]
     pub fn obstacle_piece(&self, pair: Pair) -> &Convex {
         let pieces = &self.obstacle(pair.obstacle).pieces;
-        // Derived shapes come after the pieces: one full set of pieces per piece of the payload.
+        // Derived shapes come after the pieces: one full set of pieces per attached part.
         &pieces[pair.piece % pieces.len()]
     }
 }

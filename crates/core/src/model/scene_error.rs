@@ -1,6 +1,6 @@
-//! The conditions that arm, obstacles and payload must satisfy to make a scene.
+//! The conditions that arm, obstacles and attachment must satisfy to make a scene.
 
-use super::{Arm, Body, Dynamics, Grip, Heights, Joint, JointType, Obstacle, Payload, Plane, Workspace};
+use super::{Arm, Attachment, Body, Dynamics, Grip, Heights, Joint, JointType, Obstacle, Plane, Workspace};
 use crate::space::JointRange;
 use cplan_geometry::{Convex, Point, Pose, separation};
 
@@ -76,7 +76,7 @@ pub enum SceneError {
     /// A height range has no finite numbers, or ends below its beginning.
     #[error("\"{of}\": no heights from {lower} to {upper}")]
     Heights {
-        /// Name of the obstacle, link or payload.
+        /// Name of the obstacle, link or attachment.
         of: String,
         /// The lower end as given.
         lower: f64,
@@ -95,10 +95,10 @@ pub enum SceneError {
         /// The preference's name in the world.
         name: String,
     },
-    /// The payload's pose is not finite, or the payload is too large.
+    /// The attachment's pose is not finite, or the attachment is too large.
     #[error("payload \"{object}\": its grip is no place and angle within 1e15 m, or its shape larger")]
     Grip {
-        /// The object's name in the world.
+        /// The attachment's name.
         object: String,
     },
     /// There is no obstacle of this number, which is an allowed contact or a support.
@@ -109,10 +109,10 @@ pub enum SceneError {
         /// Number of obstacles.
         count: usize,
     },
-    /// The payload keeps its orientation, and a moving obstacle turns.
+    /// The attachment keeps its orientation, and a moving obstacle turns.
     #[error("payload \"{object}\" is held level, and \"{mover}\" turns")]
     TurnsAboutLevel {
-        /// The object's name in the world.
+        /// The attachment's name.
         object: String,
         /// The name of the turning obstacle.
         mover: String,
@@ -124,31 +124,27 @@ pub enum SceneError {
 pub(super) fn check(
     arm: &Arm,
     workspace: &Workspace,
-    payload: Option<&Payload>,
+    attachment: Option<&Attachment>,
     allowed_contacts: &[usize],
 ) -> Result<(), SceneError> {
     check_arm(arm)?;
     check_workspace(workspace)?;
-    if let Some(payload) = payload {
-        check_heights(&payload.object, payload.heights)?;
-        if !is_mass(payload.mass) {
-            return Err(SceneError::Dynamics { what: format!("\"{}\" of {} kg", payload.object, payload.mass) });
-        }
-        let is_finite = match payload.grip {
-            Grip::Rigid(pose) => is_pose(&pose),
-            Grip::Level { angle, point } => are_small([angle, point.x, point.y]),
+    if let Some(Attachment { name, heights, grip, parts, .. }) = attachment {
+        check_heights(name, *heights)?;
+        let is_finite = match grip {
+            Grip::Rigid(pose) => is_pose(pose),
+            Grip::Level { angle, point } => are_small([*angle, point.x, point.y]),
         };
-        if !is_finite || !payload.pieces.iter().all(is_small) {
-            return Err(SceneError::Grip { object: payload.object.clone() });
+        if !is_finite || !parts.iter().all(|part| is_small(&part.shape)) {
+            return Err(SceneError::Grip { object: name.clone() });
         }
-    }
-    let level = payload.filter(|payload| matches!(payload.grip, Grip::Level { .. }));
-    if let Some((payload, mover)) = level.zip(workspace.movers.iter().find(|mover| mover.course.turns())) {
-        let (object, mover) = (payload.object.clone(), mover.obstacle.name.clone());
-        return Err(SceneError::TurnsAboutLevel { object, mover });
+        if let Some(mover) = workspace.movers.iter().find(|mover| grip.is_level() && mover.course.turns()) {
+            let (object, mover) = (name.clone(), mover.obstacle.name.clone());
+            return Err(SceneError::TurnsAboutLevel { object, mover });
+        }
     }
     let count = workspace.obstacles.len();
-    let supports = payload.map_or(&[][..], |payload| &payload.supports);
+    let supports = attachment.map_or(&[][..], |attachment| &attachment.supports);
     let all = count + workspace.movers.len();
     let unknown = |numbers: &[usize], count: usize| {
         let number = numbers.iter().copied().find(|&number| number >= count);

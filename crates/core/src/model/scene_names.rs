@@ -63,7 +63,7 @@ impl Scene {
     pub fn describe_part(&self, pair: Pair) -> String {
         let link = self.link(pair);
         let body = &link.parts[pair.part].body;
-        if self.is_payload(pair) {
+        if self.is_attached(pair) {
             format!("payload \"{body}\"")
         } else if *body == link.name {
             format!("link \"{}\"", link.name)

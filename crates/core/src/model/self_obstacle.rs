@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 pub enum Carrier {
     /// The robot's base: the link is fixed.
     Base,
-    /// Joint 1. Only link 2 and its payload can hit such a link, and that depends on joint 2 alone.
+    /// Joint 1. Only link 2 and its attachment can hit such a link, and that depends on joint 2 alone.
     FirstJoint,
 }
 

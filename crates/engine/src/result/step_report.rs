@@ -270,7 +270,7 @@ impl FailedStepReport {
             description: step.action.describe(&task.objects),
             place: step.place.clone(),
             reasons: reasons.clone(),
-            carried: scene.payload().map(|payload| payload.object.clone()),
+            carried: scene.attachment().map(|payload| payload.name.clone()),
             from: [from[0], from[1]],
             ik_solutions: ik_solutions.iter().map(IkSolutionReport::from).collect(),
         }

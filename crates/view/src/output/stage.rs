@@ -79,11 +79,11 @@ fn with_objects(stage: &mut Stage, task: &Task, answer: &TaskAnswer, times: &[f6
         }
     }
     for leg in &answer.legs {
-        if let (Some(object), Some(payload)) = (leg.carried, leg.scene.payload()) {
+        if let (Some(object), Some(payload)) = (leg.carried, leg.scene.attachment()) {
             let lift = task.objects[object].lift;
             let motion = &leg.timed.trajectory;
             stage.poses.extend(motion.time.iter().zip(&motion.position).map(|(&time, &q)| {
-                (leg.begin + time, OBJECTS + object, payload.pose(&task.arm, Configuration::from(q)), lift)
+                (leg.begin + time, OBJECTS + object, payload.grip.pose(&task.arm, Configuration::from(q)), lift)
             }));
         }
         if let (Some(Event::Release { object, pose }), Some(time)) = (leg.event, leg.event_time()) {

@@ -117,7 +117,7 @@ fn panels(picture: &TaskPicture, order: &Order, paths: &[PathView], last: usize,
     let mut panels: Vec<PanelView> = states.iter().map(panel).collect();
     let fails = picture.answer.failed();
     if let Some(fails) = fails {
-        let payload = describe(fails.scene.payload().map(|payload| payload.object.as_str()));
+        let payload = describe(fails.scene.attachment().map(|payload| payload.name.as_str()));
         let (number, cycle) = (order.number(&fails.step), fails.step.cycle);
         let round = if cycle > 1 { format!(", round {cycle}") } else { String::new() };
         let title = format!("{number} fails: {payload}{round}");
@@ -148,7 +148,7 @@ impl Worlds<'_> {
 
     fn add(&mut self, scene: &Arc<Scene>) -> usize {
         let c_obstacles = (self.picture.c_obstacles)(scene);
-        let label = describe(scene.payload().map(|payload| payload.object.as_str()));
+        let label = describe(scene.attachment().map(|payload| payload.name.as_str()));
         let open = self.open(scene);
         self.views.push(WorldView { open, ..WorldView::new(scene, label, &c_obstacles, self.grain) });
         self.scenes.push(scene.clone());
@@ -174,7 +174,8 @@ impl Worlds<'_> {
     fn open(&self, scene: &Scene) -> Vec<ContourView> {
         let mut workspace = scene.workspace().clone();
         let whole = |workspace| {
-            Scene::handling_trusted(self.picture.task.arm.clone(), workspace, scene.payload().cloned(), &[])
+            let (arm, attachment) = (self.picture.task.arm.clone(), scene.attachment().cloned());
+            Scene::with_attachment_trusted(arm, workspace, attachment, &[])
         };
         let closed = whole(workspace.clone());
         let pairs = |scene: &Scene, obstacle| scene.pairs().iter().filter(|pair| pair.obstacle == obstacle).count();

@@ -304,14 +304,14 @@ fn movers(scene: &Scene, grain: Grain) -> Vec<MoverView> {
 }
 
 fn payload(scene: &Scene, grain: Grain) -> Option<PayloadView> {
-    let payload = scene.payload()?;
+    let payload = scene.attachment()?;
     let obstacles = &scene.workspace().obstacles;
-    let lying = obstacles.iter().position(|o| o.name == payload.object);
+    let lying = obstacles.iter().position(|o| o.name == payload.name);
     let own = scene.own_parts(1).len();
     Some(PayloadView {
-        object: payload.object.clone(),
+        object: payload.name.clone(),
         color: color::obstacle(lying.unwrap_or(obstacles.len())),
-        pieces: payload.pieces.iter().map(|piece| grain.shape(piece)).collect(),
+        pieces: payload.pieces().map(|piece| grain.shape(piece)).collect(),
         grip: payload.grip,
         parts: scene.arm().links[1].parts[own..].iter().map(|part| grain.shape(&part.shape)).collect(),
     })
