@@ -298,7 +298,7 @@ fn what_is_carried_counts() {
     let carrying = |arm: &Arm, grip| {
         let task = Task {
             arm: arm.clone(),
-            workspace: scene(arm.clone(), vec![]).workspace().clone(),
+            workspace: scene(arm.clone(), vec![]).workspace().clone().into(),
             objects: vec![block.clone()],
             start: Configuration::zeros(),
             items: vec![],

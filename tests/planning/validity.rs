@@ -12,8 +12,8 @@ use cplan::geometry::{
     Convex, ConvexError, Orientation, Point, Polygon, PolygonError, RingError, SimplePolygon, Vector, orientation,
 };
 use cplan::model::{
-    Arm, AttachedPart, Attachment, Body, Dynamics, Grip, Heights, JointType, MotionProblem, MotionProblemError,
-    Preference, Region, Scene, SceneError, Workspace,
+    Additions, Arm, AttachedPart, Attachment, Body, Dynamics, Grip, Heights, JointType, MotionProblem,
+    MotionProblemError, Preference, Region, Scene, SceneError, Workspace,
 };
 use cplan::space::{GoalSet, JointRange, Segment};
 use std::f64::consts::PI;
@@ -79,8 +79,7 @@ fn arm(change: impl Fn(&mut Arm)) -> Arm {
 /// Returns a workspace with one obstacle and a change.
 fn workspace(change: impl Fn(&mut Workspace)) -> Workspace {
     let obstacles = vec![obstacle("post", disc(Point::new(0.9, 0.9), 0.1))];
-    let mut workspace =
-        Workspace { name: "room".into(), obstacles, clearance: 0.0, preferences: Vec::new(), movers: Vec::new() };
+    let mut workspace = Workspace { name: "room".into(), obstacles, clearance: 0.0, preferences: Vec::new() };
     change(&mut workspace);
     workspace
 }
@@ -191,7 +190,11 @@ fn nothing_is_carried_that_cannot_be() {
         ),
     ];
     for (carried, allowed_contacts, error) in cases {
-        let made = Scene::with_attachment(arm(|_| ()), workspace(|_| ()), Some(carried), &allowed_contacts);
+        let made = Scene::with(
+            arm(|_| ()),
+            workspace(|_| ()),
+            Additions { attachment: Some(carried), allowed_contacts, ..Additions::default() },
+        );
         assert_eq!(made, Err(error));
     }
 }

@@ -1,7 +1,7 @@
 //! The object that the arm carries.
 
-use super::{Object, Task};
-use cplan_core::model::{Arm, AttachedPart, Attachment, Body, Grip, Heights, Scene, Workspace};
+use super::{Object, Task, TimedWorkspace};
+use cplan_core::model::{Additions, Arm, AttachedPart, Attachment, Body, Grip, Heights, Scene};
 use cplan_dynamics::{joined, spread};
 use cplan_geometry::{Convex, Pose, drawn_in};
 
@@ -68,8 +68,8 @@ impl Payload {
 }
 
 impl Task {
-    /// Returns the scene with the objects at their poses, except for `moving` ones, which follow their trajectories. Link
-    /// 2 may touch the objects `touched`.
+    /// Returns the scene with the objects at their poses, except for `moving` ones, which are loose obstacles after those
+    /// of the workspace ([`Task::courses`]). Link 2 may touch the objects `touched`.
     #[must_use]
     pub fn scene(
         &self,
@@ -81,7 +81,7 @@ impl Task {
         let allowed_contacts: Vec<usize> =
             touched.into_iter().map(|object| self.number_among(moving, object)).collect();
         let payload = payload.map(|payload| (payload, self.objects[payload.object].carried_heights()));
-        self.scene_of(self.arm.clone(), self.surroundings(poses, moving), payload, &allowed_contacts)
+        self.scene_of(self.arm.clone(), self.surroundings(poses, moving), payload, allowed_contacts)
     }
 
     /// Returns the scene while the tool is lowered to pick or place an object. Returns `None` if the tool is not
@@ -107,22 +107,23 @@ impl Task {
         };
         let allowed_contacts: Vec<usize> = touched.into_iter().map(|object| self.obstacle_number(object)).collect();
         let payload = payload.map(|payload| (payload, heights));
-        Some(self.scene_of(arm, self.obstacles(poses), payload, &allowed_contacts))
+        Some(self.scene_of(arm, self.obstacles(poses), payload, allowed_contacts))
     }
 
     /// Returns the scene of an arm with a payload at these heights.
     fn scene_of(
         &self,
         mut arm: Arm,
-        workspace: Workspace,
+        workspace: TimedWorkspace,
         payload: Option<(&Payload, Heights)>,
-        allowed_contacts: &[usize],
+        allowed_contacts: Vec<usize>,
     ) -> Scene {
         let attachment = payload.map(|(payload, heights)| payload.attachment(self, &arm, heights));
         if let (Some((payload, _)), Some(mut dynamics)) = (payload, arm.dynamics) {
             dynamics.bodies[1] = joined(&dynamics.bodies[1], &payload.body(self, &arm));
             arm.dynamics = Some(dynamics);
         }
-        Scene::with_attachment_trusted(arm, workspace, attachment, allowed_contacts)
+        let (workspace, additions) = workspace.into_parts();
+        Scene::with_trusted(arm, workspace, Additions { attachment, allowed_contacts, ..additions })
     }
 }

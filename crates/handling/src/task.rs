@@ -1,7 +1,7 @@
 //! Tasks: objects, and the steps to execute with them.
 
-use super::{Payload, Stroke};
-use cplan_core::model::{Arm, Course, Goal, Heights, Mover, Obstacle, Shape, Workspace};
+use super::{Course, Mover, Payload, Stroke, TimedWorkspace};
+use cplan_core::model::{Arm, Goal, Heights, Obstacle, Shape};
 use cplan_core::space::Configuration;
 use cplan_geometry::{Convex, Interval, Point, Pose};
 use cplan_text::short;
@@ -130,7 +130,7 @@ pub struct Task {
     /// The arm without a load.
     pub arm: Arm,
     /// The static obstacles and the moving obstacles of the world.
-    pub workspace: Workspace,
+    pub workspace: TimedWorkspace,
     /// The objects that the arm can carry.
     pub objects: Vec<Object>,
     /// Start configuration, within the joint limits and free.
@@ -153,7 +153,7 @@ impl Task {
     /// Returns the workspace with the objects at their poses. A carried object has no pose and becomes an obstacle
     /// without pieces, so that numbers stay the same.
     #[must_use]
-    pub fn obstacles(&self, poses: &[Option<Pose>]) -> Workspace {
+    pub fn obstacles(&self, poses: &[Option<Pose>]) -> TimedWorkspace {
         let mut workspace = self.workspace.clone();
         workspace.obstacles.extend(self.objects.iter().zip(poses).map(|(object, pose)| object.lying(pose.as_ref())));
         workspace
@@ -161,10 +161,29 @@ impl Task {
 
     /// Returns the same workspace with moving objects. They follow the workspace's own moving obstacles.
     #[must_use]
-    pub fn surroundings(&self, poses: &[Option<Pose>], moving: &[usize]) -> Workspace {
+    pub fn surroundings(&self, poses: &[Option<Pose>], moving: &[usize]) -> TimedWorkspace {
         let mut workspace = self.obstacles(poses);
         workspace.movers.extend(moving.iter().filter_map(|&object| self.objects[object].moving()));
         workspace
+    }
+
+    /// Returns the trajectories of the moving obstacles of [`Task::surroundings`], on the clock of the task.
+    #[must_use]
+    pub fn courses(&self, moving: &[usize]) -> Vec<Course> {
+        let objects = moving.iter().filter_map(|&object| self.objects[object].course.clone());
+        self.workspace.courses().into_iter().chain(objects).collect()
+    }
+
+    /// Returns the same on a clock that begins at a time of the task's.
+    #[must_use]
+    pub fn courses_since(&self, moving: &[usize], begin: f64) -> Vec<Course> {
+        self.courses(moving).iter().map(|course| course.since(begin)).collect()
+    }
+
+    /// Returns the same for the objects that move initially.
+    #[must_use]
+    pub fn courses_at_first(&self) -> Vec<Course> {
+        self.courses(&self.moving_at_first().collect::<Vec<_>>())
     }
 
     /// Returns the number of an object as an obstacle while `moving` objects move.

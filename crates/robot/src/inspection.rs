@@ -3,6 +3,7 @@
 use super::error::InputError;
 use cplan_core::model::{OutlineSource, Scene};
 use cplan_geometry::Point;
+use cplan_handling::Course;
 use nalgebra::Vector3;
 use serde::Serialize;
 
@@ -51,6 +52,9 @@ pub struct Inspection {
     /// The arm among the world's obstacles, for a picture. Missing ranges and outlines are replaced by assumed ones.
     #[serde(skip)]
     pub scene: Option<Scene>,
+    /// The trajectories of the scene's loose obstacles.
+    #[serde(skip)]
+    pub courses: Vec<Course>,
     /// Frames of the two joints' links and of the tip's link at the zero configuration.
     #[serde(skip)]
     pub frames: Vec<Frame>,

@@ -161,7 +161,7 @@ impl Study {
             false => cplan_world::scene_from(urdf, world)?,
         };
         if !self.may_overlap
-            && let Some(why) = overlap(&self.base.world.workspace, &scene.world.workspace)
+            && let Some(why) = overlap(&self.base.world.workspace.obstacles, &scene.world.workspace.obstacles)
         {
             let source = self.world.source();
             return Err(source.diagnostic(why).help("a study in which that may be says overlap = true").into());

@@ -115,7 +115,7 @@ impl State {
         state
     }
 
-    /// Returns the scene of this state, with moving obstacles on the clock of the task. Link 2 may touch the object
+    /// Returns the scene of this state. Link 2 may touch the object
     /// just released, and one other: the object that it moves to, or the one that it released before.
     pub fn scene(&self, task: &Task, touched: Option<usize>) -> Scene {
         task.scene(&self.poses, &self.moving, self.held.as_ref(), self.released.into_iter().chain(touched))

@@ -1,7 +1,7 @@
 //! Shapes that link 2 carries along beyond its own parts.
 
-use super::pairing::{Kind, Reading, obstacles};
-use super::{Arm, Carrier, Heights, Part, Workspace};
+use super::pairing::{Kind, Reading};
+use super::{Arm, Carrier, Heights, LooseObstacle, Obstacle, Part};
 use crate::space::Configuration;
 use cplan_geometry::{Convex, Point, Pose};
 use nalgebra::{Isometry2, Translation2};
@@ -107,18 +107,19 @@ impl Attachment {
     /// pieces are added to `differences`.
     pub(super) fn on_link(
         &self,
-        arm: &Arm,
-        workspace: &Workspace,
+        tip: Point,
+        obstacles: &[(Kind, &Obstacle)],
+        clearance: f64,
         reading: &Reading,
         differences: &mut [Vec<Convex>],
     ) -> Vec<(Part, Meetable)> {
         let counts = |part: &&AttachedPart| part.is_evidence || !reading.is_evidence();
         let is_level = self.grip.is_level();
         let on_link = |part: &AttachedPart| {
-            let shape = if is_level { Convex::point(arm.tip) } else { part.shape.at(&self.grip.frame()) };
+            let shape = if is_level { Convex::point(tip) } else { part.shape.at(&self.grip.frame()) };
             let (heights, body) = (self.heights, self.name.clone());
             let on_link = Part { shape, inner: None, number: part.number, is_visual: false, heights, body };
-            (on_link, self.meetable(part, arm, workspace, reading, differences))
+            (on_link, self.meetable(part, obstacles, clearance, reading, differences))
         };
         self.parts.iter().filter(counts).map(on_link).collect()
     }
@@ -128,27 +129,27 @@ impl Attachment {
     fn meetable(
         &self,
         part: &AttachedPart,
-        arm: &Arm,
-        workspace: &Workspace,
+        obstacles: &[(Kind, &Obstacle)],
+        clearance: f64,
         reading: &Reading,
         differences: &mut [Vec<Convex>],
     ) -> Meetable {
         let level = self.grip.is_level().then(|| part.shape.at(&self.grip.frame()));
-        let of = |(number, (kind, obstacle)): (usize, (Kind, &super::Obstacle))| {
+        let of = |(number, &(kind, obstacle)): (usize, &(Kind, &Obstacle))| {
             let own = obstacle.pieces.len();
             // The angle between a level part and obstacles that joint 1 carries is unknown. So the part is covered by a
             // disc, which is no evidence.
             let is_folding = matches!(kind, Kind::Own(own) if own.carrier == Carrier::FirstJoint);
             let is_turned = level.is_some() && is_folding;
-            let nearer = self.nearer(part, number, workspace.clearance);
+            let nearer = self.nearer(part, number, clearance);
             let Some(nearer) = nearer.filter(|_| !(is_turned && reading.is_evidence())) else { return 0..0 };
             if level.is_none() && nearer == 0.0 {
                 return 0..own;
             }
-            // A moving obstacle has its pieces in its own frame, which does not turn while something level is carried.
+            // A loose obstacle has its pieces in its own frame, which does not turn if something level is attached.
             let seen = level.as_ref().map(|level| match kind {
                 _ if is_turned => all_round(level),
-                Kind::Moving(mover) => level.at(&Isometry2::rotation(-mover.course.stops()[0].angle)),
+                Kind::Loose(LooseObstacle { angle, .. }) => level.at(&Isometry2::rotation(-angle.unwrap_or_default())),
                 Kind::Standing | Kind::Own(_) => level.clone(),
             });
             let made = &mut differences[number];
@@ -159,7 +160,7 @@ impl Attachment {
             }));
             first..own + made.len()
         };
-        obstacles(arm, workspace).enumerate().map(of).collect()
+        obstacles.iter().enumerate().map(of).collect()
     }
 }
 

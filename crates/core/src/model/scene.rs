@@ -1,13 +1,13 @@
 //! The arm among its obstacles.
 
-use super::pairing::{Meet, Pairing, Reading, obstacles};
+use super::pairing::{Meet, Pairing, Reading, numbered};
 use super::scene_error::{check, check_clearance};
 use super::scene_record::SceneRecord;
 use super::{
-    Arm, Attachment, Carrier, Heights, Joint, Link, Mover, Obstacle, Part, SceneError, SelfObstacle, Workspace,
+    Arm, Attachment, Carrier, Heights, Joint, Link, LooseObstacle, Obstacle, Part, SceneError, SelfObstacle, Workspace,
 };
 use crate::space::{Configuration, JointRange};
-use cplan_geometry::{Convex, Separation, separation};
+use cplan_geometry::{Convex, Pose, Separation, separation};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 
@@ -18,7 +18,7 @@ pub struct Pair {
     pub link: usize,
     /// Index into the link's parts.
     pub part: usize,
-    /// Index into the workspace's obstacles, followed by the moving obstacles, followed by the arm's self obstacles.
+    /// Index into the workspace's obstacles, followed by the loose obstacles, followed by the arm's self obstacles.
     pub obstacle: usize,
     /// Index into the obstacle's pieces, followed by the shapes derived from them for an attachment.
     pub piece: usize,
@@ -33,6 +33,18 @@ pub struct Contact {
     pub separation: Separation,
 }
 
+/// What a scene can have beyond an arm and a workspace.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Additions {
+    /// Loose obstacles. Everything but the methods that name them ignores them.
+    pub loose: Vec<LooseObstacle>,
+    /// Shapes that link 2 carries along. No clearance is kept between them and their supports: in every distance, a
+    /// support counts as farther away by the clearance.
+    pub attachment: Option<Attachment>,
+    /// Obstacles that link 2 itself is free to meet, by their number; loose obstacles are numbered after the static ones.
+    pub allowed_contacts: Vec<usize>,
+}
+
 /// Arm and workspace, with the pairs of shapes that can meet at all. Every module that asks about collisions asks
 /// about these pairs, so a pair that heights rule out is ruled out everywhere.
 ///
@@ -44,16 +56,14 @@ pub struct Contact {
 pub struct Scene {
     arm: Arm,
     workspace: Workspace,
-    attachment: Option<Attachment>,
-    /// Obstacles that link 2 itself is free to meet.
-    allowed_contacts: Vec<usize>,
+    additions: Additions,
     /// Number of link 2's own parts; those that follow are attached.
     own_parts: usize,
     reading: Reading,
     pairs: Vec<Pair>,
-    /// The pairs with moving obstacles.
-    moving: Vec<Pair>,
-    /// For each obstacle, mover and self obstacle, in this order: the shapes derived from its pieces for a level
+    /// The pairs with loose obstacles.
+    loose_pairs: Vec<Pair>,
+    /// For each static, loose and self obstacle, in this order: the shapes derived from its pieces for a level
     /// attachment, and the smaller pieces of supports.
     differences: Vec<Vec<Convex>>,
 }
@@ -70,64 +80,55 @@ impl Scene {
     /// # Errors
     /// If a number of either makes no sense: see [`SceneError`].
     pub fn new(arm: Arm, workspace: Workspace) -> Result<Self, SceneError> {
-        Self::with_attachment(arm, workspace, None, &[])
+        Self::with(arm, workspace, Additions::default())
     }
 
-    /// Puts the arm with an attachment into the workspace. Link 2 itself is free to meet the `allowed_contacts`
-    /// obstacles; moving obstacles are numbered after the static ones. No clearance is kept between the attachment and
-    /// its supports: in every distance, a support counts as farther away by the clearance.
+    /// Puts the arm into the workspace, with these additions.
     ///
     /// # Errors
     /// Same as for [`Scene::new`]; also if there is no obstacle of a given number.
-    pub fn with_attachment(
-        arm: Arm,
-        workspace: Workspace,
-        attachment: Option<Attachment>,
-        allowed_contacts: &[usize],
-    ) -> Result<Self, SceneError> {
-        check(&arm, &workspace, attachment.as_ref(), allowed_contacts)?;
-        Ok(Self::with_attachment_trusted(arm, workspace, attachment, allowed_contacts))
+    pub fn with(arm: Arm, workspace: Workspace, additions: Additions) -> Result<Self, SceneError> {
+        check(&arm, &workspace, &additions)?;
+        Ok(Self::with_trusted(arm, workspace, additions))
     }
 
     /// Same as [`Scene::new`], without checks.
     #[must_use]
     #[doc(hidden)]
     pub fn trusted(arm: Arm, workspace: Workspace) -> Self {
-        Self::with_attachment_trusted(arm, workspace, None, &[])
+        Self::with_trusted(arm, workspace, Additions::default())
     }
 
-    /// Same as [`Scene::with_attachment`], without checks.
+    /// Same as [`Scene::with`], without checks.
     #[must_use]
     #[doc(hidden)]
-    pub fn with_attachment_trusted(
-        arm: Arm,
-        workspace: Workspace,
-        attachment: Option<Attachment>,
-        allowed_contacts: &[usize],
-    ) -> Self {
-        Self::assembled(arm, workspace, attachment, allowed_contacts, Reading::ALL)
+    pub fn with_trusted(arm: Arm, workspace: Workspace, additions: Additions) -> Self {
+        Self::assembled(arm, workspace, additions, Reading::ALL)
     }
 
     /// Creates the scene without checks.
-    fn assembled(
-        mut arm: Arm,
-        workspace: Workspace,
-        attachment: Option<Attachment>,
-        allowed_contacts: &[usize],
-        reading: Reading,
-    ) -> Self {
-        debug_assert_eq!(check(&arm, &workspace, attachment.as_ref(), allowed_contacts), Ok(()));
+    fn assembled(mut arm: Arm, workspace: Workspace, additions: Additions, reading: Reading) -> Self {
+        debug_assert_eq!(check(&arm, &workspace, &additions), Ok(()));
+        let Additions { loose, attachment, allowed_contacts } = &additions;
         let own_parts = arm.links[1].parts.len();
-        let mut differences = vec![Vec::new(); obstacles(&arm, &workspace).count()];
-        let attached = |attachment: &Attachment| attachment.on_link(&arm, &workspace, &reading, &mut differences);
-        let parts = attachment.as_ref().map_or_else(Vec::new, attached);
-        let (parts, attached): (Vec<_>, Vec<_>) = parts.into_iter().unzip();
+        let obstacles = numbered(&workspace.obstacles, loose, &arm.self_obstacles);
+        let mut differences = vec![Vec::new(); obstacles.len()];
+        let (parts, attached): (Vec<_>, Vec<_>) = attachment
+            .iter()
+            .flat_map(|carried| carried.on_link(arm.tip, &obstacles, workspace.clearance, &reading, &mut differences))
+            .unzip();
         arm.links[1].parts.extend(parts);
-        let [pairs, moving] =
-            Pairing { arm: &arm, workspace: &workspace, reading, own_parts, attached: &attached, allowed_contacts }
-                .pairs();
-        let allowed_contacts = allowed_contacts.to_vec();
-        Self { arm, workspace, attachment, allowed_contacts, own_parts, reading, pairs, moving, differences }
+        let pairing = Pairing {
+            links: &arm.links,
+            base: arm.base,
+            obstacles: &obstacles,
+            reading,
+            own_parts,
+            attached: &attached,
+            allowed_contacts,
+        };
+        let [pairs, loose_pairs] = pairing.pairs();
+        Self { arm, workspace, additions, own_parts, reading, pairs, loose_pairs, differences }
     }
 
     /// Returns the scene for proofs of collisions. It uses inner shapes where an outline covers more than the real
@@ -135,21 +136,22 @@ impl Scene {
     #[must_use]
     pub fn inner(&self) -> Cow<'_, Self> {
         let parts = || self.arm.links.iter().flat_map(|link| &link.parts);
-        let all = || obstacles(&self.arm, &self.workspace).map(|(_, obstacle)| obstacle);
-        let is_level = self.attachment.as_ref().is_some_and(|attachment| attachment.grip.is_level());
+        let placed = || self.workspace.obstacles.iter().chain(self.loose().iter().map(|loose| &loose.obstacle));
+        let own = self.arm.self_obstacles.iter().map(|own| &own.obstacle);
+        let is_level = self.attachment().is_some_and(|attachment| attachment.grip.is_level());
         let is_covered = is_level && self.arm.self_obstacles.iter().any(|own| own.carrier == Carrier::FirstJoint);
         // The heights of the robot's links are always known.
         let is_known = |is_carried: bool, part: &Part| {
             let meets = |meet: Meet, obstacle: &Obstacle| meet.holds(is_carried, part.heights, obstacle.heights);
-            self.workspace.all().all(|obstacle| meets(Meet::Perhaps, obstacle) == meets(Meet::Surely, obstacle))
+            placed().all(|obstacle| meets(Meet::Perhaps, obstacle) == meets(Meet::Surely, obstacle))
         };
         let is_exact = self.reading.is_evidence()
             || (0..2).all(|link| {
                 let (own, carried) = (self.own_parts(link), &self.arm.links[link].parts[self.own_parts(link).len()..]);
                 own.iter().all(|part| is_known(false, part)) && carried.iter().all(|part| is_known(true, part))
             });
-        let mut attached = self.attachment.iter().flat_map(|attachment| &attachment.parts);
-        let mut pieces = all().flat_map(|obstacle| &obstacle.pieces);
+        let mut attached = self.attachment().into_iter().flat_map(|attachment| &attachment.parts);
+        let mut pieces = placed().chain(own).flat_map(|obstacle| &obstacle.pieces);
         let is_whole =
             self.reading.is_evidence() || !(pieces.any(Convex::is_sliver) || attached.any(|part| !part.is_evidence));
         if is_exact && is_whole && !is_covered && parts().all(|part| part.inner.is_none()) {
@@ -189,7 +191,7 @@ impl Scene {
     /// Returns `None` if these are few, or if there is an attachment. Each part, obstacle and piece keeps its number.
     #[must_use]
     pub fn within_reach(&self) -> Option<Self> {
-        if self.attachment.is_some() || self.pairs.len() <= MANY_OUT_OF_REACH {
+        if self.attachment().is_some() || self.pairs.len() <= MANY_OUT_OF_REACH {
             return None;
         }
         let slide = |joint: &Joint| match (joint.joint_type.is_revolute(), joint.range) {
@@ -218,8 +220,8 @@ impl Scene {
         })
     }
 
-    /// Returns the scene with a change of the arm (without its attachment) or the workspace, without checks. Moving
-    /// obstacles and the attachment's supports keep their numbers.
+    /// Returns the scene with a change of the arm (without its attachment) or the workspace, without checks. The
+    /// additions stay as they are.
     #[must_use]
     #[doc(hidden)]
     pub fn changed(&self, change: impl FnOnce(&mut Arm, &mut Workspace)) -> Self {
@@ -230,7 +232,7 @@ impl Scene {
         let (mut arm, mut workspace) = (self.arm.clone(), self.workspace.clone());
         arm.links[1].parts.truncate(self.own_parts);
         change(&mut arm, &mut workspace);
-        Self::assembled(arm, workspace, self.attachment.clone(), &self.allowed_contacts, reading)
+        Self::assembled(arm, workspace, self.additions.clone(), reading)
     }
 
     /// Returns the scene with another distance to keep, metres.
@@ -242,28 +244,25 @@ impl Scene {
         Ok(self.changed(|_, workspace| workspace.clearance = clearance))
     }
 
-    /// Returns the scene at a time: moving obstacles become static at their places then, after all static ones.
+    /// Returns the scene with its loose obstacles at these poses. They become static, after all static ones.
     #[must_use]
-    pub fn frozen(&self, time: f64) -> Self {
-        if self.workspace.movers.is_empty() {
+    pub fn with_loose_at(&self, poses: impl IntoIterator<Item = Pose>) -> Self {
+        if self.loose().is_empty() {
             return self.clone();
         }
-        self.changed(|_, Workspace { obstacles, movers, .. }| obstacles.extend(movers.drain(..).map(|m| m.at(time))))
-    }
-
-    /// Returns the scene on a clock that begins at this time.
-    #[must_use]
-    pub fn since(mut self, time: f64) -> Self {
-        self.workspace.movers.iter_mut().for_each(|mover| mover.course = mover.course.since(time));
-        self
+        let mut scene = self.clone();
+        let loose = std::mem::take(&mut scene.additions.loose);
+        let placed = loose.iter().zip(poses).map(|(loose, pose)| loose.obstacle.at(&pose));
+        scene.changed(|_, workspace| workspace.obstacles.extend(placed))
     }
 
     /// Returns the scene with one more static obstacle.
     #[must_use]
     pub fn with_standing(&self, obstacle: Obstacle) -> Self {
         let (mut scene, standing) = (self.clone(), self.workspace.obstacles.len());
-        // Moving obstacles are numbered after the static ones.
-        scene.allowed_contacts.iter_mut().filter(|number| **number >= standing).for_each(|number| *number += 1);
+        // Loose obstacles are numbered after the static ones.
+        let numbers = scene.additions.allowed_contacts.iter_mut();
+        numbers.filter(|number| **number >= standing).for_each(|number| *number += 1);
         scene.changed(|_, workspace| workspace.obstacles.push(obstacle))
     }
 
@@ -277,7 +276,19 @@ impl Scene {
     /// Obstacles that link 2 itself is free to meet, by their number.
     #[must_use]
     pub fn allowed_contacts(&self) -> &[usize] {
-        &self.allowed_contacts
+        &self.additions.allowed_contacts
+    }
+
+    /// Returns what the scene has beyond arm and workspace.
+    #[must_use]
+    pub fn additions(&self) -> &Additions {
+        &self.additions
+    }
+
+    /// Returns the loose obstacles.
+    #[must_use]
+    pub fn loose(&self) -> &[LooseObstacle] {
+        &self.additions.loose
     }
 
     /// Returns the arm, with its attachment as parts of link 2.
@@ -301,7 +312,7 @@ impl Scene {
     /// Returns the attachment, if any.
     #[must_use]
     pub fn attachment(&self) -> Option<&Attachment> {
-        self.attachment.as_ref()
+        self.additions.attachment.as_ref()
     }
 
     /// Returns the link's own outline, without the attachment.
@@ -317,17 +328,17 @@ impl Scene {
         &self.pairs
     }
 
-    /// Returns the pairs of a part and a moving obstacle that can meet, in the same order. All other methods are about
+    /// Returns the pairs of a part and a loose obstacle that can meet, in the same order. All other methods are about
     /// static obstacles.
     #[must_use]
-    pub fn moving_pairs(&self) -> &[Pair] {
-        &self.moving
+    pub fn loose_pairs(&self) -> &[Pair] {
+        &self.loose_pairs
     }
 
-    /// Returns the moving obstacle of a pair, if the pair is one of [`Scene::moving_pairs`].
+    /// Returns the index of a pair's obstacle among the loose ones, if the pair is one of [`Scene::loose_pairs`].
     #[must_use]
-    pub fn mover(&self, pair: Pair) -> Option<&Mover> {
-        self.workspace.movers.get(pair.obstacle.wrapping_sub(self.workspace.obstacles.len()))
+    pub fn loose_index(&self, pair: Pair) -> Option<usize> {
+        pair.obstacle.checked_sub(self.workspace.obstacles.len()).filter(|index| *index < self.loose().len())
     }
 
     /// Returns the link of a pair's part.
@@ -343,17 +354,17 @@ impl Scene {
     }
 
     /// Returns the obstacle piece of a pair, or the shape derived from it for an attachment, in plane coordinates. For a
-    /// moving obstacle it is in the obstacle's own frame.
+    /// loose obstacle it is in the obstacle's own frame.
     #[must_use]
     pub fn piece(&self, pair: Pair) -> &Convex {
         let own = &self.obstacle(pair.obstacle).pieces;
         own.get(pair.piece).unwrap_or_else(|| &self.differences[pair.obstacle][pair.piece - own.len()])
     }
 
-    /// Returns all pieces of a moving obstacle, in its own frame, as [`Pair::piece`] counts them.
-    pub fn pieces_of_mover(&self, mover: usize) -> impl Iterator<Item = &Convex> {
-        let made = &self.differences[self.workspace.obstacles.len() + mover];
-        self.workspace.movers[mover].obstacle.pieces.iter().chain(made)
+    /// Returns all pieces of a loose obstacle, in its own frame, as [`Pair::piece`] counts them.
+    pub fn pieces_of_loose(&self, index: usize) -> impl Iterator<Item = &Convex> {
+        let made = &self.differences[self.workspace.obstacles.len() + index];
+        self.loose()[index].obstacle.pieces.iter().chain(made)
     }
 
     /// Returns the signed distance of every pair at `q`, in the order of [`Scene::pairs`].

@@ -1,6 +1,9 @@
 //! The conditions that arm, obstacles and attachment must satisfy to make a scene.
 
-use super::{Arm, Attachment, Body, Dynamics, Grip, Heights, Joint, JointType, Obstacle, Plane, Workspace};
+use super::{
+    Additions, Arm, Attachment, Body, Dynamics, Grip, Heights, Joint, JointType, LooseObstacle, Obstacle, Plane,
+    Workspace,
+};
 use crate::space::JointRange;
 use cplan_geometry::{Convex, Point, Pose, separation};
 
@@ -109,7 +112,7 @@ pub enum SceneError {
         /// Number of obstacles.
         count: usize,
     },
-    /// The attachment keeps its orientation, and a moving obstacle turns.
+    /// The attachment keeps its orientation, and a loose obstacle does not.
     #[error("payload \"{object}\" is held level, and \"{mover}\" turns")]
     TurnsAboutLevel {
         /// The attachment's name.
@@ -121,37 +124,40 @@ pub enum SceneError {
 
 /// Returns the first defect of the parts of a scene. `O(n)` in parts, obstacles and preferences; shapes are valid by
 /// their type.
-pub(super) fn check(
-    arm: &Arm,
-    workspace: &Workspace,
-    attachment: Option<&Attachment>,
-    allowed_contacts: &[usize],
-) -> Result<(), SceneError> {
+pub(super) fn check(arm: &Arm, workspace: &Workspace, additions: &Additions) -> Result<(), SceneError> {
     check_arm(arm)?;
     check_workspace(workspace)?;
-    if let Some(Attachment { name, heights, grip, parts, .. }) = attachment {
-        check_heights(name, *heights)?;
-        let is_finite = match grip {
-            Grip::Rigid(pose) => is_pose(pose),
-            Grip::Level { angle, point } => are_small([*angle, point.x, point.y]),
-        };
-        if !is_finite || !parts.iter().all(|part| is_small(&part.shape)) {
-            return Err(SceneError::Grip { object: name.clone() });
-        }
-        if let Some(mover) = workspace.movers.iter().find(|mover| grip.is_level() && mover.course.turns()) {
-            let (object, mover) = (name.clone(), mover.obstacle.name.clone());
-            return Err(SceneError::TurnsAboutLevel { object, mover });
-        }
-    }
+    let Additions { loose, attachment, allowed_contacts } = additions;
+    loose.iter().try_for_each(|loose| check_obstacle(&loose.obstacle))?;
     let count = workspace.obstacles.len();
-    let supports = attachment.map_or(&[][..], |attachment| &attachment.supports);
-    let all = count + workspace.movers.len();
-    let unknown = |numbers: &[usize], count: usize| {
-        let number = numbers.iter().copied().find(|&number| number >= count);
-        number.map_or(Ok(()), |number| Err(SceneError::NoObstacle { number, count }))
+    let known = |numbers: &[usize], count: usize| match numbers.iter().find(|number| **number >= count) {
+        Some(&number) => Err(SceneError::NoObstacle { number, count }),
+        None => Ok(()),
     };
-    unknown(allowed_contacts, all)?;
-    unknown(supports, count)
+    if let Some(attachment) = attachment {
+        check_attachment(attachment, loose)?;
+        known(&attachment.supports, count)?;
+    }
+    known(allowed_contacts, count + loose.len())
+}
+
+fn check_attachment(attachment: &Attachment, loose: &[LooseObstacle]) -> Result<(), SceneError> {
+    let Attachment { name, heights, grip, parts, .. } = attachment;
+    check_heights(name, *heights)?;
+    let is_finite = match grip {
+        Grip::Rigid(pose) => is_pose(pose),
+        Grip::Level { angle, point } => are_small([*angle, point.x, point.y]),
+    };
+    if !is_finite || !parts.iter().all(|part| is_small(&part.shape)) {
+        return Err(SceneError::Grip { object: name.clone() });
+    }
+    match loose.iter().find(|loose| grip.is_level() && loose.angle.is_none()) {
+        Some(loose) => {
+            let (object, mover) = (name.clone(), loose.obstacle.name.clone());
+            Err(SceneError::TurnsAboutLevel { object, mover })
+        }
+        None => Ok(()),
+    }
 }
 
 fn check_arm(arm: &Arm) -> Result<(), SceneError> {
@@ -244,8 +250,7 @@ pub fn check_range(joint: &str, range: JointRange) -> Result<(), SceneError> {
 
 fn check_workspace(workspace: &Workspace) -> Result<(), SceneError> {
     check_clearance(workspace.clearance)?;
-    let moving = workspace.movers.iter().map(|mover| &mover.obstacle);
-    workspace.obstacles.iter().chain(moving).try_for_each(check_obstacle)?;
+    workspace.obstacles.iter().try_for_each(check_obstacle)?;
     let is_unit = |[x, y]: [f64; 2]| (x.hypot(y) - 1.0).abs() <= UNIT_ROUNDING;
     match workspace.preferences.iter().find(|p| !(p.epsilon.is_finite() && p.direction.is_none_or(is_unit))) {
         Some(preference) => Err(SceneError::Preference { name: preference.name.clone() }),

@@ -15,7 +15,7 @@ pub enum Carrier {
 
 /// A shape of a link of the robot, or one layer of it, that links further along the chain can hit.
 ///
-/// A [`super::Scene`] numbers it after the static and the moving obstacles.
+/// A [`super::Scene`] numbers it after the static and the loose obstacles.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SelfObstacle {

@@ -5,7 +5,7 @@ use super::{AT, Fault, ReplayedTurn, SHORT, angle_between};
 use cplan_core::model::{Grip, Scene};
 use cplan_core::space::Configuration;
 use cplan_geometry::{Point, Pose};
-use cplan_handling::{Action, Holding, Object, Payload, RecordedTurn, Step, Task};
+use cplan_handling::{Action, Course, Holding, Object, Payload, RecordedTurn, Step, Task};
 
 /// The places of the objects, and the load.
 #[derive(Debug, Clone)]
@@ -55,9 +55,14 @@ impl State {
         self.released
     }
 
-    /// Returns the current scene, on the clock of the task. Link 2 may touch the object just released, and another one.
+    /// Returns the current scene. Link 2 may touch the object just released, and another one.
     pub fn scene(&self, task: &Task, touched: Option<usize>) -> Scene {
         task.scene(&self.poses, &self.moving, self.held.as_ref(), self.released.into_iter().chain(touched))
+    }
+
+    /// Returns the trajectories of the moving obstacles, on a clock that begins at a time of the task's.
+    pub fn courses(&self, task: &Task, begin: f64) -> Vec<Course> {
+        task.courses_since(&self.moving, begin)
     }
 
     /// Takes the object that a step picks with the arm at `q`, in the current relative pose. `then` lists its next
