@@ -107,7 +107,7 @@ pub mod input {
         AngleOrLength, BodyEntry, Diagnostic, DiagnosticKind, FileIdentity, Frame, InputError, Inspection, JointEntry,
         LARGEST, LimitEntry, LimitSource, LinkEntry, OutlineEntry, PairEntry, PlaneEntry, Position, Quantity,
         RateEntry, RateSource, ReachEntry, RobotFile, RobotReport, Role, SelfObstacleEntry, Source, meshes_elsewhere,
-        read_bytes, read_from,
+        read_bytes,
     };
     pub use cplan_world::*;
 }

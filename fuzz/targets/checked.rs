@@ -26,7 +26,8 @@ static FILES: LazyLock<Files> = LazyLock::new(|| {
     files.write("walls.toml", b"[map]\nfile = \"any\"\n");
     files.write("pixel.pgm", b"P2 1 1 1 0");
     for format in ["stl", "obj", "dae"] {
-        let mesh = format!("<mesh filename=\"any.{format}\" scale=\"1 2 3\"/></geometry></collision><collision><geometry><");
+        let mesh =
+            format!("<mesh filename=\"any.{format}\" scale=\"1 2 3\"/></geometry></collision><collision><geometry><");
         files.write(&format!("{format}.urdf"), urdf.replacen("<box ", &format!("{mesh}box "), 1).as_bytes());
     }
     files
@@ -39,7 +40,8 @@ const YAML: &str =
     "image: any\nresolution: 0.1\norigin: [9, 0, 0.5]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.2\n";
 
 fuzz_target!(|bytes: &[u8]| {
-    let any = ["any", "any.urdf", "any.toml", "any.yaml", "any.stl", "any.obj", "any.dae"].map(|name| FILES.write(name, bytes));
+    let any = ["any", "any.urdf", "any.toml", "any.yaml", "any.stl", "any.obj", "any.dae"]
+        .map(|name| FILES.write(name, bytes));
     let folder = any[0].parent().expect("in a folder");
     let certificate = folder.join("certificate.json");
     let judged = |robot: &str, world: &str| match check_files(&folder.join(robot), &folder.join(world), &certificate) {

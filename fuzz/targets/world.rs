@@ -7,10 +7,10 @@ mod files;
 #[path = "shipped.rs"]
 mod shipped;
 
-use cplan::input::{LoadedScene, Overrides, load, load_scene};
 use cplan::Options;
 use cplan::engine::Method;
 use cplan::engine::task::plan;
+use cplan::input::{LoadedScene, Overrides, load, load_scene};
 use files::Files;
 use libfuzzer_sys::fuzz_target;
 use shipped::shipped;

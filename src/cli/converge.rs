@@ -82,7 +82,7 @@ pub fn run(args: &ConvergeArgs) -> Result<u8, Failure> {
     let files = || outputs.iter().map(|(path, _)| path.as_path()).chain(pictures.iter().map(Sink::path));
     sinks::distinct(files())?;
     let loaded = input::load_scene(args.files.robot(), &args.files.world)?;
-    sinks::spare_inputs(files())?;
+    sinks::spare_inputs(files(), &loaded.files())?;
     loaded.robot.warnings.iter().for_each(|w| sinks::say(&format!("warning: {w}")));
     loaded.require_standing("fields are of what stands")?;
     let problem = Problem::of_scene(loaded, &args.query.overrides())?;

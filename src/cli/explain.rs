@@ -63,7 +63,7 @@ pub struct ExplainArgs {
 pub fn run(args: &ExplainArgs) -> Result<u8, Failure> {
     let sinks = sinks::sinks(&[], &args.picture)?;
     let loaded = input::load_scene(args.files.robot(), &args.files.world)?;
-    sinks::spare_inputs(sinks.iter().map(Sink::path))?;
+    sinks::spare_inputs(sinks.iter().map(Sink::path), &loaded.files())?;
     loaded.robot.warnings.iter().for_each(|warning| args.print.say(&format!("warning: {warning}")));
     let explained = Explained::of(loaded, &args.query.overrides(), Duration::from_secs_f64(args.time))?;
     if !sinks.is_empty() {

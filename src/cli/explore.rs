@@ -115,10 +115,14 @@ pub fn run(args: &ExploreArgs) -> Result<u8, Failure> {
     let map = args.map.as_deref().map(map_files).transpose()?;
     let files = || sinks.iter().map(Sink::path).chain(map.iter().flatten().map(PathBuf::as_path));
     sinks::distinct(files())?;
-    let world = input::load_scene(args.files.robot(), &args.files.world)?.explorable(&args.query.overrides())?;
+    let loaded = input::load_scene(args.files.robot(), &args.files.world)?;
+    let mut inputs = loaded.files();
+    let world = loaded.explorable(&args.query.overrides())?;
     world.robot.warnings.iter().for_each(|w| sinks::say(&format!("warning: {w}")));
     let settings = args.settings(world.goals.is_some())?;
-    sinks::spare_inputs(files())?;
+    inputs.extend(args.known.clone());
+    inputs.extend(settings.known.as_ref().and_then(|map| map.picture.clone()));
+    sinks::spare_inputs(files(), &inputs)?;
     let mut say = |text: &str| args.print.say(&format!("{text} ..."));
     let done = explore(&world.scene, &world.sensor, world.start, world.goals.as_ref(), &settings, &mut say)
         .map_err(|error| args.refused(&error))?;

@@ -74,7 +74,7 @@ pub fn run(args: &InspectArgs) -> Result<u8, Failure> {
     let sinks = sinks::sinks(&[], &args.picture)?;
     let robot = args.xacro.robot(&args.urdf);
     let inspection = input::inspect(&robot, args.world.as_deref());
-    sinks::spare_inputs(sinks.iter().map(Sink::path).chain(args.expanded.as_deref()))?;
+    sinks::spare_inputs(sinks.iter().map(Sink::path).chain(args.expanded.as_deref()), &inspection.files)?;
     if let Some(path) = &args.expanded {
         write_expanded(&robot, path)?;
     }

@@ -112,9 +112,10 @@ pub fn answer(
     require_grid(&sinks, &options.planner)?;
     let begun = Instant::now();
     let loaded = load()?;
+    let inputs = loaded.files();
     let given = given.filter(|_| certificate.is_some());
-    let about = given.map(|files| Digests::of(&files.robot(), &files.world)).transpose()?;
-    sinks::spare_inputs(sinks.iter().map(Sink::path))?;
+    let about = given.map(|files| Digests::of(&files.robot(), &files.world, &inputs)).transpose()?;
+    sinks::spare_inputs(sinks.iter().map(Sink::path), &inputs)?;
     if args.per_step && !loaded.has_steps() {
         return Err(Failure::Usage("--per-step is for worlds with steps".into()));
     }
@@ -127,7 +128,7 @@ pub fn answer(
         return Err(Failure::Usage(lack));
     }
     let steps = problem.task().map_or(1, |task| task.steps().count());
-    let files = ResultFiles::new(&sinks, args.per_step, steps)?;
+    let files = ResultFiles::new(&sinks, &inputs, args.per_step, steps)?;
     let plan = plan_with(&problem, &options, &mut |text| args.print.say(text))?;
     let begun = Instant::now();
     // If ends come from a place of the tip, or were moved to a limit, the certificate states them.

@@ -72,10 +72,11 @@ pub fn run(args: &ReachArgs) -> Result<u8, Failure> {
     pictures.iter().try_for_each(|(path, _)| check_writable(path))?;
     sinks::distinct(files())?;
     let overrides = Overrides { start: args.home, clearance: args.clearance, ..Overrides::default() };
-    let world = input::load_scene(args.files.robot(), &args.files.world)?.explorable(&overrides);
+    let loaded = input::load_scene(args.files.robot(), &args.files.world)?;
+    sinks::spare_inputs(files(), &loaded.files())?;
+    let world = loaded.explorable(&overrides);
     let world = world.map_err(|error| error.with_option("--start", "--home"))?;
     world.robot.warnings.iter().for_each(|warning| sinks::say(&format!("warning: {warning}")));
-    sinks::spare_inputs(files())?;
     let cell = args.cell.unwrap_or(world.scene.arm().reach() / CELLS);
     let reach = reach(&world.scene, world.start, cell).ok_or_else(|| {
         Failure::Option(format!("--cell {cell} makes more than {MOST_PLACES} cells: choose larger ones"))

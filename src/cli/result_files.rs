@@ -22,11 +22,11 @@ pub struct ResultFiles {
 }
 
 impl ResultFiles {
-    /// Creates the list of requested files, for this many steps.
+    /// Creates the list of requested files, for this many steps. `inputs` are the files that were read.
     ///
     /// # Errors
     /// Files per step without a suitable format, or files that cannot be written.
-    pub fn new(sinks: &[Sink], per_step: bool, steps: usize) -> Result<Self, Failure> {
+    pub fn new(sinks: &[Sink], inputs: &[PathBuf], per_step: bool, steps: usize) -> Result<Self, Failure> {
         let results = sinks.iter().filter_map(|sink| match sink {
             Sink::Result(format, path) => Some((*format, path.clone())),
             Sink::CSpace(..) | Sink::Picture(..) | Sink::Certificate(_) => None,
@@ -43,7 +43,7 @@ impl ResultFiles {
         parts.iter().try_for_each(|part| check_writable(part))?;
         let others = sinks.iter().map(Sink::path).filter(|path| !per_step || !parted.contains(path));
         sinks::distinct(others.chain(parts.iter().map(PathBuf::as_path)))?;
-        sinks::spare_inputs(parts.iter().map(PathBuf::as_path))?;
+        sinks::spare_inputs(parts.iter().map(PathBuf::as_path), inputs)?;
         Ok(files)
     }
 

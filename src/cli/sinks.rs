@@ -3,7 +3,7 @@
 use super::failure::Failure;
 use super::terminal;
 use crate::draw::View;
-use crate::input::{FileIdentity, read_from};
+use crate::input::FileIdentity;
 use crate::motion::{Format, check_writable, write_whole};
 use crate::output::{CSpaceFormat, PictureFormat};
 use crate::text::{plain, plain_json};
@@ -104,12 +104,16 @@ pub fn distinct<'a>(outputs: impl Iterator<Item = &'a Path>) -> Result<(), Failu
     Ok(())
 }
 
-/// Refuses to overwrite input files, also through links. To be called after all inputs are read.
+/// Refuses to overwrite the files that were read, also through links.
 ///
 /// # Errors
 /// When an output is an input; both are named.
-pub fn spare_inputs<'a>(mut outputs: impl Iterator<Item = &'a Path>) -> Result<(), Failure> {
-    let onto = outputs.find_map(|path| Some((path, read_from(path)?)));
+pub fn spare_inputs<'a>(mut outputs: impl Iterator<Item = &'a Path>, inputs: &[PathBuf]) -> Result<(), Failure> {
+    let inputs: Vec<_> = inputs.iter().filter_map(|path| Some((path, FileIdentity::of(path)?))).collect();
+    let onto = outputs.find_map(|path| {
+        let output = FileIdentity::of(path)?;
+        Some((path, inputs.iter().find(|(_, input)| input.is(&output))?.0))
+    });
     onto.map_or(Ok(()), |(path, input)| {
         let (path, input) = (path.display(), input.display());
         let message = format!("the output {path} is the input {input}; nothing was written");

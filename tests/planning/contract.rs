@@ -36,11 +36,11 @@ struct Spaces {
 
 impl Spaces {
     fn new(scene: &Scene, query: &Query) -> Self {
-        let cells = outer_grid(scene, [192, 192], 0.0);
+        let cells = outer_grid(scene, [96, 96], 0.0);
         let Proves::Outer { margin } = cells.proves else { unreachable!("an outer grid") };
         Self {
             polygons: regions(scene, 1e-3, query.start, 1),
-            sampled: sampled_grid(scene, [192, 192], margin),
+            sampled: sampled_grid(scene, [96, 96], margin),
             zoned: ZonedGrid::new(cells.clone(), scene),
             cells,
         }

@@ -95,7 +95,7 @@ fn motion(plan: &Plan) -> &Motion {
 #[test]
 fn motions_of_random_worlds() {
     let (mut smooth, mut faster, mut stops, mut gains) = (0, 0, 0, Vec::new());
-    for seed in seeds(60) {
+    for seed in seeds(32) {
         let mut dice = Dice::new(seed ^ 0x51_7e);
         let kind = KINDS[(seed % 4) as usize];
         let Some(problem) = world(kind, 7000 + seed).map(Problem::from) else { continue };
@@ -139,7 +139,7 @@ fn motions_of_random_worlds() {
     println!("{} motions, {smooth} faster than with stops, {stops} with stops alone", gains.len());
     println!("{faster} faster by more than a hundredth, by {:.1} % in the median", 100.0 * median);
     assert!(
-        !usual() || gains.len() > 7 && smooth > 4 && faster > 4 && stops < 3,
+        !usual() || gains.len() > 3 && smooth > 2 && faster > 2 && stops < 3,
         "{smooth} {faster} {stops} of {}",
         gains.len()
     );

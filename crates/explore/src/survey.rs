@@ -50,6 +50,7 @@ impl Survey {
             pose: Isometry2::new(Vector2::from(origin), 0.0),
             cells: vec![Occupancy::Unknown; size[0] * size[1]],
             notes: Vec::new(),
+            picture: None,
         };
         let mut survey = Self { truth: vec![None; known.cells.len()], heights, known };
         for obstacle in obstacles {

@@ -1,8 +1,7 @@
-//! Identities of the files that were read, so that no output overwrites them.
+//! Identities of files, so that no output overwrites an input.
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::sync::Mutex;
 
 /// Identity of a file, independent of the spelling of its path and of links.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -49,31 +48,4 @@ fn number(found: &fs::Metadata) -> Option<(u64, u64)> {
 #[cfg(not(unix))]
 fn number(_: &fs::Metadata) -> Option<(u64, u64)> {
     None
-}
-
-/// Every input of this process so far: named on the command line, or by another input.
-static READ: Mutex<Vec<(PathBuf, FileIdentity)>> = Mutex::new(Vec::new());
-
-/// Records a file that is read.
-pub(crate) fn note_read(path: &Path) {
-    let Some(identity) = FileIdentity::of(path) else { return };
-    let mut read = READ.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
-    if read.iter().all(|(_, known)| !known.is(&identity)) {
-        read.push((path.to_owned(), identity));
-    }
-}
-
-/// Returns the path of an input of this process that is the same file.
-#[must_use]
-pub fn read_from(path: &Path) -> Option<PathBuf> {
-    let identity = FileIdentity::of(path)?;
-    let read = READ.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
-    read.iter().find(|(_, known)| known.is(&identity)).map(|(path, _)| path.clone())
-}
-
-/// Returns the paths of all inputs that this process has read.
-#[must_use]
-pub fn files_read() -> Vec<PathBuf> {
-    let read = READ.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
-    read.iter().map(|(path, _)| path.clone()).collect()
 }

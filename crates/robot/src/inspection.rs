@@ -6,6 +6,7 @@ use cplan_geometry::Point;
 use cplan_handling::Course;
 use nalgebra::Vector3;
 use serde::Serialize;
+use std::path::PathBuf;
 
 /// The report on a robot. Facts that are unknown because of defects in the file are empty or missing.
 #[derive(Debug, Clone, Default, Serialize)]
@@ -55,6 +56,9 @@ pub struct Inspection {
     /// The trajectories of the scene's loose obstacles.
     #[serde(skip)]
     pub courses: Vec<Course>,
+    /// Paths of the files that were read: the URDF, the files of its xacro, its meshes, and those of the world.
+    #[serde(skip)]
+    pub files: Vec<PathBuf>,
     /// Frames of the two joints' links and of the tip's link at the zero configuration.
     #[serde(skip)]
     pub frames: Vec<Frame>,

@@ -29,7 +29,7 @@ mod wrist;
 
 pub use assumed::AssumedLimits;
 pub use error::{Diagnostic, DiagnosticKind, InputError, quoted};
-pub use identity::{FileIdentity, files_read, read_from};
+pub use identity::FileIdentity;
 pub use inspection::{
     BodyEntry, Frame, Inspection, JointEntry, LimitEntry, LimitSource, LinkEntry, OutlineEntry, PairEntry, PlaneEntry,
     RateEntry, RateSource, ReachEntry, Role, SelfObstacleEntry,

@@ -4,6 +4,7 @@ use crate::AssumedLimits;
 use cplan_core::model::Arm;
 use cplan_handling::{HeldJoint, RobotJoints};
 use serde::{Deserialize, Serialize};
+use std::path::PathBuf;
 
 /// The report on how the robot was read.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
@@ -27,6 +28,9 @@ pub struct RobotReport {
     /// The reason why torques are unknown, if they are.
     #[serde(default)]
     pub no_dynamics: Option<String>,
+    /// Paths of the files that were read: the URDF, the files of its xacro, and its meshes.
+    #[serde(skip)]
+    pub files: Vec<PathBuf>,
 }
 
 impl RobotReport {

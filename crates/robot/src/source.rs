@@ -1,7 +1,6 @@
 //! A text file and positions in it.
 
 use super::error::{Diagnostic, InputError};
-use super::identity::note_read;
 use cplan_xacro::Expansion;
 use serde::{Deserialize, Serialize};
 use std::fs::File;
@@ -88,7 +87,6 @@ pub fn read_bounded(path: &Path) -> io::Result<Vec<u8>> {
 
 fn read_at_most(path: &Path, most: u64) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
-    note_read(path);
     File::open(path)?.take(most + 1).read_to_end(&mut bytes)?;
     if bytes.len() as u64 > most {
         let message = format!("it is larger than {} MiB", most >> 20);
@@ -148,6 +146,17 @@ impl Source {
     #[must_use]
     pub fn path(&self) -> &Path {
         &self.path
+    }
+
+    /// Returns the paths of the files that the text comes from: its own, and those that an expansion read. A text in
+    /// memory has none.
+    #[must_use]
+    pub fn files(&self) -> Vec<PathBuf> {
+        let own = self.is_file.then(|| self.path.clone());
+        let included = self.expansion.iter().flat_map(|e| e.files.iter().map(|file| &file.path).chain(&e.yaml));
+        let mut files: Vec<PathBuf> = own.into_iter().collect();
+        files.extend(included.filter(|path| **path != self.path).cloned());
+        files
     }
 
     /// Returns the whole text.

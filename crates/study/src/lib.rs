@@ -47,7 +47,7 @@ use file::Named;
 use overlap::overlap;
 use parameter::Design;
 use std::ops::Range;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use template::Template;
 
 /// A task in many layouts.
@@ -87,6 +87,12 @@ impl Study {
     #[must_use]
     pub fn remarks(&self) -> Vec<String> {
         self.base.robot.remarks(self.base.scene.arm())
+    }
+
+    /// Returns the paths of all files that were read, the study's own first.
+    #[must_use]
+    pub fn files(&self) -> Vec<PathBuf> {
+        self.source.files().into_iter().chain(self.base.files()).collect()
     }
 
     /// Reads a study file, and robot and world that it names.

@@ -1,8 +1,8 @@
 //! Digests of the files that a problem was read from.
 
-use cplan_robot::{FileIdentity, InputError, RobotFile, files_read, read_bytes};
+use cplan_robot::{FileIdentity, InputError, RobotFile, read_bytes};
 use sha2::{Digest, Sha256};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// SHA-256 of files, in hex.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -16,16 +16,22 @@ pub struct Digests {
 }
 
 impl Digests {
-    /// Returns the digests of a URDF, a world, and all other files that this process has read so far.
+    /// Returns the digests of a URDF, a world, and the others of the `files` that were read
+    /// ([`LoadedScene::files`](super::LoadedScene::files)).
     ///
     /// # Errors
     /// A file that can no longer be read.
-    pub fn of(robot: &RobotFile, world: &Path) -> Result<Self, InputError> {
+    pub fn of(robot: &RobotFile, world: &Path, files: &[PathBuf]) -> Result<Self, InputError> {
         let given: Vec<FileIdentity> = [&robot.path, world].into_iter().filter_map(FileIdentity::of).collect();
-        let is_other =
-            |path: &Path| FileIdentity::of(path).is_some_and(|other| !given.iter().any(|one| one.is(&other)));
-        let others = files_read().into_iter().filter(|path| is_other(path)).map(|path| digest(&path));
-        let mut others: Vec<String> = others.collect::<Result<_, _>>()?;
+        let mut known = given;
+        let mut others = Vec::new();
+        for path in files {
+            let Some(identity) = FileIdentity::of(path) else { continue };
+            if known.iter().all(|one| !one.is(&identity)) {
+                known.push(identity);
+                others.push(digest(path)?);
+            }
+        }
         others.sort();
         let expanded = robot.read()?;
         let urdf = match expanded.is_expanded() {

@@ -72,7 +72,7 @@ pub use world::{World, in_toml_words, world_schema};
 use cplan_core::model::{Arm, Goal, MotionProblem, Scene};
 use cplan_handling::{Course, RobotJoints, TimedScene};
 use cplan_robot::{Diagnostic, InputError, Inspection, RobotFile, RobotReport, RobotTable, Source};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Arm, obstacles and objects as the files have them, without start, goal and steps.
 #[derive(Debug, Clone)]
@@ -161,6 +161,12 @@ impl LoadedScene {
         [self.world.start.as_ref().map(|&(start, _)| start), goal]
     }
 
+    /// Returns the paths of all files that were read: those of the robot, then those of the world.
+    #[must_use]
+    pub fn files(&self) -> Vec<PathBuf> {
+        self.robot.files.iter().cloned().chain(self.world.files()).collect()
+    }
+
     /// Does the same as [`scene_from`] for an edited text of the world. Does not read the robot again if the `[robot]`
     /// table has changed only in its placement.
     ///
@@ -221,11 +227,16 @@ pub fn inspect(robot: impl Into<RobotFile>, world: Option<&Path>) -> Inspection 
         }
     };
     let inspection = cplan_robot::survey(&robot.into(), file.robot_settings());
+    let mut files = inspection.files;
+    files.extend(file.files());
+    // A world that cannot be read is an input, too.
+    files.extend(world.map(Path::to_owned));
     let in_world = |alone: Scene| file.at_first().scene_trusted(standing(alone.arm(), &file));
     let mut inspection = Inspection {
         world: world.map(|p| p.display().to_string()),
         scene: inspection.scene.map(in_world),
         courses: file.at_first().courses(),
+        files,
         ..inspection
     };
     if let Some(error) = unread {

@@ -160,6 +160,7 @@ fn image(
         return Err(reader.source.diagnostic_at(image.span(), message).help(help).into());
     }
     let map = OccupancyMap::read(&path)?;
+    reader.files.borrow_mut().extend(map.picture.clone());
     map.notes.iter().for_each(|note| reader.taken.note(what, note.clone()));
     let pieces = map.pieces(unknown_is_free, MOST_PIECES).ok_or_else(|| {
         let message = format!("{what}: its pixels make more than {MOST_PIECES} rectangles");

@@ -19,11 +19,13 @@ pub(super) struct Reader<'a> {
     pub taken: Taken,
     /// Joint values in degrees.
     pub in_degrees: RefCell<Vec<JointPair>>,
+    /// Paths of the files that the world names, and of those that these name.
+    pub files: RefCell<Vec<PathBuf>>,
 }
 
 impl<'a> Reader<'a> {
     pub fn new(source: &'a Source) -> Self {
-        Self { source, taken: Taken::default(), in_degrees: RefCell::default() }
+        Self { source, taken: Taken::default(), in_degrees: RefCell::default(), files: RefCell::default() }
     }
 }
 
@@ -149,6 +151,7 @@ impl Reader<'_> {
         })?;
         let path = anchor.with_file_name(name.get_ref());
         if path.is_file() {
+            self.files.borrow_mut().push(path.clone());
             return Ok(path);
         }
         let message = format!("{what}: there is no file {}", path.display());

@@ -21,6 +21,8 @@ pub struct Suite {
     pub left_out: Vec<LeftOut>,
     /// Problems that cannot be read.
     pub refused: Vec<Refused>,
+    /// Paths of all files that were read.
+    pub files: Vec<PathBuf>,
 }
 
 /// A world that is nothing to compare planners on.
@@ -135,7 +137,9 @@ pub fn load_suite(place: &Path) -> Result<Suite, InputError> {
         return Err(diagnostic.help("add a [[problem]] with robot = \"arm.urdf\" and world = \"world.toml\"").into());
     }
     let name = file.name.unwrap_or_else(|| folder_name(&manifest.with_file_name("")));
-    read(name, pairs, refused)
+    let mut suite = read(name, pairs, refused)?;
+    suite.files.push(manifest);
+    Ok(suite)
 }
 
 /// Reads all worlds of a folder (every `.toml` except [`MANIFEST`], by name) with one robot.
@@ -166,8 +170,12 @@ pub fn load_folder(robot: impl Into<RobotFile>, folder: &Path) -> Result<Suite, 
 /// Reads all files, and collects the defects of those that cannot be read.
 fn read(name: String, pairs: Vec<Pair>, mut refused: Vec<Refused>) -> Result<Suite, InputError> {
     let (mut members, mut left_out) = (Vec::<Member>::new(), Vec::new());
+    let mut files = Vec::new();
     for Pair { name, robot, world } in pairs {
-        match load_scene(&robot, &world) {
+        files.extend([robot.path.clone(), world.clone()]);
+        let scene = load_scene(&robot, &world);
+        files.extend(scene.iter().flat_map(LoadedScene::files));
+        match scene {
             Ok(scene) if scene.has_steps() => left_out.push(LeftOut { world, why: "it has steps, not a goal" }),
             Ok(scene) if scene.has_movers() => left_out.push(LeftOut { world, why: "something moves in it" }),
             Ok(scene) => {
@@ -187,7 +195,7 @@ fn read(name: String, pairs: Vec<Pair>, mut refused: Vec<Refused>) -> Result<Sui
             .help("planners are compared on what stands and has a [goal]: put one in the place of steps, and remove motions")
             .into());
     }
-    Ok(Suite { name, members, left_out, refused })
+    Ok(Suite { name, members, left_out, refused, files })
 }
 
 /// Returns the error with all these defects, if there are any.

@@ -24,6 +24,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::Value;
 use std::ops::Range;
+use std::path::PathBuf;
 use toml::Spanned;
 
 /// A world file that has been read: the workspace is valid; names of joints and links are not yet checked.
@@ -35,6 +36,8 @@ pub struct World {
     pub objects: Vec<Object>,
     /// Notes about input that was corrected.
     pub notes: Vec<String>,
+    /// Paths of the files that the world names, and of those that these name.
+    pub(super) named_files: Vec<PathBuf>,
     pub(super) source: Source,
     pub(super) robot: RobotTable,
     /// Placement of the robot, if it is given.
@@ -57,6 +60,7 @@ impl World {
             workspace: Workspace::new([]).into(),
             objects: Vec::new(),
             notes: Vec::new(),
+            named_files: Vec::new(),
             source: Source::in_memory("", ""),
             robot: RobotTable::default(),
             place: None,
@@ -67,6 +71,11 @@ impl World {
             sensor: SensorWishes::default(),
             wrist: None,
         }
+    }
+
+    /// Returns the paths of all files that were read for the world, its own first.
+    pub(super) fn files(&self) -> impl Iterator<Item = PathBuf> {
+        self.source.files().into_iter().chain(self.named_files.iter().cloned())
     }
 
     /// Returns the settings for reading the robot.
@@ -216,6 +225,7 @@ pub(super) fn read(source: Source) -> Result<World, InputError> {
         workspace: TimedWorkspace { name: file.name.unwrap_or(stem), obstacles, clearance, preferences, movers },
         start,
         in_degrees: reader.in_degrees.take(),
+        named_files: reader.files.take(),
         // Steps count for more than a map's goal.
         goals: goals.or(map.goals.filter(|_| steps.is_none())),
         objects: movables.into_iter().map(|movable| movable.object).collect(),

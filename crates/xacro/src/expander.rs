@@ -31,6 +31,8 @@ pub(crate) struct Expander<'s> {
     pub open_files: Vec<PathBuf>,
     /// Macros that are being called, with the place of the call.
     pub calls: Vec<(String, Place)>,
+    /// Paths of the YAML files that were read.
+    pub yaml: Vec<PathBuf>,
     pub notes: Vec<String>,
     namespaces: Vec<(String, String)>,
 }
@@ -48,6 +50,7 @@ impl<'s> Expander<'s> {
             packages: BTreeMap::new(),
             open_files: Vec::new(),
             calls: Vec::new(),
+            yaml: Vec::new(),
             notes: Vec::new(),
             namespaces: Vec::new(),
         }
@@ -79,7 +82,7 @@ impl<'s> Expander<'s> {
         }
         let root = Element { name: root.name.clone(), attributes, children, place: root.place.clone() };
         let (text, spans) = writer::write(&root, &self.namespaces);
-        Ok(Expansion { text, spans, files: self.files, notes: self.notes })
+        Ok(Expansion { text, spans, files: self.files, yaml: self.yaml, notes: self.notes })
     }
 
     /// Reads a file; the inner error says why it cannot be.

@@ -84,6 +84,8 @@ pub struct Expansion {
     pub text: String,
     /// The XML files that were read, the robot's own first.
     pub files: Vec<File>,
+    /// Paths of the YAML files that were read, in order.
+    pub yaml: Vec<PathBuf>,
     /// The parts of the text, in ascending order of their beginnings. An attribute follows the start tag that it lies in.
     pub spans: Vec<Span>,
     /// Notes for the user about omitted parts.

@@ -197,6 +197,7 @@ impl Names for InContext<'_, '_> {
 
     fn yaml(&mut self, name: &str) -> Result<Value, Fault> {
         let path = beside(&self.expander.files[self.context.file].path, Path::new(name).to_string_lossy().as_ref());
+        self.expander.yaml.push(path.clone());
         let value = yaml::load(&path, self.expander.settings.read)?;
         self.expander.budget.spend(value.printed().len())?;
         Ok(value)

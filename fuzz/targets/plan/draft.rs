@@ -3,9 +3,9 @@
 use arbitrary::Arbitrary;
 use cplan::geometry::{Convex, Point, Vector, hull};
 use cplan::model::{
-    Arm, Heights, Joint, Link, JointType, Obstacle, OutlineSource, Part, Plane, MotionProblem, Scene, Shape, Workspace,
+    Arm, Heights, Joint, JointType, Link, MotionProblem, Obstacle, OutlineSource, Part, Plane, Scene, Shape, Workspace,
 };
-use cplan::space::{JointRange, Configuration, GoalSet};
+use cplan::space::{Configuration, GoalSet, JointRange};
 use nalgebra::Vector3;
 
 #[derive(Arbitrary, Debug)]
@@ -90,7 +90,14 @@ impl Draft {
         let joints = [a.joint("one")?, b.joint("two")?];
         let link = |(count, shapes): &(u8, [ShapeDraft; 2]), name: &str| {
             let parts = shapes.iter().take(usize::from(*count) % 3);
-            let part = |s: &ShapeDraft| Part { shape: s.shape(0.125), inner: None, number: 0, is_visual: false, heights: s.heights(), body: name.into() };
+            let part = |s: &ShapeDraft| Part {
+                shape: s.shape(0.125),
+                inner: None,
+                number: 0,
+                is_visual: false,
+                heights: s.heights(),
+                body: name.into(),
+            };
             Link { name: name.into(), parts: parts.map(part).collect(), source: OutlineSource::Collision }
         };
         let arm = Arm {

@@ -6,11 +6,11 @@ mod draft;
 
 use cplan::Outcome;
 use cplan::check::{CertifiedPath, Disconnection, certify};
+use cplan::engine::{Method, solve};
 use cplan::geometry::Convex;
 use cplan::model::{JointType, MotionProblem, Scene};
-use cplan::engine::{Method, solve};
-use cplan::{Options, Planner};
 use cplan::space::{Configuration, Path};
+use cplan::{Options, Planner};
 use draft::Draft;
 use libfuzzer_sys::fuzz_target;
 use parry2d_f64::math::{Pose, Vector};

@@ -9,6 +9,7 @@ use crate::output::title_of;
 use crate::report::{Refusal, Sampling};
 use crate::space::Configuration;
 use std::borrow::Cow;
+use std::path::PathBuf;
 use std::sync::Arc;
 
 /// The problems to compare, read and checked.
@@ -25,6 +26,8 @@ pub struct Cases {
     pub refused: Vec<Refusal>,
     /// Warnings about the robots, one line each.
     pub warnings: Vec<String>,
+    /// Paths of the files that were read.
+    pub files: Vec<PathBuf>,
 }
 
 /// A robot in a world, as one column of the comparison.
@@ -95,7 +98,7 @@ impl Cases {
         for member in &suite.members {
             member.scene.require_standing("planners are compared among what stands")?;
         }
-        let mut name = suite.name.clone();
+        let (mut name, files) = (suite.name.clone(), suite.files.clone());
         let overrides = args.query.overrides();
         let (bases, refused) =
             if args.queries.is_some() { scenes(suite, &overrides)? } else { problems(suite, &overrides)? };
@@ -130,7 +133,7 @@ impl Cases {
             Some(Sampling { queries, seed }) => format!("{name}: {queries} random queries, seed {seed}"),
             None => name,
         };
-        Ok(Self { title, cases, sampling, left_out, refused, warnings })
+        Ok(Self { title, cases, sampling, left_out, refused, warnings, files })
     }
 }
 
@@ -138,6 +141,7 @@ impl Cases {
 fn one(scene: LoadedScene) -> Suite {
     let name = scene.scene.workspace().name.clone();
     Suite {
+        files: scene.files(),
         name: name.clone(),
         members: vec![input::Member { name, scene }],
         left_out: Vec::new(),

@@ -42,7 +42,7 @@ pub fn run(args: &CompareArgs, program: &Program) -> Result<u8, Failure> {
     let files = || sinks.iter().map(|(path, _)| path.as_path()).chain(pictures.iter().map(Sink::path));
     sinks::distinct(files())?;
     let cases = Cases::load(args)?;
-    sinks::spare_inputs(files())?;
+    sinks::spare_inputs(files(), &cases.files)?;
     cases.warnings.iter().for_each(|w| sinks::say(&format!("warning: {w}")));
     for Refusal { problem, reason, .. } in &cases.refused {
         sinks::say(&format!("warning: {problem} is not run: {reason}"));

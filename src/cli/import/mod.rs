@@ -67,7 +67,10 @@ pub fn run(args: &ImportArgs) -> Result<u8, Failure> {
     })?;
     let pictures = sinks(args)?;
     let bytes = input::read_bytes(&args.drawing)?;
-    sinks::spare_inputs(pictures.iter().map(Sink::path).chain(args.output.as_deref()))?;
+    sinks::spare_inputs(
+        pictures.iter().map(Sink::path).chain(args.output.as_deref()),
+        std::slice::from_ref(&args.drawing),
+    )?;
     let settings = Settings { tolerance: args.tolerance, unit: args.unit, scale: args.scale };
     let drawing = cplan_drawing::read(&bytes, format, &settings).map_err(|error| {
         let position = error.line.map(|line| Position { line, column: 1 });

@@ -85,7 +85,7 @@ pub struct VerifyArgs {
 pub fn run(args: &VerifyArgs) -> Result<u8, Failure> {
     let sinks = sinks::sinks_with(&[], &args.picture, args.certificate.as_deref())?;
     let mut loaded = input::load_scene(args.files.robot(), &args.files.world)?.keeping(args.clearance)?;
-    let about = Digests::of(&args.files.robot(), &args.files.world)?;
+    let about = Digests::of(&args.files.robot(), &args.files.world, &loaded.files())?;
     loaded.robot.warnings.iter().for_each(|w| args.print.say(&format!("warning: {w}")));
     let mut recorded = match &args.topic {
         None => input::load_recording(&args.trajectory, &loaded)?,
@@ -94,7 +94,8 @@ pub fn run(args: &VerifyArgs) -> Result<u8, Failure> {
     if args.torque || recorded.has_torques {
         loaded = loaded.keeping_efforts()?;
     }
-    sinks::spare_inputs(sinks.iter().map(Sink::path))?;
+    let inputs: Vec<_> = loaded.files().into_iter().chain([args.trajectory.clone()]).collect();
+    sinks::spare_inputs(sinks.iter().map(Sink::path), &inputs)?;
     let scene = &loaded.scene;
     if args.unwrap {
         recorded.recording = recorded.recording.unwrapped(&scene.arm().topology());

@@ -205,7 +205,7 @@ fn explorations_say_what_is_true() {
     let mut endings = std::collections::BTreeMap::<&str, usize>::new();
     let mut lengths = [const { Vec::new() }; 3];
     for kind in KINDS {
-        for seed in seeds(worlds.unwrap_or(4)) {
+        for seed in seeds(worlds.unwrap_or(2)) {
             let Some(problem) = world(kind, seed) else { continue };
             let sensor = sensor(problem.scene(), seed);
             let all = STRATEGIES.map(|strategy| explored(&problem, &sensor, strategy));

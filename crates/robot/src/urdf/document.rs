@@ -9,15 +9,19 @@ use super::foreign;
 use crate::error::{Diagnostic, InputError};
 use crate::source::Source;
 use roxmltree::Node;
+use std::cell::RefCell;
 use std::collections::{BTreeMap, HashMap};
 use std::fmt::Write;
 use std::ops::Range;
+use std::path::PathBuf;
 
 /// A valid part of a URDF: all numbers are finite, every element has its attributes, names are unique. Invalid elements
 /// are omitted, with a diagnostic.
 #[derive(Debug)]
 pub(super) struct Document {
     pub source: Source,
+    /// Paths of the meshes that were read so far.
+    pub meshes: RefCell<Vec<PathBuf>>,
     pub robot: urdf_rs::Robot,
     /// Places of the links, in the order of `robot.links`.
     pub links: Vec<LinkPlace>,
@@ -82,13 +86,27 @@ impl Document {
         let (links, joints) = reader.robot(root);
         let Reader { diagnostics, copy, others, tree_is_sound, .. } = reader;
         match urdf_rs::read_from_string(&copy) {
-            Ok(robot) => Ok(Self { robot, links, joints, others, diagnostics, tree_is_sound, source }),
+            Ok(robot) => Ok(Self {
+                robot,
+                links,
+                joints,
+                others,
+                diagnostics,
+                tree_is_sound,
+                source,
+                meshes: RefCell::default(),
+            }),
             Err(error) => {
                 InputError::check(diagnostics)?;
                 let diagnostic = source.diagnostic(format!("is not a URDF that can be read: {error}"));
                 Err(diagnostic.help("check_urdf, of the package liburdfdom-tools, says what else it finds").into())
             }
         }
+    }
+
+    /// Returns the paths of the files that were read so far: those of the text, and the meshes.
+    pub fn files(&self) -> Vec<PathBuf> {
+        self.source.files().into_iter().chain(self.meshes.borrow().iter().cloned()).collect()
     }
 
     /// Creates a diagnostic at a place of the file.

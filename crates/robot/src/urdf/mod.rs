@@ -76,5 +76,5 @@ pub fn load(source: Source, settings: RobotSettings) -> Result<(Arm, RobotReport
     let (arm, mut report, unknown) = reduction.arm(plane, bounds, outlines);
     report.warnings.extend(advice::warnings(&reduction, &arm));
     unknown.filter(|_| settings.table.dynamics).map_or(Ok(()), Err)?;
-    Ok((arm, RobotReport { joints, ..report }))
+    Ok((arm, RobotReport { joints, files: document.files(), ..report }))
 }

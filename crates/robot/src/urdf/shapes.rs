@@ -99,7 +99,7 @@ impl Bodies<'_> {
             Geometry::Sphere { radius } => Solid::Sphere { radius: *radius },
             Geometry::Mesh { filename, scale } => {
                 let scale = scale.map_or([1.0; 3], |s| s.0);
-                Solid::Mesh(mesh::read(filename, scale, &self.document.source)?)
+                Solid::Mesh(mesh::read(filename, scale, self.document)?)
             }
         })
     }

@@ -27,6 +27,7 @@ use urdf_rs::JointType;
 #[must_use]
 pub fn survey(robot: &RobotFile, settings: RobotSettings) -> Inspection {
     let mut report = Inspection { urdf: robot.path.display().to_string(), ..Inspection::default() };
+    report.files.push(robot.path.clone());
     let document = match robot.read().and_then(Document::read) {
         Ok(document) => document,
         Err(error) => {
@@ -46,6 +47,7 @@ pub fn survey(robot: &RobotFile, settings: RobotSettings) -> Inspection {
         Err(error) if document.tree_is_sound => report.errors.push(error),
         Err(_) => {}
     }
+    report.files = document.files();
     report
 }
 

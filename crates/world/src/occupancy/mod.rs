@@ -23,7 +23,7 @@ use cplan_robot::{Diagnostic, InputError, LARGEST, Source, read_bounded};
 use description::Description;
 use nalgebra::{Isometry2, Vector2};
 use picture::{Broken, Judge, Picture};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// An occupancy map in the plane.
 #[derive(Debug, Clone, PartialEq)]
@@ -38,6 +38,8 @@ pub struct OccupancyMap {
     pub cells: Vec<Occupancy>,
     /// Notes for the user about the description.
     pub notes: Vec<String>,
+    /// Path of the picture. `None` for a map that was not read from a file.
+    pub picture: Option<PathBuf>,
 }
 
 impl OccupancyMap {
@@ -84,7 +86,7 @@ impl OccupancyMap {
         }
         let pose = Isometry2::new(Vector2::new(x, y), yaw);
         let notes = description.notes(picture.cells.contains(&Occupancy::Unknown));
-        Ok(Self { size, resolution: description.resolution, pose, cells: picture.cells, notes })
+        Ok(Self { size, resolution: description.resolution, pose, cells: picture.cells, notes, picture: Some(path) })
     }
 
     /// Returns the occupancy at a place, or `None` outside the picture. A cell includes its lower and its left side.

@@ -5,7 +5,8 @@ mod obj;
 mod stl;
 
 use crate::quantity::LARGEST;
-use crate::source::{Source, read_bounded};
+use crate::source::read_bounded;
+use crate::urdf::document::Document;
 use cplan_xacro::packages;
 use nalgebra::Point3;
 use std::path::{Path, PathBuf};
@@ -52,15 +53,16 @@ impl From<String> for Unread {
 /// # Errors
 /// The reason with the searched places: the file is missing, the URDF is not a file, or the mesh has an unknown format,
 /// is damaged, or is too large.
-pub(super) fn read(filename: &str, scale: [f64; 3], urdf: &Source) -> Result<Mesh, Unread> {
+pub(super) fn read(filename: &str, scale: [f64; 3], document: &Document) -> Result<Mesh, Unread> {
     let extension = Path::new(filename).extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default();
     if !["stl", "dae", "obj"].contains(&extension.as_str()) {
         let message =
             format!("mesh \"{filename}\" is neither STL, Collada (.dae) nor OBJ, and cplan reads no other mesh format");
         return Err(message.into());
     }
-    let anchor = urdf.anchor().map_err(|why| format!("mesh \"{filename}\" cannot be found: {why}"))?;
+    let anchor = document.source.anchor().map_err(|why| format!("mesh \"{filename}\" cannot be found: {why}"))?;
     let path = find(filename, anchor)?;
+    document.meshes.borrow_mut().push(path.clone());
     let bytes = read_bounded(&path).map_err(|e| format!("mesh {} cannot be read: {e}", path.display()))?;
     let mesh = match extension.as_str() {
         "stl" => stl::read(bytes),
