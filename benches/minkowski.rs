@@ -14,7 +14,7 @@ fn regular(corners: usize, phase: f64) -> Convex {
 }
 
 fn hull_of_all_differences(b: &[Point], a: &[Point]) -> Vec<Point> {
-    hull(&b.iter().flat_map(|q| a.iter().map(move |p| Point::from(q - p))).collect::<Vec<_>>())
+    hull(&b.iter().flat_map(|q| a.iter().map(move |p| q - p)).collect::<Vec<_>>())
 }
 
 fn minkowski(criterion: &mut Criterion) {

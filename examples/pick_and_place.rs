@@ -29,7 +29,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         match leg.event.zip(leg.event_time()) {
             Some((Event::Grasp { object: k }, time)) => println!("{time:7.3} s             \"{}\" is taken", object(k)),
             Some((Event::Release { object: k, pose }, time)) => {
-                let at = pose.translation.vector;
+                let at = pose.translation;
                 println!("{time:7.3} s             \"{}\" is left at ({:.3}, {:.3}) m", object(k), at.x, at.y);
             }
             None => {}

@@ -80,7 +80,7 @@ impl Floor {
         let fineness = 1e-3 * self.scene.arm().reach();
         let outlines = c_obstacles(&self.scene, fineness, fineness);
         let paths: Vec<(String, Path)> =
-            ways.iter().map(|(name, way)| (name.clone(), Path::new(way.iter().map(|p| p.coords).collect()))).collect();
+            ways.iter().map(|(name, way)| (name.clone(), Path::new(way.clone()))).collect();
         let start = paths.first().map_or(Configuration::new(0.0, 0.0), |(_, path)| path.start());
         let goals: Vec<_> = goals.iter().map(|&goal| cplan::space::Segment::point(goal.into())).collect();
         svg(&View::of_picture(&Picture {

@@ -160,5 +160,5 @@ pub fn explored(floor: &Floor, planner: Planner) -> Result<Vec<(Scene, Explorati
 /// Returns the path of an exploration, from corner to corner.
 pub fn way(exploration: &Exploration) -> Vec<Point> {
     let corners = |leg: &explore::Leg| leg.curve.curve().path().waypoints().to_vec();
-    exploration.legs.iter().flat_map(corners).map(Point::from).collect()
+    exploration.legs.iter().flat_map(corners).collect()
 }

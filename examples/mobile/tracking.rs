@@ -44,7 +44,7 @@ pub fn desired(corners: &[[f64; 2]], speed: f64, time: f64) -> Desired {
         }
         left -= length;
     }
-    Desired { at: corners.last().map_or(Point::origin(), |&end| end.into()), velocity: Vector2::zeros() }
+    Desired { at: corners.last().map_or(Point::zeros(), |&end| end.into()), velocity: Vector2::zeros() }
 }
 
 /// The result of a drive.

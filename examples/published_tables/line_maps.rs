@@ -37,7 +37,7 @@ impl Scene {
             bounds: bounds(&problem),
             lines: obstacles.flat_map(segments).collect(),
             // The gantry's joints are coordinates of its tip.
-            goal: hull(problem.goals().pieces().iter().flat_map(|piece| piece.ends()).map(Point::from)),
+            goal: hull(problem.goals().pieces().iter().flat_map(|piece| piece.ends())),
             rectangles: rectangles.ok_or("a preference is no region of the tip")?,
         })
     }

@@ -86,7 +86,7 @@ pub fn verify(
     })?;
     match found.map_err(|error: InputError| raised(py, &error))? {
         Some(found) => printed(&found),
-        None => Err(refused("anywhere is for motions; a task begins at its start")),
+        None => Err(refused("anywhere is for motions: a task must begin at its start")),
     }
 }
 

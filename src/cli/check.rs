@@ -16,24 +16,29 @@ use crate::text::{Columns, at_least, fixed, told_apart};
 use clap::{Args, ValueHint};
 use std::path::PathBuf;
 
-/// Tell why a configuration is (not) free: limits, penetrations, crossing sides.
+/// Report why a configuration is free or not.
+///
+/// The report lists violated joint limits, penetrations and crossing sides.
 #[derive(Debug, Args)]
 #[command(after_help = "\
-Depths and distances are in metres. If the configuration is not free, the nearest free one is named as well.
+Depths and distances are in metres. If the configuration is not free, the report
+also names the nearest free one.
 
 Examples:
   cplan check robots/planar_2r.urdf workspaces/shelf.toml --at 10deg,45deg
-  cplan check robots/planar_2r.urdf workspaces/shelf.toml --at 0.14,0 --clearance 0.02 --picture why.html
+  cplan check robots/planar_2r.urdf workspaces/shelf.toml --at 0.14,0 \\
+    --clearance 0.02 --picture why.html
   cplan check robots/scara.urdf workspaces/scara_cell.toml --at=-1,-0.9 --json
 
-Exit codes: 0 whether it is free or not, 1 bad input or I/O, 2 wrong command line.")]
+Exit codes: 0 the configuration was checked, free or not, 1 bad input or I/O, 2
+wrong command line.")]
 pub struct CheckArgs {
     #[command(flatten)]
     pub files: Files,
-    /// The configuration, such as 0.3,-1 or 20deg,-60deg.
+    /// Configuration to check, such as 0.3,-1 or 20deg,-60deg.
     #[arg(long, value_name = "q1,q2", allow_hyphen_values = true)]
     pub at: JointValues,
-    /// The time at which obstacles that move are where they are, seconds since the motion begins.
+    /// Time for the positions of moving obstacles, seconds since the motion begins.
     #[arg(long, value_name = "SECONDS", default_value_t = 0.0, value_parser = time, allow_hyphen_values = true)]
     pub time: f64,
     /// Least distance to keep from every obstacle, metres, instead of the world's.
@@ -141,9 +146,12 @@ fn text(loaded: &LoadedScene, q: Configuration, findings: &ConfigurationFindings
             line("nearest", format!("free: {at}; {distance:.4} away in joint space"));
             let [first, second] = &arm.joints;
             let step = format!("{resolution:.2e} {}", first.unit());
-            line("", format!("(looked at values of {} every {step}; {} exact for each)", first.name, second.name));
+            line(
+                "",
+                format!("(searched values of {} in steps of {step}; {} is exact for each)", first.name, second.name),
+            );
         }
-        None if !findings.free => line("nearest", "no free configuration was found anywhere".into()),
+        None if !findings.free => line("nearest", "the search found no free configuration; that is not proven".into()),
         None => {}
     }
     line("arm", format!("{} ({})", arm.name, arm.kind()));

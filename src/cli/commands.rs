@@ -1,21 +1,29 @@
-//! Converts a list of subcommands to a grammar and a dispatch.
+//! Converts a list of subcommands to a grammar, a dispatch, and groups for the help.
 
-/// Defines `Command`, clap's enum of the subcommands, from lines `Name(file::Args)`, and `Command::run`, which calls
-/// the file's `run`. A line `Name(file::Args, program)` is for a `run` that also takes the
-/// [`Program`](super::program::Program).
+use clap::Command;
+use std::fmt::Write as _;
+
+/// Defines `Command`, clap's enum of the subcommands, from lines `Name(file::Args)` in groups, and `Command::run`, which
+/// calls the file's `run`. A line `Name(file::Args, program)` is for a `run` that also takes the
+/// [`Program`](super::program::Program). `GROUPS` lists the names in each group.
 macro_rules! commands {
-    ($program:ident: $($(#[$cfg:meta])? $name:ident($file:ident::$args:ident $(, $context:ident)?),)+) => {
-        /// Jobs with a word of their own.
+    ($program:ident: $($group:literal {
+        $($(#[$cfg:meta])? $name:ident($file:ident::$args:ident $(, $context:ident)?),)+
+    })+) => {
+        /// The subcommands.
         #[derive(Debug, clap::Subcommand)]
         enum Command {
-            $($(#[$cfg])? $name($file::$args),)+
+            $($($(#[$cfg])? $name($file::$args),)+)+
         }
 
+        /// Headings of the help, with the subcommands below each.
+        const GROUPS: &[(&str, &[&str])] = &[$(($group, &[$($(#[$cfg])? stringify!($name),)+])),+];
+
         impl Command {
-            /// Does the job, and returns the exit code.
+            /// Runs the subcommand, and returns the exit code.
             fn run(&mut self, $program: &Program) -> Result<u8, Failure> {
                 match self {
-                    $($(#[$cfg])? Self::$name(args) => $file::run(args $(, $context)?),)+
+                    $($($(#[$cfg])? Self::$name(args) => $file::run(args $(, $context)?),)+)+
                 }
             }
         }
@@ -23,3 +31,21 @@ macro_rules! commands {
 }
 
 pub(super) use commands;
+
+/// Returns a help template that lists subcommands by groups. clap has one list only; it must be hidden.
+pub fn help_template(grammar: &Command, groups: &[(&str, &[&str])]) -> String {
+    let header = grammar.get_styles().get_header();
+    let literal = grammar.get_styles().get_literal();
+    let width = grammar.get_subcommands().map(|command| command.get_name().len()).max().unwrap_or(0);
+    let mut listed = String::new();
+    for (heading, names) in groups {
+        let _ = writeln!(listed, "\n{header}{heading}:{header:#}");
+        for name in names.iter().map(|name| name.to_lowercase()) {
+            let about = grammar.find_subcommand(&name).and_then(Command::get_about);
+            let about = about.map(ToString::to_string).unwrap_or_default();
+            let blanks = " ".repeat(width - name.len());
+            let _ = writeln!(listed, "  {literal}{name}{literal:#}{blanks}  {about}");
+        }
+    }
+    format!("{{about-with-newline}}\n{{usage-heading}} {{usage}}\n{listed}\n{{all-args}}{{after-help}}")
+}

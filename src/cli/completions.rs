@@ -7,7 +7,7 @@ use super::sinks;
 use clap::{Arg, Args, Command};
 use clap_complete::Shell;
 
-/// Print what a shell needs to complete commands, options and their values.
+/// Print a script that completes commands, options and values.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
@@ -17,11 +17,12 @@ Examples:
   cplan completions powershell >> $PROFILE
   cplan completions elvish >> ~/.config/elvish/rc.elv
 
-For zsh the folder has to be in its path of functions: fpath+=~/.zfunc before compinit in ~/.zshrc. A new shell knows them.
+For zsh, the folder must be in the path of functions: put fpath+=~/.zfunc before
+compinit in ~/.zshrc. The completions work in a new shell.
 
 Exit codes: 0 printed, 1 I/O, 2 wrong command line.")]
 pub struct CompletionsArgs {
-    /// The shell.
+    /// Name of the shell.
     #[arg(value_name = "SHELL")]
     pub shell: Shell,
 }

@@ -3,6 +3,7 @@
 use super::exit::DONE;
 use super::failure::Failure;
 use super::files::Files;
+use super::headings::{OUTPUT, RELAXATION};
 use super::print_args::PrintArgs;
 use super::query_args::QueryArgs;
 use super::sinks::{self, Sink};
@@ -18,18 +19,27 @@ use crate::report::{Setup, convergence};
 use clap::{Args, ValueHint};
 use std::path::PathBuf;
 
-/// Tell how relaxations of the harmonic planner's fields converge: errors and sweeps, by relaxation, order, factor and drift.
+/// Report how relaxations of the harmonic planner's fields converge.
+///
+/// The report gives errors and sweeps by relaxation, order, factor and drift.
 #[derive(Debug, Args)]
 #[command(after_help = "\
-Jacobi's, weighted Jacobi's (0.8), Gauss-Seidel's and SOR's relaxations (the latter row by row, from the four corners in turn,
-red-black; SOR by the formula for empty rectangles) are measured on the cells of the harmonic planner: obstacles 0, goals 1, free
-cells from 0. Equations: harmonic; oriented by central and upwind differences; where the world has preferences, local by both, with
-the direction of regions that have none, bvp and bvp2. The error is against the solution by elimination. What diverges is said to diverge.
+The measured relaxations are Jacobi, weighted Jacobi (0.8), Gauss-Seidel and SOR.
+Gauss-Seidel and SOR go row by row, from the four corners in turn, and red-black;
+SOR uses the formula for empty rectangles. The cells are those of the harmonic
+planner: obstacles have the value 0, goals 1, and free cells begin with 0.
+
+The equations are harmonic, and oriented by central and upwind differences. In
+worlds with preferences, local (by both differences; --direction applies to
+regions without a direction), bvp and bvp2 are added. The error is the
+difference from the solution by elimination. Divergence is reported.
 
 Examples:
   cplan converge robots/planar_2r.urdf workspaces/shelf.toml --cells 24
-  cplan converge robots/planar_2r.urdf workspaces/u_trap.toml --cells 24 --epsilon 1 --direction 0,-1 --picture sweeps.svg
-  cplan converge robots/scara.urdf workspaces/scara_cell.toml --cells 32 --order red-black --output sweeps.csv --quiet
+  cplan converge robots/planar_2r.urdf workspaces/u_trap.toml --cells 24 \\
+    --epsilon 1 --direction 0,-1 --picture sweeps.svg
+  cplan converge robots/scara.urdf workspaces/scara_cell.toml --cells 32 \\
+    --order red-black --output sweeps.csv --quiet
 
 Exit codes: 0 measured, 1 bad input or I/O, 2 wrong command line.")]
 pub struct ConvergeArgs {
@@ -37,35 +47,42 @@ pub struct ConvergeArgs {
     pub files: Files,
     #[command(flatten)]
     pub query: QueryArgs,
-    /// Grid cells along each axis, 8 to 256. Sweeps grow with its square, but for SOR's: 256 take minutes.
+    /// Number of grid cells along each axis, 8 to 256. Except for SOR, sweeps grow with its square: 256 cells take minutes.
     #[arg(long, value_name = "N", default_value_t = 64, value_parser = clap::value_parser!(u32).range(8..=256))]
+    #[arg(help_heading = RELAXATION)]
     pub cells: u32,
-    /// Strength of the drift, per grid cell, of the oriented equations.
+    /// Strength of the drift per grid cell in the oriented equations.
     #[arg(long, value_name = "E", default_value_t = 0.5, value_parser = finite, allow_hyphen_values = true)]
+    #[arg(help_heading = RELAXATION)]
     pub epsilon: f64,
-    /// Direction of the drift in joint space, also of [[preference]] regions without one of their own.
+    /// Direction of the drift in joint space, also in [[preference]] regions without a direction.
     #[arg(long, value_name = "v1,v2", default_value = "1,0", value_parser = direction, allow_hyphen_values = true)]
+    #[arg(help_heading = RELAXATION)]
     pub direction: Direction,
-    /// In which order cells go in the scans over factor and epsilon.
-    #[arg(long, value_enum, value_name = "NAME", default_value_t = OrderName::Rows)]
+    /// Order of the cells in the scans over factor and epsilon.
+    #[arg(long, value_enum, value_name = "NAME", default_value_t = OrderName::Rows, help_heading = RELAXATION)]
     pub order: OrderName,
-    /// What lies beyond joint limits.
+    /// Effect of the joint limits on the field.
     #[arg(long, value_parser = word::<Limits>(), value_name = "NAME", default_value = "high")]
+    #[arg(help_heading = RELAXATION)]
     pub limits: Limits,
-    /// What of a sweep's changes must fall below the tolerance.
+    /// Measure of a sweep's changes, which must fall below the tolerance.
     #[arg(long, value_parser = word::<Measure>(), value_name = "NAME", default_value = "relative")]
+    #[arg(help_heading = RELAXATION)]
     pub measure: Measure,
     /// Relax until the measure is below this.
     #[arg(long, value_name = "SIZE", default_value_t = 1e-6, value_parser = positive, allow_hyphen_values = true)]
+    #[arg(help_heading = RELAXATION)]
     pub tolerance: f64,
-    /// At most so many sweeps.
+    /// Maximum number of sweeps.
     #[arg(long, value_name = "N", default_value_t = 10_000, value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(help_heading = RELAXATION)]
     pub max_sweeps: u32,
-    /// Write all that was measured: .csv (a line a sample) or .json. Can be repeated.
-    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    /// Write all measurements: .csv (one line per sample) or .json. Can be repeated.
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, help_heading = OUTPUT)]
     pub output: Vec<PathBuf>,
     /// Draw charts of errors and sweeps: .svg, .png or .html (with the tables). Can be repeated.
-    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, help_heading = OUTPUT)]
     pub picture: Vec<PathBuf>,
     #[command(flatten)]
     pub print: PrintArgs,
@@ -84,16 +101,16 @@ pub fn run(args: &ConvergeArgs) -> Result<u8, Failure> {
     let loaded = input::load_scene(args.files.robot(), &args.files.world)?;
     sinks::spare_inputs(files(), &loaded.files())?;
     loaded.robot.warnings.iter().for_each(|w| sinks::say(&format!("warning: {w}")));
-    loaded.require_standing("fields are of what stands")?;
+    loaded.require_standing("fields are for worlds without moving obstacles")?;
     let problem = Problem::of_scene(loaded, &args.query.overrides())?;
     let motion = problem.motion().ok_or_else(|| {
         let world = args.files.world.display();
         Failure::Option(format!(
-            "{world}: a world with steps has a field for each of its motions\n  cure: one with a start and a goal"
+            "{world}: a world with steps has a different field for each motion\n  hint: use a world with a start and a goal"
         ))
     })?;
     let (space, domain) = field_on_cells(motion, args.cells as usize, args.limits)
-        .map_err(|reason| Failure::Option(format!("{reason}\n  cure: more --cells")))?;
+        .map_err(|reason| Failure::Option(format!("{reason}\n  hint: more --cells")))?;
     let setup = args.setup(title_of(problem.scene()), &space, &domain).map_err(Failure::Option)?;
     let measured = convergence(&setup, &mut |text| args.print.say(&format!("{text} ...")))
         .map_err(|error| Failure::Option(error.to_string()))?;

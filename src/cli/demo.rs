@@ -19,22 +19,25 @@ pub const WORLD: &str = include_str!("../../workspaces/scara_cell.toml");
 const RESULT: &str = "plan.json";
 const PICTURE: &str = "plan.html";
 
-/// Plan a built-in SCARA cell, with no files of yours: writes plan.json and plan.html.
+/// Plan in a built-in SCARA cell; write plan.json and plan.html.
+///
+/// All options of `cplan plan` also apply; `cplan help planners` lists those of planners.
 #[derive(Debug, Args)]
 #[command(after_help = "\
-The files of the cell are those of `cplan init --kind scara`.
+`cplan init --kind scara` writes the files of this cell.
 
 Examples:
   cplan demo
   cplan demo --planner harmonic --force
   cplan demo --dir wider --clearance 0.02 --goal-tip 0.1,0.45
 
-Exit codes: those of the main job, 0 found and certified; 1 also if the files are there already; 2 wrong command line.")]
+Exit codes: those of `cplan plan`, such as 0 found and certified; 1 also if the
+files exist already; 2 wrong command line.")]
 pub struct DemoArgs {
-    /// Folder for plan.json and plan.html; made if it is not there.
+    /// Folder for plan.json and plan.html; created if missing.
     #[arg(long, value_name = "DIR", default_value = ".", value_hint = ValueHint::DirPath)]
     pub dir: PathBuf,
-    /// Replace plan.json and plan.html if they are there.
+    /// Replace an existing plan.json and plan.html.
     #[arg(long)]
     pub force: bool,
     #[command(flatten)]
@@ -45,7 +48,7 @@ pub struct DemoArgs {
 /// job's.
 ///
 /// # Errors
-/// Existing files, I/O, and options that make no sense for the cell.
+/// Existing files, I/O, and options that do not fit the cell.
 pub fn run(args: &mut DemoArgs) -> Result<u8, Failure> {
     let [result, picture] = [RESULT, PICTURE].map(|name| in_folder(&args.dir, name));
     spare(&[result.clone(), picture.clone()], args.force, "--dir DIR writes elsewhere")?;
@@ -72,13 +75,13 @@ pub fn in_folder(folder: &Path, name: &str) -> PathBuf {
 fn next(picture: &Path) -> String {
     let lines = [
         format!(
-            "open {} in a browser: move the arm, play the motion, see both in its configuration space",
+            "open {} in a browser: move the arm, play the motion, see both in the configuration space",
             word(picture)
         ),
         "cplan demo --planner harmonic --force     the same cell with another planner".into(),
         "cplan init --kind scara                   the files of this cell, to change".into(),
         "cplan init                                a small arm and world, every line explained".into(),
-        "cplan --help                              all there is, with examples".into(),
+        "cplan --help                              all commands and options, with examples".into(),
     ];
     let labelled: Vec<_> =
         lines.into_iter().enumerate().map(|(i, line)| (if i == 0 { "next" } else { "" }, line)).collect();

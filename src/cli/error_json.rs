@@ -58,7 +58,7 @@ impl ErrorJson {
     /// Describes the failure that ended a job.
     pub fn of_failure(failure: &Failure) -> Self {
         let diagnostics = match failure {
-            Failure::Input(error) => error.diagnostics(),
+            Failure::Input(error) | Failure::Blocked(error, _) => error.diagnostics(),
             _ => &[],
         };
         let kind = match (failure, diagnostics.first().map(|diagnostic| diagnostic.kind)) {

@@ -4,6 +4,8 @@
 use super::exit::{DONE, INFEASIBLE, UNKNOWN};
 use super::failure::Failure;
 use super::files::Files;
+use super::fresh::for_a_shell;
+use super::headings::{OUTPUT, QUERY};
 use super::print_args::PrintArgs;
 use super::query_args::QueryArgs;
 use super::sinks::{self, Sink};
@@ -22,16 +24,24 @@ use serde_json::{Value, json};
 use std::path::PathBuf;
 use std::time::Duration;
 
-/// Tell why there is no motion and what opens a way, or what shapes the one that there is.
+/// Explain why no path exists and which change opens one.
+///
+/// If a path exists, the explanation names the obstacles that make it longer.
 #[derive(Debug, Args)]
 #[command(after_help = "\
-Where there is no motion it names what is in the way: obstacles, limits of joints, the clearance. All of them together leave no way, proven;
-without any one of them there is one, certified. Of each the smallest change that opens a way is told between a path and a proof. A start or goal
-that is not free, which the main job refuses, is explained in the same words; of a world with steps the motion of the step that fails.
-Where there is a motion, it tells what makes it longer.
+If no path exists, the explanation names a set of blockers: obstacles, joint
+limits, the clearance. Together they exclude every path (proven); without any
+one of them a path exists (certified). For each blocker, the explanation gives
+the smallest change that opens a path, between a value with a proof that there
+is no path and a value with a certified path.
 
-After 5 s, or --time SECONDS, it says what it has: sets may then not be irreducible, which it says, and changes may be missing. The time begins
-when it is known whether there is a motion. The same input gives the same output unless the time is up.
+A blocked start or goal, which `cplan plan` refuses, is explained in the same
+way. In a world with steps, the explanation is about the step that fails.
+
+The explanation ends after 5 s, or --time SECONDS, counted from the moment when
+the existence of a path is decided. It may then lack changes, and it reports if
+the set of blockers may be reducible. The same input gives the same output
+unless the time ran out.
 
 Examples:
   cplan explain robots/planar_2r.urdf workspaces/no_path.toml
@@ -40,17 +50,20 @@ Examples:
   cplan explain robots/planar_2r.urdf workspaces/shelf.toml --goal-tip 5,0
   cplan explain robots/planar_2r.urdf workspaces/no_path.toml --time 60
 
-Exit codes: 0 there is a motion, 1 bad input or I/O, 2 wrong command line, 3 proven that there is none, 4 unknown.")]
+Exit codes: 0 a path was found, 1 bad input or I/O, 2 wrong command line, 3
+infeasible: proven that there is no path, 4 unknown.")]
 pub struct ExplainArgs {
     #[command(flatten)]
     pub files: Files,
     #[command(flatten)]
     pub query: QueryArgs,
-    /// Draw workspace and configuration space, with what is in the way and where the motion gets stuck: .svg, .png, .gif or .html. Can be repeated.
-    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    /// Draw workspace and configuration space with the blockers and the end of the reachable space: .svg, .png, .gif or
+    /// .html. Can be repeated.
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, help_heading = OUTPUT)]
     pub picture: Vec<PathBuf>,
-    /// Time for the explanation once it is known whether there is a motion; then what is known is said.
+    /// Time limit for the explanation, seconds, counted from the moment when the existence of a path is decided.
     #[arg(long, value_name = "SECONDS", default_value_t = TIME_LIMIT.as_secs_f64(), value_parser = time_limit, allow_hyphen_values = true)]
+    #[arg(help_heading = QUERY)]
     pub time: f64,
     #[command(flatten)]
     pub print: PrintArgs,
@@ -79,6 +92,19 @@ pub fn run(args: &ExplainArgs) -> Result<u8, Failure> {
     Ok(code)
 }
 
+/// Returns a hint to explain a query, as a command; `None` if it cannot be explained.
+pub fn hint(files: &Files, query: &QueryArgs) -> Option<String> {
+    let loaded = input::load_scene(files.robot(), &files.world).ok()?;
+    let overrides = query.overrides();
+    let has_ends = match loaded.has_steps() {
+        true => loaded.clone().start_alone(&overrides).is_ok(),
+        false => loaded.clone().query(&overrides).is_ok(),
+    };
+    let words = ["cplan".to_owned(), "explain".to_owned()].into_iter().chain(files.words()).chain(query.words());
+    let command = words.map(|word| for_a_shell(&word)).collect::<Vec<_>>().join(" ");
+    (has_ends && loaded.courses.is_empty()).then(|| format!("see the blockers: {command}"))
+}
+
 /// An explanation of a world's motion or task.
 #[derive(Debug)]
 pub enum Explained {
@@ -95,7 +121,7 @@ impl Explained {
     /// # Errors
     /// Overrides that do not fit the world; an invalid task.
     pub fn of(loaded: LoadedScene, overrides: &Overrides, limit: Duration) -> Result<Self, Failure> {
-        loaded.require_standing("what is in the way is told of what stands")?;
+        loaded.require_standing("explanations are for worlds without moving obstacles")?;
         let (question, notes) = if loaded.has_steps() {
             match Problem::of_scene(loaded.clone(), overrides) {
                 Ok(problem) => {
@@ -107,7 +133,9 @@ impl Explained {
                 }
                 Err(error) if error.diagnostics().iter().all(|found| found.kind == DiagnosticKind::Start) => {
                     let LoadedEnds { scene, start, goals, mut notes, .. } = loaded.start_alone(overrides)?;
-                    notes.push("no step can begin: this is about the start alone".into());
+                    notes.push(
+                        "the start is blocked, so no step can begin: this explanation is about the start alone".into(),
+                    );
                     (Question::of_goals(scene, start, &goals), notes)
                 }
                 Err(error) => return Err(error.into()),
@@ -143,7 +171,7 @@ impl Explained {
     pub fn summary(&self) -> String {
         match self {
             Self::Motion(explanation, notes) => explained::summary(explanation, notes),
-            Self::Done(_) => "all steps can be done: there is nothing to explain\n".into(),
+            Self::Done(_) => "found: all steps are planned, so there is nothing to explain\n".into(),
         }
     }
 
@@ -164,7 +192,7 @@ fn failed_step(plan: &Plan) -> Option<(Question, String)> {
     let FailedStep { step, scene, from, ik_solutions, .. } = answer.failed()?;
     let goals: GoalSet = ik_solutions.iter().map(|unreached| Segment::point(unreached.ik_solution)).collect();
     let what = step.action.describe(&task.objects);
-    let note = format!("this is the motion of step {}, which fails: {what} ({})", step.number, step.place);
+    let note = format!("step {} fails, and this explanation is about its motion: {what} ({})", step.number, step.place);
     Some((Question::new((**scene).clone(), *from, goals), note))
 }
 

@@ -3,6 +3,7 @@
 use super::exit::{DONE, INFEASIBLE, UNKNOWN};
 use super::failure::Failure;
 use super::files::Files;
+use super::headings::{EXPLORATION, OUTPUT, PLANNER};
 use super::print_args::PrintArgs;
 use super::query_args::QueryArgs;
 use super::sinks::{self, Sink};
@@ -19,72 +20,88 @@ use crate::text::{counted, short};
 use clap::{Args, ValueEnum, ValueHint};
 use std::path::{Path, PathBuf};
 
-/// Plan in a world that is only seen bit by bit: what the sensor has not seen is solid.
+/// Plan in an unknown world that a range sensor reveals.
+///
+/// All options of `cplan plan`'s planner group also apply: see `cplan help planners`.
 #[derive(Debug, Args)]
 #[command(after_help = "\
-The world file is what is really there. The arm knows of it what its range sensor has seen ([sensor] in the world file says
-what it is like: on the tip or the base, rays, field of view, range, noise); what it has not seen is solid. Every motion is certified
-within what is known to be free before it begins. It ends at the goal (\"reached\"); or when nothing new can be seen from any
-configuration of the grid that can be reached (\"explored\"); or when it is proven that there is no way to the goal in what is known, where
-cells of the map that hold anything are solid as a whole.
+The world file describes the real world. The arm knows only the space that its
+range sensor has seen; unseen space counts as solid. The table [sensor] of the
+world file describes the sensor: on the tip or the base, rays, field of view,
+range, noise. Before each motion begins, it is certified within known free space.
+
+An exploration ends in one of these ways:
+  reached      the arm is at the goal
+  explored     no reachable configuration of the grid shows anything new
+  unreachable  proven: no path leads to the goal in the known space; cells of the
+               map that contain anything count as solid
 
 Examples:
   cplan explore robots/planar_2r.urdf workspaces/shelf.toml
-  cplan explore robots/planar_2r.urdf workspaces/shelf.toml --strategy nearest --picture explored.html --map map.yaml
-  cplan explore robots/gantry.urdf workspaces/explore/rooms.toml --strategy harmonic --output explored.json
+  cplan explore robots/planar_2r.urdf workspaces/shelf.toml \\
+    --strategy nearest --picture explored.html --map map.yaml
+  cplan explore robots/gantry.urdf workspaces/explore/rooms.toml \\
+    --strategy harmonic --output explored.json
 
-Exit codes: 0 reached or explored, 1 bad input or I/O, 2 wrong command line, 3 proven that no way leads to the goal in what is known, 4 unknown.")]
+Exit codes: 0 reached or explored, 1 bad input or I/O, 2 wrong command line, 3
+proven that no path leads to the goal in the known space, 4 unknown.")]
 pub struct ExploreArgs {
     #[command(flatten)]
     pub files: Files,
-    /// Where to go next: to the goal, as far as the way is known (the default where there is a goal); to a place from which something new can
-    /// be seen: one that shows all that the nearest does, and more (view, the default elsewhere), the nearest, the first along the wall to
-    /// the right; or up the harmonic potential of all such places.
-    #[arg(long, value_enum, value_name = "NAME")]
+    /// Choice of the next motion [default: goal if the world has a goal, otherwise view].
+    #[arg(long, value_enum, value_name = "NAME", help_heading = EXPLORATION)]
     pub strategy: Option<StrategyName>,
-    /// What plans the optimistic paths, where strategy "goal" takes unknown space as free.
-    #[arg(long, value_parser = word::<Method>(), value_name = "NAME", default_value_t = Method::Shortest)]
-    pub planner: Method,
+
     #[command(flatten)]
     pub query: QueryArgs,
-    /// Configurations that count: cells of a grid along both axes of joint space.
-    #[arg(long, value_name = "N|AxB", default_value = "96")]
+    /// Number of grid cells along each axis of joint space. Their centres are the configurations that the search considers.
+    #[arg(long, value_name = "N|AxB", default_value = "96", help_heading = EXPLORATION)]
     pub grid: CellCounts,
-    /// The world is known within this distance of the arm at first, metres; by default two cells of the map.
-    #[arg(long, value_name = "METRES", value_parser = positive)]
+    /// Distance from the arm within which the world is known initially, metres [default: two cells of the map].
+    #[arg(long, value_name = "METRES", value_parser = positive, help_heading = EXPLORATION)]
     pub surveyed: Option<f64>,
-    /// What is known already: the map (FILE.yaml) that an earlier exploration of this world wrote with --map.
-    #[arg(long, value_name = "FILE.yaml", value_hint = ValueHint::FilePath)]
+    /// Map of known space (FILE.yaml) that an earlier exploration of this world wrote with --map.
+    #[arg(long, value_name = "FILE.yaml", value_hint = ValueHint::FilePath, help_heading = EXPLORATION)]
     pub known: Option<PathBuf>,
-    /// At most so many decisions.
+    /// Maximum number of decisions.
     #[arg(long, value_name = "N", default_value_t = 10_000, value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(help_heading = EXPLORATION)]
     pub decisions: u32,
-    /// Write the exploration: .json, or its whole motion: .csv, .yaml (ROS 2 JointTrajectory). Can be repeated.
-    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    /// Write the exploration (.json), or only its motion (.csv, .yaml for a ROS 2 JointTrajectory). Can be repeated.
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, help_heading = OUTPUT)]
     pub output: Vec<PathBuf>,
-    /// Write the map as ROS's map server reads it: FILE.yaml, and FILE.pgm beside it. A world takes it as an obstacle's `image`.
-    #[arg(long, value_name = "FILE.yaml", value_hint = ValueHint::FilePath)]
+    /// Write the map for ROS's map server: FILE.yaml, and FILE.pgm beside it. World files accept it as an obstacle's
+    /// `image`.
+    #[arg(long, value_name = "FILE.yaml", value_hint = ValueHint::FilePath, help_heading = OUTPUT)]
     pub map: Option<PathBuf>,
-    /// Draw the world and the whole way: .svg or .png; or .html, a page that plays what is known and seen. Can be repeated.
-    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    /// Draw the world and the whole path: .svg, .png, or .html (a page that plays the exploration). Can be repeated.
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, help_heading = OUTPUT)]
     pub picture: Vec<PathBuf>,
     #[command(flatten)]
     pub print: PrintArgs,
-    /// Say how long decisions took; without it the same input gives the same output.
-    #[arg(long)]
+    /// Also report the time of decisions. Without this option, the same input gives the same output.
+    #[arg(long, help_heading = OUTPUT)]
     pub timings: bool,
-    // Last, because its headings apply to everything after them.
+    /// Planner for the optimistic paths of strategy "goal", which treat unknown space as free.
+    #[arg(long, value_parser = word::<Method>(), value_name = "NAME", default_value_t = Method::Shortest)]
+    #[arg(help_heading = PLANNER)]
+    pub planner: Method,
     #[command(flatten)]
     pub options: PlannerArgs,
 }
 
-// The help of the option describes them.
+/// Strategies in the order of the help.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum StrategyName {
+    /// Toward the goal, as far as the path is known.
     Goal,
+    /// To a configuration that shows all that the nearest one shows, and more.
     View,
+    /// To the nearest configuration that shows something new.
     Nearest,
+    /// Up the harmonic potential of all configurations that show something new.
     Harmonic,
+    /// To the first configuration along the wall on the right that shows something new.
     Wall,
 }
 
@@ -108,9 +125,7 @@ pub fn run(args: &ExploreArgs) -> Result<u8, Failure> {
     let sinks = sinks::sinks(&args.output, &args.picture)?;
     if let Some(sink) = sinks.iter().find(|sink| !is_known(sink)) {
         let path = sink.path().display();
-        return Err(Failure::Usage(format!(
-            "{path}: an exploration is written as .json, .csv or .yaml, and has no cspace.json"
-        )));
+        return Err(Failure::Usage(format!("{path}: an exploration can only be written as .json, .csv or .yaml")));
     }
     let map = args.map.as_deref().map(map_files).transpose()?;
     let files = || sinks.iter().map(Sink::path).chain(map.iter().flatten().map(PathBuf::as_path));
@@ -119,6 +134,7 @@ pub fn run(args: &ExploreArgs) -> Result<u8, Failure> {
     let mut inputs = loaded.files();
     let world = loaded.explorable(&args.query.overrides())?;
     world.robot.warnings.iter().for_each(|w| sinks::say(&format!("warning: {w}")));
+    args.options.ignored(args.planner).iter().for_each(|w| args.print.say(&format!("warning: {w}")));
     let settings = args.settings(world.goals.is_some())?;
     inputs.extend(args.known.clone());
     inputs.extend(settings.known.as_ref().and_then(|map| map.picture.clone()));
@@ -175,10 +191,10 @@ impl ExploreArgs {
             ExploreError::NoGoal => (&self.files.world, "give it a [goal], or explore with --strategy view"),
             ExploreError::Known(_) => (
                 self.known.as_ref().unwrap_or(&self.files.world),
-                "take the map that was written of this world, arm and sensor",
+                "use a map that --map wrote for this world, arm and sensor",
             ),
         };
-        Failure::Option(format!("{}: {error}\n  cure: {cure}", file.display()))
+        Failure::Option(format!("{}: {error}\n  hint: {cure}", file.display()))
     }
 
     fn settings(&self, has_goal: bool) -> Result<Settings, Failure> {
@@ -278,7 +294,7 @@ fn summary(world: &Explorable, done: &Exploration, timed: bool) -> String {
         Ending::Explored { configurations, given_up } => {
             let given_up = match given_up {
                 0 => String::new(),
-                n => format!("; {n} of them were given up after a reading whose errors hid what it promised"),
+                n => format!("; {n} of them were given up because sensor errors hid the expected new space"),
             };
             format!(
                 "explored: nothing new can be seen from any of the {configurations} configurations that can be reached{given_up}"

@@ -14,6 +14,9 @@ pub enum Failure {
     /// A defect in one of the input files or an override.
     #[error(transparent)]
     Input(#[from] InputError),
+    /// A blocked start or goal, with a hint.
+    #[error("{0}\n  hint: {1}")]
+    Blocked(InputError, String),
     /// The options make no plan.
     #[error(transparent)]
     Plan(#[from] PlanError),

@@ -7,14 +7,14 @@ use std::path::{Path, PathBuf};
 /// The two files.
 #[derive(Debug, Args)]
 pub struct Files {
-    /// The arm: a URDF, or xacro.
+    /// Robot: a URDF or xacro file.
     #[arg(value_name = "URDF", value_hint = ValueHint::FilePath)]
     pub urdf: PathBuf,
-    /// The workspace, TOML.
+    /// World file (TOML).
     #[arg(value_name = "WORLD", value_hint = ValueHint::FilePath)]
     pub world: PathBuf,
     // As in `XacroArgs`, which an optional group cannot hold.
-    /// Argument of a robot that is xacro, in place of its default. Can be repeated.
+    /// Argument of a xacro robot, instead of its default. Can be repeated.
     #[arg(long = "xacro-arg", value_name = "NAME=VALUE", value_parser = xacro_argument)]
     pub xacro_args: Vec<(String, String)>,
 }
@@ -24,12 +24,19 @@ impl Files {
     pub fn robot(&self) -> RobotFile {
         RobotFile { path: self.urdf.clone(), xacro_args: self.xacro_args.clone() }
     }
+
+    /// Returns the files and the arguments as words of a command line.
+    pub fn words(&self) -> Vec<String> {
+        let files = [&self.urdf, &self.world].map(|path| path.display().to_string());
+        let xacro = self.xacro_args.iter().map(|(name, value)| format!("--xacro-arg={name}={value}"));
+        files.into_iter().chain(xacro).collect()
+    }
 }
 
-/// Arguments of robots that are xacro.
+/// Arguments of xacro robots.
 #[derive(Debug, Default, Args)]
 pub struct XacroArgs {
-    /// Argument of a robot that is xacro, in place of its default. Can be repeated.
+    /// Argument of a xacro robot, instead of its default. Can be repeated.
     #[arg(long = "xacro-arg", value_name = "NAME=VALUE", value_parser = xacro_argument)]
     pub xacro_args: Vec<(String, String)>,
 }

@@ -31,7 +31,7 @@ pub fn spare(files: &[PathBuf], force: bool, elsewhere: &str) -> Result<(), Fail
     }
     let (exist, them) = if there.len() == 1 { ("exists", "it") } else { ("exist", "them") };
     Err(Failure::Option(format!(
-        "{} {exist} already; nothing was written\n  cure: --force replaces {them}, {elsewhere}",
+        "{} {exist} already; nothing was written\n  hint: --force replaces {them}, {elsewhere}",
         there.join(" and ")
     )))
 }
@@ -41,4 +41,25 @@ pub fn word(path: &Path) -> String {
     let text = path.display().to_string();
     let plain = |c: char| c.is_alphanumeric() || "._-/\\:+~".contains(c);
     if !text.is_empty() && text.chars().all(plain) { text } else { format!("\"{text}\"") }
+}
+
+/// Returns a word quoted for a shell, if it needs quotes.
+pub fn for_a_shell(word: &str) -> String {
+    let is_plain = |c: char| c.is_alphanumeric() || "-_=,./:+%@".contains(c);
+    if !word.is_empty() && word.chars().all(is_plain) {
+        word.to_owned()
+    } else {
+        format!("'{}'", word.replace('\'', "'\\''"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_are_quoted_where_a_shell_would_part_them() {
+        let words = ["--start=-0.6,1.2", "a b.toml", "it's", ""];
+        assert_eq!(words.map(for_a_shell), ["--start=-0.6,1.2", "'a b.toml'", "'it'\\''s'", "''"]);
+    }
 }

@@ -18,7 +18,7 @@ const SCHEMA: &str = "world.schema.json";
 /// The world, with `{{marks}}` where the kinds of arms differ.
 const TEMPLATE: &str = include_str!("starter/world.toml");
 
-/// Write a commented world and a robot to start from.
+/// Write a robot and a world with comments, as a start.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
@@ -26,15 +26,16 @@ Examples:
   cplan init cell --kind pr
   cplan init scara --kind scara
 
-Exit codes: 0 the files are written, 1 they are there already or cannot be written, 2 wrong command line.")]
+Exit codes: 0 the files are written, 1 they exist already or cannot be written,
+2 wrong command line.")]
 pub struct InitArgs {
-    /// Folder for arm.urdf, world.toml and world.schema.json; made if it is not there.
+    /// Folder for arm.urdf, world.toml and world.schema.json; created if missing.
     #[arg(value_name = "DIR", default_value = ".", value_hint = ValueHint::DirPath)]
     pub dir: PathBuf,
-    /// The arm.
+    /// Kind of arm.
     #[arg(long, value_enum, value_name = "KIND", default_value_t = Kind::Rr)]
     pub kind: Kind,
-    /// Replace the files if they are there.
+    /// Replace existing files.
     #[arg(long)]
     pub force: bool,
 }
@@ -209,17 +210,17 @@ pub fn run(args: &InitArgs) -> Result<u8, Failure> {
         (schema_file.clone(), schema::text()),
     ];
     write_whole_set(&files)?;
-    sinks::tell(&told(&robot, &world, &schema_file))?;
+    sinks::tell(&description(&robot, &world, &schema_file))?;
     Ok(DONE)
 }
 
-/// Returns the list of written files, and the next command.
-fn told(robot: &Path, world: &Path, schema: &Path) -> String {
+/// Returns the list of written files, and the next commands.
+fn description(robot: &Path, world: &Path, schema: &Path) -> String {
     let both = format!("{} {}", word(robot), word(world));
     laid_out(&[
         ("file", format!("{}: the robot", robot.display())),
         ("file", format!("{}: start, goal and obstacles, every key explained", world.display())),
-        ("file", format!("{}: for editors, which then complete and explain the keys of the world", schema.display())),
+        ("file", format!("{}: lets editors complete and explain the keys of the world", schema.display())),
         ("next", format!("cplan {both} --picture plan.html")),
         ("next", format!("cplan check {both} --at 0.3,0.4")),
         ("next", format!("cplan inspect {both}")),

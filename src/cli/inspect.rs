@@ -36,26 +36,31 @@ struct DiagnosticEntry<'a> {
     help: Option<&'a str>,
 }
 
-/// Tell what is made of a robot: tree, plane, limits, outlines, and what keeps it from being planned with.
+/// Report how cplan interprets a robot, and all its defects.
+///
+/// The report has the tree of links, the plane, limits, outlines, and the defects that prevent planning.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
   cplan inspect robots/planar_2r.urdf
-  cplan inspect robots/scara.urdf workspaces/scara_cell.toml --picture scara.svg
-  cplan inspect robots/scara.urdf.xacro --xacro-arg reach=0.6 --expanded scara_expanded.urdf
+  cplan inspect robots/scara.urdf workspaces/scara_cell.toml \\
+    --picture scara.svg
+  cplan inspect robots/scara.urdf.xacro --xacro-arg reach=0.6 \\
+    --expanded scara_expanded.urdf
 
-Exit codes: 0 the robot can be planned with, 1 it cannot (the report is printed all the same), or I/O, 2 wrong command line.")]
+Exit codes: 0 planning with the robot is possible, 1 it is not (the report is
+printed in any case), or I/O, 2 wrong command line.")]
 pub struct InspectArgs {
-    /// The robot: a URDF or xacro, which may be broken or no planar arm at all.
+    /// Robot: a URDF or xacro file, which may be defective or not a planar arm.
     #[arg(value_name = "URDF", value_hint = ValueHint::FilePath)]
     pub urdf: PathBuf,
-    /// The workspace, TOML: its [robot] table decides what the URDF leaves open.
+    /// World file (TOML). Its table [robot] completes the URDF.
     #[arg(value_name = "WORLD", value_hint = ValueHint::FilePath)]
     pub world: Option<PathBuf>,
     #[command(flatten)]
     pub xacro: XacroArgs,
-    /// Write the URDF that a robot in xacro expands to, for `cplan-check` and other programs: .urdf. Beside the xacro file it finds the
-    /// same meshes.
+    /// Write the URDF that a xacro robot expands to (.urdf), for `cplan-check` and other programs. In the folder of the
+    /// xacro file it finds the same meshes.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub expanded: Option<PathBuf>,
     /// Draw the arm at zero with the frames of its joints: .svg, .png or .html. Can be repeated.
@@ -133,7 +138,11 @@ fn view(inspection: &Inspection) -> Option<View> {
     let outlines = if outlines.is_empty() { "none".into() } else { outlines.join(", ") };
     let picture = Picture {
         title: vec![arm.name.clone(), format!("{} and {} at zero; outlines: {outlines}", first.name, second.name)],
-        status: if inspection.is_plannable() { "can be planned with".into() } else { "cannot be planned with".into() },
+        status: if inspection.is_plannable() {
+            "planning is possible".into()
+        } else {
+            "planning is not possible".into()
+        },
         ..Picture::new(TimedScene { scene, courses: &inspection.courses }, Configuration::zeros())
     };
     let frame = |f: &input::Frame| AxesFrame { name: f.name.clone(), at: f.at, axes: f.axes };

@@ -16,14 +16,14 @@ pub fn text(report: &Inspection) -> String {
     lines.add(
         "result",
         &match count {
-            0 => "the robot can be planned with".to_owned(),
-            1 => "the robot cannot be planned with as it is: see the defect".to_owned(),
-            n => format!("the robot cannot be planned with as it is: see the {n} defects"),
+            0 => "planning with this robot is possible".to_owned(),
+            1 => "planning with this robot is not possible: see the defect".to_owned(),
+            n => format!("planning with this robot is not possible: see the {n} defects"),
         },
     );
     let name = report.robot.as_deref().unwrap_or("(no name)");
     lines.add("robot", &format!("{name}, {}", report.urdf));
-    lines.add("world", report.world.as_deref().unwrap_or("none given: nothing is chosen, held or overridden"));
+    lines.add("world", report.world.as_deref().unwrap_or("none given, so no joint is chosen, held or overridden"));
     match &report.root {
         Some(root) => tree(&mut lines, report, root, 0),
         None => report.joints.iter().for_each(|j| lines.add("joints", &branch(report, j))),
@@ -33,7 +33,7 @@ pub fn text(report: &Inspection) -> String {
     }
     pairs(&mut lines, report);
     if let Some([first, second]) = &report.chosen {
-        let how = if report.assumed { "; nobody chose them: they are the first that form a planar arm" } else { "" };
+        let how = if report.assumed { "; chosen by default, as the first pair that forms a planar arm" } else { "" };
         lines.add("chosen", &format!("\"{first}\" and \"{second}\"{how}"));
     }
     if let Some(plane) = &report.plane {
@@ -45,9 +45,9 @@ pub fn text(report: &Inspection) -> String {
         let [x, y] = reach.tip;
         lines.add("tip", &format!("origin of link \"{tip}\", at ({x:.4}, {y:.4}) m with both joints at zero"));
         if let Some([least, most]) = reach.distances {
-            lines.add("reach", &format!("the tip {least:.4} to {most:.4} m from joint 1, whatever the limits"));
+            lines.add("reach", &format!("the tip {least:.4} to {most:.4} m from joint 1, without limits"));
         }
-        lines.add("reach", &format!("no part farther than {:.4} m from joint 1, slides at zero", reach.outline));
+        lines.add("reach", &format!("all parts within {:.4} m of joint 1, slides at zero", reach.outline));
     }
     report.ignored.iter().for_each(|i| lines.add("ignored", i));
     report.warnings.iter().for_each(|w| lines.add("warning", w));
@@ -162,12 +162,12 @@ fn pairs(lines: &mut Columns, report: &Inspection) {
     let refused: Vec<&PairEntry> = pairs.iter().filter(|p| !p.planar).collect();
     refused.iter().take(REFUSED_SHOWN).for_each(|p| lines.add("pairs", &line(p)));
     if refused.len() > REFUSED_SHOWN {
-        lines.add("pairs", &format!("and {} more that form no planar arm", refused.len() - REFUSED_SHOWN));
+        lines.add("pairs", &format!("and {} more that do not form a planar arm", refused.len() - REFUSED_SHOWN));
     }
     if pairs.is_empty() {
         // Directions in the root frame are known only where the tree is.
         let tried = report.joints.iter().all(|j| j.axis.is_none() || j.direction.is_some());
-        let none = "no two joints that move on their own follow one another";
+        let none = "no two independently moving joints follow one another";
         lines.add("pairs", if tried { none } else { "not tried: the joints and their tree have defects" });
     }
 }
@@ -176,7 +176,7 @@ fn outline(lines: &mut Columns, outline: &OutlineEntry) {
     let OutlineEntry { link, source, parts, area, heights, bodies } = outline;
     let from = match *source {
         "none" => "none: it has no geometry and cannot collide".to_owned(),
-        "bar" => format!("a bar, as the world file asks; {} of {area:.6} m2 in all", counted(*parts, "part")),
+        "bar" => format!("a bar, as the world file requests; {} of {area:.6} m2 in all", counted(*parts, "part")),
         source => format!("from {source} geometry; {} of {area:.6} m2 in all", counted(*parts, "part")),
     };
     let heights = heights.map_or(String::new(), |[lower, upper]| format!("; heights {lower:.4} to {upper:.4} m"));
@@ -194,7 +194,7 @@ fn self_obstacle(lines: &mut Columns, own: &SelfObstacleEntry) {
     let hit_by = if *moves { "link 2" } else { "both links" };
     let free: Vec<String> = ignored.iter().map(|link| format!("\"{link}\"")).collect();
     let except = if free.is_empty() { String::new() } else { format!(", except {}", free.join(", ")) };
-    lines.add("own body", &format!("\"{link}\": in the way of {hit_by}{except}; heights {lower:.4} to {upper:.4} m"));
+    lines.add("own body", &format!("\"{link}\": can be hit by {hit_by}{except}; heights {lower:.4} to {upper:.4} m"));
 }
 
 fn vector(d: [f64; 3]) -> String {

@@ -11,18 +11,19 @@ use clap_mangen::Man;
 use std::io;
 use std::path::PathBuf;
 
-/// Print the manual page, or write those of all commands.
+/// Print the manual page, or write the pages of all commands.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
   cplan man > cplan.1
   cplan man man1
 
-man ./cplan.1 shows a page; pages in ~/.local/share/man/man1 are found by name, such as man cplan-check.
+`man ./cplan.1` shows a page. Pages in ~/.local/share/man/man1 are found by name,
+such as `man cplan-check`.
 
 Exit codes: 0 the pages are written, 1 I/O, 2 wrong command line.")]
 pub struct ManArgs {
-    /// Folder for the pages of all commands, which replace those that are there; without it the main page is printed.
+    /// Folder for the pages of all commands; existing pages are replaced. Without it, the main page is printed.
     #[arg(value_name = "DIR", value_hint = ValueHint::DirPath)]
     pub dir: Option<PathBuf>,
 }
@@ -117,7 +118,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn examples_stay_lines_and_come_last() {
+    fn examples_keep_their_lines_and_come_last() {
         let text =
             "A note\nin two lines.\n\nExamples:\n  cplan a --b 'c'\n  .d\nEach is one.\n\nExit codes: 0 done.\n\nMore.";
         let expected = ".SH \"NOTES\"\nA note\nin two lines.\n.PP\nMore.\n.SH \"EXIT STATUS\"\n0 done.\n\

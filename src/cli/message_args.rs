@@ -1,17 +1,19 @@
 //! Command-line options for the content of tables and ROS 2 messages.
 
+use super::headings::OUTPUT;
 use crate::engine::NamedJoints;
 use crate::grammar::word;
 use clap::Args;
 
-/// What tables and messages hold.
+/// Content of tables and messages.
 #[derive(Debug, Args)]
+#[command(next_help_heading = OUTPUT)]
 pub struct MessageArgs {
-    /// Joints that ROS 2 files (.yaml, .mcap) name: "all" for every movable joint of the robot, "planned" for the two alone.
+    /// Joints in ROS 2 files (.yaml, .mcap).
     #[arg(long, value_parser = word::<NamedJoints>(), value_name = "WHICH", default_value = "all")]
     pub joints: NamedJoints,
-    /// Write accelerations into .csv, .yaml and .mcap, too: controllers then join points by quintics instead of cubics.
-    /// Refused where the acceleration jumps; limits on the jerk of both joints (--jerk) keep it from that.
+    /// Also write accelerations into .csv, .yaml and .mcap: controllers then join points by quintics instead of cubics.
+    /// Refused if the acceleration jumps; limits on the jerk of both joints (--jerk) prevent jumps.
     #[arg(long)]
     pub accelerations: bool,
 }

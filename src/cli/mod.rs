@@ -16,6 +16,7 @@ mod explore;
 mod failure;
 mod files;
 mod fresh;
+mod headings;
 mod import;
 mod init;
 mod inspect;
@@ -58,7 +59,7 @@ use commands::commands;
 use error_json::ErrorJson;
 use exit::USAGE;
 use files::Files;
-use plan::PlanArgs;
+use plan::{PlanArgs, PlanCommand};
 use program::Program;
 use std::collections::BTreeSet;
 use std::ffi::OsString;
@@ -66,63 +67,76 @@ use std::path::Path;
 use std::process::ExitCode;
 
 commands! { program:
-    Compare(compare::CompareArgs, program),
-    Batch(batch::BatchArgs),
-    Converge(converge::ConvergeArgs),
-    Explain(explain::ExplainArgs),
-    Explore(explore::ExploreArgs),
-    Check(check::CheckArgs),
-    Import(import::ImportArgs),
-    Inspect(inspect::InspectArgs),
-    Reach(reach::ReachArgs),
-    Recheck(recheck::RecheckArgs),
-    Verify(verify::VerifyArgs),
-    #[cfg(feature = "serve")]
-    Serve(serve::ServeArgs),
-    #[cfg(feature = "study")]
-    Study(study::StudyArgs),
-    Demo(demo::DemoArgs),
-    Init(init::InitArgs),
-    Completions(completions::CompletionsArgs, program),
-    Man(man::ManArgs, program),
-    Planners(planners::PlannersArgs, program),
-    Schema(schema::SchemaArgs),
+    "Start" {
+        Demo(demo::DemoArgs),
+        Init(init::InitArgs),
+        Import(import::ImportArgs),
+    }
+    "Plan" {
+        Plan(plan::PlanCommand),
+        #[cfg(feature = "study")]
+        Study(study::StudyArgs),
+        Explore(explore::ExploreArgs),
+        Batch(batch::BatchArgs),
+    }
+    "Understand" {
+        Explain(explain::ExplainArgs),
+        Check(check::CheckArgs),
+        Reach(reach::ReachArgs),
+        Inspect(inspect::InspectArgs),
+        #[cfg(feature = "serve")]
+        Serve(serve::ServeArgs),
+    }
+    "Verify" {
+        Verify(verify::VerifyArgs),
+        Recheck(recheck::RecheckArgs),
+    }
+    "Research" {
+        Compare(compare::CompareArgs, program),
+        Converge(converge::ConvergeArgs),
+    }
+    "Shell and reference" {
+        Completions(completions::CompletionsArgs, program),
+        Man(man::ManArgs, program),
+        Planners(planners::PlannersArgs, program),
+        Schema(schema::SchemaArgs),
+    }
 }
 
-/// Plans motions of a planar two-joint arm among polygonal obstacles: a path that is certified free of collision,
-/// a proof that there is none, or "unknown".
+/// Plans motions of a planar two-joint arm among polygonal obstacles.
+///
+/// The answer is a path that is certified free of collision (found), a proof that there is no path (infeasible), or
+/// neither (unknown).
 #[derive(Debug, Parser)]
 #[command(name = "cplan", version, args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
+#[command(max_term_width = terminal::WIDEST)]
 #[command(after_help = "\
+`cplan URDF WORLD` is short for `cplan plan URDF WORLD`. `cplan help COMMAND`
+explains a command, `cplan help planners` the options of each planner.
+
 Examples:
   cplan demo
   cplan init cell
-  cplan robots/planar_2r.urdf workspaces/shelf.toml --output plan.json --picture plan.svg
-  cplan robots/scara.urdf workspaces/scara_tray.toml --planner wavefront --goal-tip 0.25,0.3
-  cplan robots/planar_2r.urdf workspaces/shelf.toml --planner wavefront --search astar --neighbors 8
-  cplan robots/planar_2r.urdf workspaces/u_trap.toml --planner harmonic --field oriented --epsilon 0.5 --direction 0,-1
-  cplan robots/scara.urdf workspaces/tasks/kitting_cell.toml --output kit.json
   cplan import workspaces/drawings/cell.dxf --output cell.toml
+  cplan robots/planar_2r.urdf workspaces/shelf.toml --picture plan.svg
+  cplan study workspaces/studies/base.toml --output base.csv --output base.html
+  cplan explain robots/planar_2r.urdf workspaces/no_path.toml
+  cplan check robots/planar_2r.urdf workspaces/shelf.toml --at 10deg,45deg
+  cplan inspect robots/scara.urdf workspaces/scara_cell.toml --picture scara.svg
+  cplan serve robots/planar_2r.urdf workspaces/shelf.toml
+  cplan verify robots/planar_2r.urdf workspaces/shelf.toml recorded.csv
   cplan compare robots/planar_2r.urdf workspaces/shelf.toml
   cplan compare --suite workspaces --output report.html
-  cplan serve robots/planar_2r.urdf workspaces/shelf.toml
-  cplan study workspaces/studies/base.toml --output base.csv --output base.html
-  cplan check robots/planar_2r.urdf workspaces/shelf.toml --at 10deg,45deg
-  cplan explain robots/planar_2r.urdf workspaces/no_path.toml
-  cplan inspect robots/scara.urdf workspaces/scara_cell.toml --picture scara.svg
-  cplan robots/planar_2r.urdf workspaces/singular_closed.toml --output proof.json
-  cplan recheck robots/planar_2r.urdf workspaces/singular_closed.toml --proof proof.json
-  cplan verify robots/planar_2r.urdf workspaces/shelf.toml recorded.csv
-  cplan verify robots/scara.urdf workspaces/tasks/kitting_cell.toml kit.json
 
-Lengths are metres, angles radians (or 30deg), times seconds. `cplan help check` and so on explain the other jobs.
+Lengths are in metres, angles in radians (or degrees: 30deg), times in seconds.
 
-Exit codes: 0 found and certified, 1 bad input or I/O, 2 wrong command line, 3 proven that there is no path, 4 unknown.")]
+Exit codes: 0 found and certified, 1 bad input or I/O, 2 wrong command line, 3
+proven infeasible, 4 unknown.")]
 struct Cli {
-    /// Other jobs than planning.
+    /// The subcommand; without one, the program plans.
     #[command(subcommand)]
     command: Option<Command>,
-    /// Files of the main job; there unless another job is.
+    /// Files to plan with, unless there is a subcommand.
     #[command(flatten)]
     files: Option<Files>,
     #[command(flatten)]
@@ -130,20 +144,34 @@ struct Cli {
 }
 
 impl Cli {
-    /// Returns the grammar for parsing. The main job's help shows one line per option and has no room for the planners'
-    /// options, so they are left out.
+    /// Returns the grammar for parsing and help: subcommands in groups, and planners' options only in `cplan planners`.
     fn to_read() -> clap::Command {
-        let planners: BTreeSet<String> =
-            PlannerWords::command().get_opts().map(|option| option.get_id().to_string()).collect();
-        let names = Method::ALL.map(|method| method.name()).join(", ");
-        let help = format!("Planner: {names}; `cplan help planners` tells of each and of its options");
-        Self::command().mut_args(|argument| match argument.get_id().as_str() {
-            "planner" => argument.hide_possible_values(true).help(help.clone()),
-            "joints" => argument.hide_possible_values(true),
-            id if planners.contains(id) => argument.hide(true),
-            _ => argument,
+        let grammar = Self::command();
+        let template = commands::help_template(&grammar, GROUPS);
+        let usage = "cplan [plan] [OPTIONS] <URDF> <WORLD>\n       cplan <COMMAND>";
+        let grammar = grammar.help_template(template).override_usage(usage);
+        let grammar = grammar.mut_subcommands(|command| command.hide(true));
+        let with_planners = ["plan", "demo", "explore"];
+        with_planners.into_iter().fold(without_planner_options(grammar), |grammar, name| {
+            grammar.mut_subcommand(name, without_planner_options)
         })
     }
+}
+
+/// Hides the planners' options from the help of a command, and refers to `cplan planners` instead.
+fn without_planner_options(command: clap::Command) -> clap::Command {
+    let planners: BTreeSet<String> =
+        PlannerWords::command().get_opts().map(|option| option.get_id().to_string()).collect();
+    let names = Method::ALL.map(|method| method.name()).join(", ");
+    command.mut_args(|argument| match argument.get_id().as_str() {
+        "planner" => {
+            let about = argument.get_help().map(ToString::to_string).unwrap_or_default();
+            let help = format!("{about}: {names}. `cplan help planners` describes them and their options");
+            argument.hide_possible_values(true).help(help)
+        }
+        id if planners.contains(id) => argument.hide(true),
+        _ => argument,
+    })
 }
 
 /// Runs the program with the process's arguments. A wrong command line ends it with exit code 2. With `--json` an error
@@ -162,13 +190,14 @@ pub fn run_with(arguments: Vec<OsString>, meter: Option<MemoryMeter>) -> u8 {
     let cli = match Cli::to_read().try_get_matches_from(arguments).and_then(|matches| Cli::from_arg_matches(&matches)) {
         Ok(cli) => cli,
         Err(error) => {
-            let misspelled = first.filter(|_| error.kind() == ErrorKind::ArgumentConflict).and_then(misspelled);
+            let is_word = matches!(error.kind(), ErrorKind::ArgumentConflict | ErrorKind::MissingRequiredArgument);
+            let misspelled = first.filter(|_| is_word).and_then(misspelled);
             return unread(&misspelled.unwrap_or(error), in_json);
         }
     };
-    let done = match (cli.command, &cli.files) {
+    let done = match (cli.command, cli.files) {
         (Some(mut command), _) => command.run(&Program { grammar: Cli::command, meter }),
-        (None, Some(files)) => plan::run(files, &cli.plan),
+        (None, Some(files)) => plan::run(&PlanCommand { files, plan: cli.plan }),
         (None, None) => {
             let error = Cli::command().error(ErrorKind::MissingRequiredArgument, "URDF and WORLD are required");
             return unread(&error, in_json);
@@ -190,17 +219,21 @@ fn misspelled(first: OsString) -> Option<clap::Error> {
     let word = first.to_string_lossy();
     let is_meant = Path::new(&first).extension().is_none() && !word.starts_with('-');
     let is_known = Cli::command().find_subcommand(&*word).is_some() || Path::new(&first).exists();
-    let message = || format!("there is no command or file {word:?}; cplan --help lists the commands");
+    let message = || format!("there is no command and no file {word:?}; `cplan --help` lists the commands");
     (is_meant && !is_known).then(|| Cli::command().error(ErrorKind::InvalidSubcommand, message()))
 }
 
 /// Reports a wrong command line, or prints the requested help or version.
 fn unread(error: &clap::Error, in_json: bool) -> u8 {
-    if in_json && error.use_stderr() {
-        let _ = sinks::print(&ErrorJson::of_usage(error).text());
+    if error.use_stderr() {
+        if in_json {
+            let _ = sinks::print(&ErrorJson::of_usage(error).text());
+        }
+        sinks::say(error.to_string().trim_end());
+    } else {
+        // Like clap's `exit`, this ignores a closed stream.
+        let _ = error.print();
     }
-    // Like clap's `exit`, this ignores a closed stream.
-    let _ = error.print();
     u8::try_from(error.exit_code()).unwrap_or(USAGE)
 }
 
@@ -215,6 +248,7 @@ mod tests {
         command.build();
         let helps = std::iter::once(&command).chain(command.get_subcommands());
         let text: String = helps.filter_map(|c| c.get_after_help()).map(|help| format!("{help}\n")).collect();
+        let text = text.replace("\\\n", " ");
         let examples: Vec<&str> = text.lines().map(str::trim).filter(|line| line.starts_with("cplan ")).collect();
         assert!(examples.len() > 30, "{examples:?}");
         for example in examples {

@@ -1,8 +1,10 @@
-//! The main job: from two files to a certified motion, a proof, or neither.
+//! `cplan plan`, the main job: from two files to a certified motion, a proof, or neither.
 
 use super::exit::{DONE, INFEASIBLE, UNKNOWN};
+use super::explain;
 use super::failure::Failure;
 use super::files::Files;
+use super::headings::{OUTPUT, PLANNER};
 use super::message_args::MessageArgs;
 use super::print_args::PrintArgs;
 use super::progress;
@@ -12,66 +14,96 @@ use super::sinks::{self, Sink};
 use crate::draw::FieldLines;
 use crate::engine::{Method, Options, Plan, Planner, Problem, plan_with};
 use crate::grammar::{MotionArgs, PlannerArgs, word};
-use crate::input::{self, Digests, InputError, JointValues, LoadedScene, Overrides};
+use crate::input::{self, DiagnosticKind, Digests, InputError, JointValues, LoadedScene, Overrides};
 use crate::model::{MotionProblem, Status};
 use crate::motion::write_whole;
-use crate::output::{CSpaceFormat, PlanOutput as _, summary_with};
+use crate::output::{CSpaceFormat, Line, PlanOutput as _, laid_out, summary_with};
 use crate::space::Configuration;
 use clap::{Args, ValueEnum, ValueHint};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-/// Options of the main job.
+/// Plan a motion: certified path, proof of infeasibility, or unknown.
+///
+/// In a world with steps, plan the whole task.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+`cplan URDF WORLD` is short for `cplan plan URDF WORLD`.
+
+Examples:
+  cplan plan robots/planar_2r.urdf workspaces/shelf.toml \\
+    --output plan.json --picture plan.svg
+  cplan plan robots/planar_2r.urdf workspaces/shelf.toml --clearance 0.02
+  cplan plan robots/scara.urdf workspaces/scara_tray.toml \\
+    --planner wavefront --goal-tip 0.25,0.3
+  cplan plan robots/planar_2r.urdf workspaces/shelf.toml \\
+    --planner wavefront --search astar --neighbors 8
+  cplan plan robots/scara.urdf workspaces/tasks/kitting_cell.toml \\
+    --output kit.json
+  cplan plan robots/planar_2r.urdf workspaces/singular_closed.toml \\
+    --certificate proof.json
+
+Exit codes: 0 found and certified, 1 bad input or I/O, 2 wrong command line, 3
+proven infeasible, 4 unknown.")]
+pub struct PlanCommand {
+    #[command(flatten)]
+    pub files: Files,
+    #[command(flatten)]
+    pub plan: PlanArgs,
+}
+
+/// Options for planning, also of `cplan demo`.
 #[derive(Debug, Args)]
 pub struct PlanArgs {
-    /// Planner.
-    #[arg(long, value_parser = word::<Method>(), value_name = "NAME", default_value_t = Method::Shortest)]
-    pub planner: Method,
     #[command(flatten)]
     pub query: QueryArgs,
     #[command(flatten)]
     pub motion: MotionArgs,
-    /// Write the result: .json, .csv, .yaml (ROS 2 JointTrajectory) or .mcap (recording of ROS 2 topics); or the configuration
-    /// space with what the planner saw in it: cspace.json, NAME.cspace.json or .geojson. Can be repeated.
-    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    /// Write the result (.json, .csv, .yaml for a ROS 2 JointTrajectory, .mcap for a recording of ROS 2 topics), or the
+    /// configuration space with the planner's graph or grid (cspace.json, NAME.cspace.json, .geojson). Can be repeated.
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, help_heading = OUTPUT)]
     pub output: Vec<PathBuf>,
-    /// Write the motion of each step into a .csv or .yaml file of its own, from rest to rest: plan-001.yaml, plan-002.yaml
-    /// and so on for --output plan.yaml (worlds with steps).
-    #[arg(long)]
+    /// Write the motion of each step, from rest to rest, into a separate .csv or .yaml file: --output plan.yaml writes
+    /// plan-001.yaml, plan-002.yaml and so on. Only for worlds with steps.
+    #[arg(long, help_heading = OUTPUT)]
     pub per_step: bool,
     #[command(flatten)]
     pub message: MessageArgs,
-    /// Draw workspace and configuration space side by side: .svg, .png, .gif (how the planner came to its answer, then the motion), or .html
-    /// (a page that plays the same, and in which the arm can be moved).
-    /// Can be repeated.
-    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    /// Draw workspace and configuration space side by side: .svg, .png, .gif (plays the planner's work, then the motion)
+    /// or .html (a page that plays the same and lets you move the arm). Can be repeated.
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, help_heading = OUTPUT)]
     pub picture: Vec<PathBuf>,
-    /// What pictures of a field show (.svg, .png, .gif; pages show and hide each).
+    /// Lines in pictures of a field (.svg, .png, .gif). Pages can show and hide both kinds.
     #[arg(long, value_enum, value_name = "LINES", default_value_t = FieldLinesName::Equipotentials)]
+    #[arg(help_heading = OUTPUT)]
     pub field_lines: FieldLinesName,
-    /// Write the evidence for the answer, found or infeasible, which `cplan-check URDF WORLD FILE` checks in exact arithmetic. If FILE is a
-    /// .json of --output, too, it becomes the member `certificate` of that. Infeasible tasks have none.
-    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    /// Write the evidence for the answer, found or infeasible, which `cplan-check URDF WORLD FILE` checks in exact
+    /// arithmetic. If FILE is also a .json of --output, it becomes the member `certificate` there. Infeasible tasks have no
+    /// certificate.
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, help_heading = OUTPUT)]
     pub certificate: Option<PathBuf>,
     #[command(flatten)]
     pub print: PrintArgs,
-    /// Tell also how the robot was read: the plane, the tip, the outline of each link.
-    #[arg(long, short)]
+    /// Also print how the robot was interpreted: the plane, the tip, the outline of each link.
+    #[arg(long, short, help_heading = OUTPUT)]
     pub verbose: bool,
-    /// Put the time that each stage took into the JSON; without it the same input gives the same bytes.
-    #[arg(long)]
+    /// Add the time of each stage to the JSON. Without this option, the same input gives the same bytes.
+    #[arg(long, help_heading = OUTPUT)]
     pub timings: bool,
-    // Last, because its headings apply to everything after them.
+    /// Planner.
+    #[arg(long, value_parser = word::<Method>(), value_name = "NAME", default_value_t = Method::Shortest)]
+    #[arg(help_heading = PLANNER)]
+    pub planner: Method,
     #[command(flatten)]
     pub options: PlannerArgs,
 }
 
-/// Field lines in words.
+/// Kinds of field lines.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum FieldLinesName {
     /// Lines of equal potential.
     Equipotentials,
-    /// Lines of steepest ascent, with an arrow each.
+    /// Lines of steepest ascent, with arrows.
     Flow,
     // Needs no help.
     Both,
@@ -91,8 +123,8 @@ impl From<FieldLinesName> for FieldLines {
 ///
 /// # Errors
 /// Bad input and I/O.
-pub fn run(files: &Files, args: &PlanArgs) -> Result<u8, Failure> {
-    answer(args, Some(files), || input::load_scene(files.robot(), &files.world))
+pub fn run(PlanCommand { files, plan }: &PlanCommand) -> Result<u8, Failure> {
+    answer(plan, Some(files), || input::load_scene(files.robot(), &files.world))
 }
 
 /// Plans for a scene from any source, possibly without files. Nothing is loaded if the command line is wrong.
@@ -113,17 +145,19 @@ pub fn answer(
     let begun = Instant::now();
     let loaded = load()?;
     let inputs = loaded.files();
-    let given = given.filter(|_| certificate.is_some());
-    let about = given.map(|files| Digests::of(&files.robot(), &files.world, &inputs)).transpose()?;
+    let certified = given.filter(|_| certificate.is_some());
+    let about = certified.map(|files| Digests::of(&files.robot(), &files.world, &inputs)).transpose()?;
     sinks::spare_inputs(sinks.iter().map(Sink::path), &inputs)?;
     if args.per_step && !loaded.has_steps() {
-        return Err(Failure::Usage("--per-step is for worlds with steps".into()));
+        return Err(Failure::Usage("--per-step needs a world with steps ([[step]])".into()));
     }
     let asked = args.query.overrides();
     let said = loaded.said_ends();
     // The warnings may explain why start or goal is refused.
-    loaded.robot.warnings.iter().for_each(|w| args.print.say(&format!("warning: {w}")));
-    let problem = Problem::of_scene(loaded, &asked)?.read_since(begun);
+    let ignored = args.options.ignored(args.planner);
+    loaded.robot.warnings.iter().chain(&ignored).for_each(|w| args.print.say(&format!("warning: {w}")));
+    let explanation = || given.and_then(|files| explain::hint(files, &args.query));
+    let problem = Problem::of_scene(loaded, &asked).map_err(|error| blocked(error, explanation))?.read_since(begun);
     if let Some(lack) = options.planner.lack(&problem.scene().workspace().preferences) {
         return Err(Failure::Usage(lack));
     }
@@ -142,8 +176,23 @@ pub fn answer(
         Status::Infeasible => INFEASIBLE,
         Status::Unknown => UNKNOWN,
     };
-    args.print.tell(code, || Ok(plan.to_json()), || summary_with(&plan, &written, &after, args.verbose))?;
+    let summary = || {
+        let hint = if code == INFEASIBLE { explanation() } else { None };
+        let hint: Vec<Line> = hint.into_iter().map(|hint| ("hint", hint)).collect();
+        summary_with(&plan, &written, &after, args.verbose) + &laid_out(&hint)
+    };
+    args.print.tell(code, || Ok(plan.to_json()), summary)?;
     Ok(code)
+}
+
+/// Adds a hint to an error, if it is about a blocked start or goal that can be explained.
+fn blocked(error: InputError, hint: impl FnOnce() -> Option<String>) -> Failure {
+    let is_end = |kind| matches!(kind, DiagnosticKind::Start | DiagnosticKind::Goal);
+    let hint = if error.diagnostics().iter().all(|found| is_end(found.kind)) { hint() } else { None };
+    match hint {
+        Some(hint) => Failure::Blocked(error, hint),
+        None => Failure::Input(error),
+    }
 }
 
 /// Returns the overrides, with the start and the goal that were found if the files do not state them as joint values.
@@ -165,7 +214,7 @@ fn require_grid(sinks: &[Sink], planner: &Planner) -> Result<(), Failure> {
     let matrix = sinks.iter().find(|sink| matches!(sink, Sink::CSpace(CSpaceFormat::Csv, _)));
     match matrix {
         Some(sink) if planner.space().is_none() => Err(Failure::Usage(format!(
-            "{} holds the values of a grid: it needs --planner wavefront or harmonic",
+            "{} holds the values of a grid and needs --planner wavefront or harmonic",
             sink.path().display()
         ))),
         _ => Ok(()),

@@ -1,16 +1,18 @@
 //! Command-line options for printed output.
 
 use super::failure::Failure;
+use super::headings::OUTPUT;
 use super::sinks;
 use clap::Args;
 
-/// What is printed.
+/// Options for printed output.
 #[derive(Debug, Args)]
+#[command(next_help_heading = OUTPUT)]
 pub struct PrintArgs {
     /// Print the result as JSON, and nothing else, on stdout.
     #[arg(long)]
     pub json: bool,
-    /// No summary, no progress.
+    /// Print neither summary nor progress.
     #[arg(long)]
     pub quiet: bool,
 }

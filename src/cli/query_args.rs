@@ -1,11 +1,13 @@
 //! Options for start, goal and clearance, which replace the world's.
 
+use super::headings::QUERY;
 use super::values::clearance;
 use crate::input::{JointValues, Overrides, TipPoint};
 use clap::Args;
 
-/// What can be said instead of the world file.
+/// Values that replace those of the world file.
 #[derive(Debug, Args)]
+#[command(next_help_heading = QUERY)]
 pub struct QueryArgs {
     /// Start configuration instead of the world's, such as 0.3,-1 or 20deg,-60deg.
     #[arg(long, value_name = "q1,q2", allow_hyphen_values = true)]
@@ -13,7 +15,7 @@ pub struct QueryArgs {
     /// Goal configuration instead of the world's.
     #[arg(long, value_name = "q1,q2", allow_hyphen_values = true, conflicts_with = "goal_tip")]
     pub goal: Option<JointValues>,
-    /// Goal position of the tip instead of the world's goal, metres: any IK solution that reaches it.
+    /// Goal position of the tip instead of the world's goal, metres. Any IK solution counts.
     #[arg(long, value_name = "x,y", allow_hyphen_values = true)]
     pub goal_tip: Option<TipPoint>,
     /// Least distance to keep from every obstacle, metres, instead of the world's.
@@ -22,6 +24,19 @@ pub struct QueryArgs {
 }
 
 impl QueryArgs {
+    /// Returns the given options as words of a command line.
+    #[must_use]
+    pub fn words(&self) -> Vec<String> {
+        let Self { start, goal, goal_tip, clearance } = self;
+        let words = [
+            start.map(|start| format!("--start={start}")),
+            goal.map(|goal| format!("--goal={goal}")),
+            goal_tip.map(|TipPoint(tip)| format!("--goal-tip={},{}", tip.x, tip.y)),
+            clearance.map(|clearance| format!("--clearance={clearance}")),
+        ];
+        words.into_iter().flatten().collect()
+    }
+
     /// Returns the options in the form of the input layer.
     #[must_use]
     pub fn overrides(&self) -> Overrides {

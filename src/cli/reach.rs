@@ -3,6 +3,7 @@
 use super::exit::DONE;
 use super::failure::Failure;
 use super::files::Files;
+use super::headings::OUTPUT;
 use super::print_args::PrintArgs;
 use super::sinks;
 use super::values::clearance;
@@ -20,22 +21,26 @@ use std::path::PathBuf;
 /// Default number of cells across the arm's reach.
 const CELLS: f64 = 60.0;
 
-/// Tell where the tip can get, with which IK solutions: certified, or proven out of reach.
+/// Report where the tip can go, and with which IK solutions.
 #[derive(Debug, Args)]
 #[command(after_help = "\
-The tip is asked for at the centre of each square cell: with which solutions of the inverse kinematics can it be there, and which of these does
-a certified motion lead to from the home configuration? What is free and proven out of reach is told apart from what is not free.
+The workspace is divided into square cells. For the centre of each cell, the
+report lists the IK solutions that put the tip there and classifies each:
+reached by a certified motion from the home configuration, free but proven
+unreachable, or not free.
 
 Examples:
   cplan reach robots/planar_2r.urdf workspaces/shelf.toml
-  cplan reach robots/planar_2r.urdf workspaces/shelf.toml --cell 0.1 --output reach.csv --picture reach.svg
+  cplan reach robots/planar_2r.urdf workspaces/shelf.toml --cell 0.1 \\
+    --output reach.csv --picture reach.svg
   cplan reach robots/scara.urdf workspaces/scara_cell.toml --home 0,1.2 --json
 
-Exit codes: 0 every cell has its answer or is said to be unknown, 1 bad input or I/O, 2 wrong command line.")]
+Exit codes: 0 every cell is classified or reported as unknown, 1 bad input or
+I/O, 2 wrong command line.")]
 pub struct ReachArgs {
     #[command(flatten)]
     pub files: Files,
-    /// Where motions begin, instead of the world's start.
+    /// Configuration in which motions begin, instead of the world's start.
     #[arg(long, value_name = "q1,q2", allow_hyphen_values = true)]
     pub home: Option<JointValues>,
     /// Side of the cells, metres [default: a 60th of the arm's reach].
@@ -44,11 +49,12 @@ pub struct ReachArgs {
     /// Least distance to keep from every obstacle, metres, instead of the world's.
     #[arg(long, value_name = "METRES", value_parser = clearance)]
     pub clearance: Option<f64>,
-    /// Write the cells and their solutions: .json, .csv (a line a solution). Can be repeated.
-    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    /// Write the cells and their IK solutions: .json, or .csv with one line per solution. Can be repeated.
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, help_heading = OUTPUT)]
     pub output: Vec<PathBuf>,
-    /// Draw them in the workspace, and the solutions in the configuration space: .svg, .png, .html. Can be repeated.
-    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    /// Draw the cells in the workspace and the IK solutions in the configuration space: .svg, .png or .html. Can be
+    /// repeated.
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, help_heading = OUTPUT)]
     pub picture: Vec<PathBuf>,
     #[command(flatten)]
     pub print: PrintArgs,
@@ -79,7 +85,7 @@ pub fn run(args: &ReachArgs) -> Result<u8, Failure> {
     world.robot.warnings.iter().for_each(|warning| sinks::say(&format!("warning: {warning}")));
     let cell = args.cell.unwrap_or(world.scene.arm().reach() / CELLS);
     let reach = reach(&world.scene, world.start, cell).ok_or_else(|| {
-        Failure::Option(format!("--cell {cell} makes more than {MOST_PLACES} cells: choose larger ones"))
+        Failure::Option(format!("--cell {cell} gives more than {MOST_PLACES} cells: choose a larger size"))
     })?;
     let mut written = Vec::new();
     for (path, is_json) in &tables {
@@ -135,11 +141,11 @@ fn facts(world: &Explorable, reach: &Reach) -> Vec<(&'static str, String)> {
     let home = [0, 1].map(|k| format!("{} {:.4} {}", joints[k], reach.home[k], units[k])).join(", ");
     let mut facts = vec![
         ("home", home),
-        ("cells", format!("of {:.4} m; the tip is asked for at their centres", reach.cell)),
+        ("cells", format!("of {:.4} m; judged at their centres", reach.cell)),
         (
             "reachable",
             format!(
-                "{}, {several} of them with several solutions ({:.4} m2)",
+                "{}, {several} of them with several IK solutions ({:.4} m2)",
                 counted(reachable, "cell"),
                 area * reachable as f64
             ),
@@ -169,7 +175,7 @@ fn summary(world: &Explorable, reach: &Reach) -> String {
 fn view(world: &Explorable, reach: &Reach) -> View {
     let facts = facts(world, reach);
     let picture = Picture {
-        title: vec![title_of(&world.scene), format!("where the tip can get: {}", facts[2].1)],
+        title: vec![title_of(&world.scene), format!("reach of the tip: {}", facts[2].1)],
         status: "reach".into(),
         facts: facts.into_iter().map(|(name, value)| [name.to_owned(), value]).collect(),
         c_obstacles: &contours(&world.scene),

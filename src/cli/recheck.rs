@@ -24,20 +24,26 @@ const MISSED: f64 = 1e-3;
 /// Share of a bound that is lost to rounding, too little to report.
 const ROUNDING: f64 = 1e-6;
 
-/// Check a proof that there is no path, or a bound on the shortest, with code that shares nothing with the search that made it.
+/// Check a proof, a bound or a certificate independently.
+///
+/// The checker shares no code with the searches that found the evidence.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
-  cplan robots/planar_2r.urdf workspaces/singular_closed.toml --output proof.json
-  cplan recheck robots/planar_2r.urdf workspaces/singular_closed.toml --proof proof.json
-  cplan robots/planar_2r.urdf workspaces/shelf.toml --output bound.json
+  cplan plan robots/planar_2r.urdf workspaces/singular_closed.toml \\
+    --output proof.json
+  cplan recheck robots/planar_2r.urdf workspaces/singular_closed.toml \\
+    --proof proof.json
+  cplan plan robots/planar_2r.urdf workspaces/shelf.toml --output bound.json
   cplan recheck robots/planar_2r.urdf workspaces/shelf.toml --proof bound.json
 
-Exit codes: 0 the proof or bound holds, 1 it does not, or bad input or I/O, 2 wrong command line.")]
+Exit codes: 0 the evidence holds, 1 it does not, or bad input or I/O, 2 wrong
+command line.")]
 pub struct RecheckArgs {
     #[command(flatten)]
     pub files: Files,
-    /// A result of the main job, with the proof that there is no path or a bound on the shortest (`optimum`); or a certificate: .json.
+    /// File with the evidence (.json): a certificate, or a result of `cplan plan` with a proof that there is no path or with
+    /// a bound on the shortest path (`optimum`).
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub proof: PathBuf,
     #[command(flatten)]
@@ -154,7 +160,7 @@ fn proof_holds(
     stuck: &[StuckBox],
     asked: &Overrides,
 ) -> Result<String, Failure> {
-    let never = |odd| failed(args, format!("the proof does not hold: box {odd} names shapes that never meet"));
+    let never = |odd| failed(args, format!("the proof does not hold: box {odd} names shapes that cannot meet"));
     let certificate = certificate_of_boxes(problem, stuck, asked).map_err(never)?;
     judged(args, "proof", &certificate)?;
     let count = counted(stuck.len(), "box");
@@ -171,7 +177,7 @@ fn bound_holds(
     let (lower, upper) = (stated.lower, stated.upper);
     let is_length = |length: f64| length.is_finite() && length >= 0.0;
     if !is_length(lower) || !is_length(upper) || lower > upper {
-        return Err(failed(args, format!("`optimum`: {lower} to {upper} are no bounds on a length")));
+        return Err(failed(args, format!("`optimum`: {lower} to {upper} are not bounds on a length")));
     }
     let unconfirmed = |why: String| failed(args, format!("the bound is not confirmed: {why}"));
     let found = certificate_of_bound(problem, stated, asked).ok_or_else(|| {

@@ -35,7 +35,7 @@ impl ResultFiles {
         let parted: Vec<&Path> =
             files.results.iter().filter(|(format, _)| files.parts(*format)).map(|(_, path)| path.as_path()).collect();
         if per_step && parted.is_empty() {
-            let message = "--per-step needs an --output of motions alone: .csv or .yaml";
+            let message = "--per-step needs an --output file for motions: .csv or .yaml";
             return Err(Failure::Usage(message.into()));
         }
         let parts: Vec<PathBuf> =
@@ -107,7 +107,10 @@ impl ResultFiles {
     fn warn_of_more(&self, path: &Path) {
         let next = self.part(path, self.steps + 1);
         if next.exists() {
-            sinks::say(&format!("warning: {} is left from another task, and perhaps more files", next.display()));
+            sinks::say(&format!(
+                "warning: {} is left from an earlier task, and perhaps other files are too",
+                next.display()
+            ));
         }
     }
 }

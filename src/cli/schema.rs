@@ -7,12 +7,14 @@ use crate::input::world_schema;
 use crate::output::cspace_schema;
 use clap::{Args, ValueEnum};
 
-/// Print the JSON schema of world files, for editors, or of configuration spaces.
+/// Print the JSON schema of worlds, studies or configuration spaces.
 #[derive(Debug, Args)]
 #[command(after_help = "\
-An editor with Taplo (Even Better TOML) completes and explains the keys of a world whose first line is
+An editor with Taplo (Even Better TOML) completes and explains the keys of a
+world file, if the file begins with this line and the schema is in the same
+folder:
   #:schema ./world.schema.json
-with the schema in that file beside it, as `cplan init` writes both.
+`cplan init` writes both files.
 
 Examples:
   cplan schema > world.schema.json
@@ -21,7 +23,7 @@ Examples:
 
 Exit codes: 0 printed, 1 I/O, 2 wrong command line.")]
 pub struct SchemaArgs {
-    /// Of which files.
+    /// Kind of file.
     #[arg(value_name = "FILES", default_value = "world")]
     of: Described,
 }
@@ -29,12 +31,12 @@ pub struct SchemaArgs {
 /// Files that have a schema.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Described {
-    /// Worlds, as TOML.
+    /// World files (TOML).
     World,
-    /// Studies, as TOML.
+    /// Study files (TOML).
     #[cfg(feature = "study")]
     Study,
-    /// Configuration spaces, as `--output cspace.json` writes them.
+    /// Configuration spaces, written by `--output cspace.json`.
     Cspace,
 }
 

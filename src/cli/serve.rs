@@ -15,44 +15,48 @@ use std::net::{IpAddr, Ipv4Addr, SocketAddr, TcpListener};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-/// Open a live page: move obstacles, start and goal in the browser, and the plan follows.
+/// Serve a live page: move obstacles, start and goal, and replan.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
   cplan serve
   cplan serve robots/planar_2r.urdf workspaces/shelf.toml
-  cplan serve robots/planar_2r.urdf workspaces/shelf.toml --with \"harmonic --cells 128\" --port 0
-  cplan serve robots/planar_2r.urdf workspaces/shelf.toml --export page.html --engine target/page/cplan.wasm.gz
+  cplan serve robots/planar_2r.urdf workspaces/shelf.toml \\
+    --with \"harmonic --cells 128\" --port 0
+  cplan serve robots/planar_2r.urdf workspaces/shelf.toml \\
+    --export page.html --engine target/page/cplan.wasm.gz
 
-The address is printed on stdout; Ctrl-C ends it. Nothing is written to disk: save the world from the page. With --export nothing
-is served: the page is written, with the program within it, for any web host or none.
+The address is printed on stdout; Ctrl-C ends the server. It writes no files: save
+the world from the page. With --export, no server starts: cplan writes the page
+with the program inside it. Any web host can serve it, and it opens from disk.
 
-Exit codes: 0 it was told to end, or the page is written, 1 bad input, or an address that is not to be had, 2 wrong command line.")]
+Exit codes: 0 stopped by the user, or the page is written, 1 bad input or
+unavailable address, 2 wrong command line.")]
 pub struct ServeArgs {
-    /// The arm; without files a built-in SCARA cell.
+    /// Robot: a URDF or xacro file [default: a built-in SCARA cell].
     #[arg(value_name = "URDF", requires = "world")]
     pub urdf: Option<PathBuf>,
-    /// The workspace, TOML.
+    /// World file (TOML).
     #[arg(value_name = "WORLD")]
     pub world: Option<PathBuf>,
     #[command(flatten)]
     pub xacro: XacroArgs,
-    /// Planner and options to begin with, such as "harmonic --field oriented --epsilon 0.5 --direction 0,-1".
+    /// Initial planner and its options, such as "harmonic --field oriented --epsilon 0.5 --direction 0,-1".
     #[arg(long, value_name = "PLANNER OPTIONS", default_value = "shortest")]
     pub with: String,
-    /// Port of the page; 0 takes any that is free.
+    /// Port of the page; 0 takes any free port.
     #[arg(long, value_name = "N", default_value_t = 7878)]
     pub port: u16,
-    /// Address of this machine to listen at. Any other than the default lets other machines use the page.
+    /// Address of this machine to listen on. With any address except the default, other machines can use the page.
     #[arg(long, value_name = "ADDRESS", default_value_t = IpAddr::V4(Ipv4Addr::LOCALHOST))]
     pub bind: IpAddr,
-    /// Time after which a plan is given up, seconds.
+    /// Time limit for each plan, seconds.
     #[arg(long, value_name = "SECONDS", default_value = "20", value_parser = time_limit, allow_hyphen_values = true)]
     pub time_limit: Duration,
-    /// Write the page with the program within it, one file that needs no server, instead of serving it.
+    /// Write the page with the program inside it, as one file that needs no server, instead of serving it.
     #[arg(long, value_name = "FILE", requires = "engine", conflicts_with_all = ["port", "bind"], value_hint = ValueHint::FilePath)]
     pub export: Option<PathBuf>,
-    /// The program for such a page, WebAssembly packed by gzip, as `.ci/page` builds it.
+    /// Program for the exported page: WebAssembly packed by gzip, as `.ci/page` builds it.
     #[arg(long, value_name = "FILE", requires = "export", value_hint = ValueHint::FilePath)]
     pub engine: Option<PathBuf>,
 }
@@ -84,19 +88,19 @@ pub fn run(args: &ServeArgs) -> Result<u8, Failure> {
     let bound = TcpListener::bind(wanted).and_then(|listener| Ok((listener.local_addr()?, listener)));
     let (address, listener) = bound.map_err(|error| {
         let cure = match error.kind() {
-            ErrorKind::AddrNotAvailable => "--bind takes an address of this machine, or 0.0.0.0 for all that it has",
-            _ => "--port 0 takes any port that is free",
+            ErrorKind::AddrNotAvailable => "give --bind an address of this machine, or 0.0.0.0 for all its addresses",
+            _ => "--port 0 takes any free port",
         };
-        Failure::Option(format!("cannot listen at {wanted}: {error}\n  cure: {cure}"))
+        Failure::Option(format!("cannot listen at {wanted}: {error}\n  hint: {cure}"))
     })?;
     scene.robot.warnings.iter().for_each(|warning| sinks::say(&format!("warning: {warning}")));
     if !args.bind.is_loopback() {
-        sinks::say("warning: other machines can open this page, and have this one plan for them: there is no password");
+        sinks::say("warning: other machines can open this page and plan on this machine: there is no password");
     }
     let host = Host::new(urdf, world, scene, args.with.clone(), args.time_limit)
         .ok_or_else(|| Failure::Option("the world is no TOML".into()))?;
     sinks::print(&format!("http://{address}/\n"))?;
-    sinks::say("open it in a browser; Ctrl-C ends");
+    sinks::say("open this address in a browser; Ctrl-C ends the server");
     serve::run(listener, host).map_err(|error| Failure::Option(format!("cannot serve: {error}")))?;
     Ok(DONE)
 }
@@ -106,11 +110,11 @@ const GZIP: [u8; 2] = [0x1f, 0x8b];
 
 /// Writes the page with the program inside it.
 fn export(args: &ServeArgs, [urdf, world]: [Source; 2], page: &Path, engine: &Path) -> Result<u8, Failure> {
-    let cure = "\n  cure: .ci/page of cplan's sources builds it";
+    let cure = "\n  hint: build it with .ci/page in cplan's sources";
     let wrong = |what: String| Failure::Option(format!("{}: {what}{cure}", engine.display()));
     let program = std::fs::read(engine).map_err(|error| wrong(format!("cannot be read: {error}")))?;
     if !program.starts_with(&GZIP) {
-        return Err(wrong("is no program packed by gzip".into()));
+        return Err(wrong("is not packed by gzip".into()));
     }
     let text = |source: &Source| source.text().to_owned();
     let files = Files { urdf: text(&urdf), world: text(&world), options: args.with.clone() };

@@ -61,18 +61,18 @@ pub fn sinks_with(results: &[PathBuf], pictures: &[PathBuf], certificate: Option
     Ok(sinks)
 }
 
-/// Returns the content of each file by its extension; `told` is the message that lists the known extensions. Checked
-/// before any work is done.
+/// Returns the content of each file by its extension, checked before any work is done. `expected` is the message that
+/// lists the known extensions.
 ///
 /// # Errors
 /// Unknown extensions, and files that cannot be written.
-pub fn outputs<T: Copy>(paths: &[PathBuf], ends: &[(&str, T)], told: &str) -> Result<Vec<(PathBuf, T)>, Failure> {
+pub fn outputs<T: Copy>(paths: &[PathBuf], ends: &[(&str, T)], expected: &str) -> Result<Vec<(PathBuf, T)>, Failure> {
     let of = |path: &PathBuf| {
         let extension = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase()).unwrap_or_default();
         let known = ends.iter().find(|(end, _)| *end == extension);
         known
             .map(|(_, content)| (path.clone(), *content))
-            .ok_or_else(|| Failure::Usage(format!("{}: {told}", path.display())))
+            .ok_or_else(|| Failure::Usage(format!("{}: {expected}", path.display())))
     };
     let outputs = paths.iter().map(of).collect::<Result<Vec<_>, _>>()?;
     outputs.iter().try_for_each(|(path, _)| check_writable(path))?;
@@ -96,8 +96,8 @@ pub fn distinct<'a>(outputs: impl Iterator<Item = &'a Path>) -> Result<(), Failu
         let Some(identity) = FileIdentity::of(path) else { continue };
         if let Some((other, _)) = known.iter().find(|(_, other)| other.is(&identity)) {
             let (one, other) = (path.display(), other.display());
-            let message = format!("the outputs {other} and {one} are one file; nothing was written");
-            return Err(Failure::Option(format!("{message}\n  cure: give each a file of its own")));
+            let message = format!("the outputs {other} and {one} are the same file; nothing was written");
+            return Err(Failure::Option(format!("{message}\n  hint: give each output its own file")));
         }
         known.push((path, identity));
     }
@@ -116,15 +116,15 @@ pub fn spare_inputs<'a>(mut outputs: impl Iterator<Item = &'a Path>, inputs: &[P
     });
     onto.map_or(Ok(()), |(path, input)| {
         let (path, input) = (path.display(), input.display());
-        let message = format!("the output {path} is the input {input}; nothing was written");
-        Err(Failure::Option(format!("{message}\n  cure: give the output a file of its own")))
+        let message = format!("the output {path} is the input file {input}; nothing was written");
+        Err(Failure::Option(format!("{message}\n  hint: choose another file for the output")))
     })
 }
 
 /// Reports on stderr that a format cannot hold a result without its content: a trajectory, or a grid.
 pub fn warn_unwritten(path: &Path, content: &str) {
-    let is_old = if path.exists() { "; what it has is from before" } else { "" };
-    say(&format!("warning: {} is not written: there is no {content} to put into it{is_old}", path.display()));
+    let is_old = if path.exists() { "; the existing file is from an earlier run" } else { "" };
+    say(&format!("warning: {} is not written: the result has no {content}{is_old}", path.display()));
 }
 
 /// Writes a picture.
@@ -137,7 +137,7 @@ pub fn save_picture(format: PictureFormat, path: &Path, view: &View) -> Result<(
 
 /// Prints a line on stderr: progress, warnings and errors. A closed stream stops no job.
 pub fn say(text: &str) {
-    let _ = writeln!(anstream::stderr(), "{}", terminal::said(&plain(text)));
+    let _ = writeln!(anstream::stderr(), "{}", terminal::message(&plain(text)));
 }
 
 /// Prints text on stdout like [`print`], but shows control characters in names instead of sending them to the terminal.

@@ -3,6 +3,8 @@
 use super::ctrl_c;
 use super::exit::DONE;
 use super::failure::Failure;
+use super::fresh::for_a_shell;
+use super::headings::OUTPUT;
 use super::print_args::PrintArgs;
 use super::progress::Progress;
 use super::sinks;
@@ -16,10 +18,11 @@ use std::path::{Component, Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread::available_parallelism;
 
-/// Plan in many layouts: numbers of robot and world that differ, a row each, and the best.
+/// Plan one task in many layouts, and find the best layout.
 #[derive(Debug, Args)]
 #[command(after_help = "\
-A study file (TOML) names a robot, a world, numbers of both that differ from layout to layout, and what is measured:
+A study file (TOML) names a robot, a world, the numbers of both that vary from
+layout to layout, and the measured quantity:
 
   robot = \"../../robots/planar_2r.urdf\"
   world = \"../shelf.toml\"
@@ -33,9 +36,11 @@ A study file (TOML) names a robot, a world, numbers of both that differ from lay
   to = 0.2
   steps = 21                      # or values = [...], or draw = \"latin\" with draws = 1000 above
 
-Each layout is planned in as the two files with its numbers in place. Rows are the same for any number of jobs. Until all are there, rows
-are kept beside the first output (FILE.part): after Ctrl-C the same command goes on. One in which obstacles stand in each other that do
-not in the world is refused, but for overlap = true.
+Each layout is planned with its numbers in the two files and gives one row. Rows
+do not depend on the number of jobs. While a study runs, cplan keeps rows in
+FILE.part beside the first output: after Ctrl-C, the same command continues.
+Layouts in which obstacles overlap that do not overlap in the world are refused,
+unless the study sets overlap = true.
 
 Examples:
   cplan study workspaces/studies/base.toml
@@ -43,26 +48,27 @@ Examples:
   cplan study workspaces/studies/base.toml --output best.toml
   cplan study workspaces/studies/base.toml --layout 17 --output layout_17.toml
 
-Exit codes: 0 every layout has its row, 1 bad input or I/O, 2 wrong command line.")]
+Exit codes: 0 every layout has its row, 1 bad input or I/O, 2 wrong command
+line.")]
 pub struct StudyArgs {
-    /// The study, TOML.
+    /// Study file (TOML).
     #[arg(value_name = "STUDY", value_hint = ValueHint::FilePath)]
     pub study: PathBuf,
-    /// Write the table (.csv, or .parquet in a program with the feature parquet), a page with maps, trade-offs and pictures (.html),
-    /// the summary (.json), or the best layout's world (.toml) and robot (.urdf). Can be repeated.
-    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    /// Write the table (.csv, or .parquet if built with the feature parquet), a page with maps, trade-offs and pictures
+    /// (.html), the summary (.json), or the best layout's world (.toml) and robot (.urdf). Can be repeated.
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, help_heading = OUTPUT)]
     pub output: Vec<PathBuf>,
-    /// Write the world (.toml) and the robot (.urdf) of this layout, and plan nothing.
+    /// Write the world (.toml) and the robot (.urdf) of this layout without planning.
     #[arg(long, value_name = "N")]
     pub layout: Option<usize>,
-    /// Layouts at the same time [default: one for each core].
+    /// Number of layouts planned at the same time [default: the number of cores].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub jobs: Option<u16>,
-    /// Begin anew, whatever rows are left of a study that was stopped.
+    /// Discard the rows of a stopped study, and begin again.
     #[arg(long)]
     pub fresh: bool,
-    /// Print tables as wide as they are, not in parts of 80 columns.
-    #[arg(long)]
+    /// Print tables in their full width, not in parts of 80 columns.
+    #[arg(long, help_heading = OUTPUT)]
     pub wide: bool,
     #[command(flatten)]
     pub print: PrintArgs,
@@ -98,7 +104,7 @@ pub fn run(args: &StudyArgs) -> Result<u8, Failure> {
     study.remarks().iter().for_each(|remark| args.print.say(remark));
     let (journal, mut rows) = opened.map_or((None, Vec::new()), |(journal, rows)| (Some(journal), rows));
     if !rows.is_empty() {
-        args.print.say(&format!("goes on after {} that are known already", counted(rows.len(), "layout")));
+        args.print.say(&format!("continues after {} of the stopped study", counted(rows.len(), "layout")));
     }
     let total = study.count() + study.searched;
     let kept = Kept::new(journal, rows.len());
@@ -136,7 +142,7 @@ pub fn run(args: &StudyArgs) -> Result<u8, Failure> {
         match bytes(&study, &rows, &summary, *content, &files)? {
             Some(bytes) => written.push((path.clone(), bytes)),
             None => {
-                sinks::say(&format!("warning: {} is not written: no layout fits, so none is the best", path.display()))
+                sinks::say(&format!("warning: {} is not written: no layout meets the requirements", path.display()))
             }
         }
     }
@@ -144,8 +150,7 @@ pub fn run(args: &StudyArgs) -> Result<u8, Failure> {
     note_robot(&study, &files);
     kept.remove()?;
     let planned = summary.best().and_then(|best| Some((best.layout, command(&study, &files)?)));
-    let planned =
-        planned.map_or_else(String::new, |(best, command)| format!("layout {best} is planned by: {command}\n"));
+    let planned = planned.map_or_else(String::new, |(best, command)| format!("to plan layout {best}: {command}\n"));
     args.print.tell(DONE, || sinks::pretty(&summary.to_json()), || summary.to_text(args.wide) + &planned)?;
     Ok(DONE)
 }
@@ -165,7 +170,7 @@ fn contents(outputs: &[PathBuf], is_layout: bool) -> Result<Vec<(PathBuf, Conten
         false => {
             #[cfg(not(feature = "parquet"))]
             refuse_parquet(outputs)?;
-            let told = "a study's name must end in .csv, .parquet, .html or .json, a layout's in .toml or .urdf";
+            let told = "the name must end in .csv, .parquet, .html or .json for the study, or .toml or .urdf for the best layout";
             sinks::outputs(outputs, &[&whole[..], &layout].concat(), told)?
         }
     };
@@ -194,7 +199,7 @@ fn write_layout(study: &Study, layout: usize, files: &[(PathBuf, Content)]) -> R
     if layout >= study.count() {
         let count = counted(study.count(), "layout");
         let message = format!(
-            "--layout {layout}: the study has {count}, from 0 on; of the search's the best is written by --output best.toml alone"
+            "--layout {layout}: the study has {count}, numbered from 0; --output best.toml writes the best layout of the search"
         );
         return Err(Failure::Option(message));
     }
@@ -213,7 +218,7 @@ fn note_robot(study: &Study, files: &[(PathBuf, Content)]) {
     let of = |wanted: Content| files.iter().find(|(_, content)| *content == wanted);
     if let (Some((world, _)), None, true) = (of(Content::World), of(Content::Robot), study.varies_robots()) {
         let robot = world.with_extension("urdf");
-        sinks::say(&format!("note: the layout's robot is one of its own: --output {} writes it, too", robot.display()));
+        sinks::say(&format!("note: the layout has its own robot; --output {} writes it as well", robot.display()));
     }
 }
 
@@ -246,7 +251,7 @@ fn texts(study: &Study, layout: usize, values: &[f64], files: &[(PathBuf, Conten
     let command = command(study, files).unwrap_or_else(|| command_of(study, "world.toml", files));
     let [source, ..] = study.sources();
     let head =
-        format!("# Layout {layout} of the study {}. What plans it as it does:\n# {command}\n", short(&source.name()));
+        format!("# Layout {layout} of the study {}. The command that plans it:\n# {command}\n", short(&source.name()));
     [head + world.text(), urdf.text().to_owned()]
 }
 
@@ -284,16 +289,6 @@ fn short(name: &str) -> String {
     if same[0].is_some() && same[0] == same[1] { short.to_string_lossy().into_owned() } else { name.to_owned() }
 }
 
-/// Returns a word quoted for a shell, if it needs quotes.
-fn for_a_shell(word: &str) -> String {
-    let is_plain = |c: char| c.is_alphanumeric() || "-_=,./:+%@".contains(c);
-    if !word.is_empty() && word.chars().all(is_plain) {
-        word.to_owned()
-    } else {
-        format!("'{}'", word.replace('\'', "'\\''"))
-    }
-}
-
 /// Rows of a running study, which the handler of Ctrl-C needs, too.
 #[derive(Debug, Clone)]
 struct Kept(Arc<Mutex<Rows>>);
@@ -326,7 +321,7 @@ impl Kept {
         let count = rows.count;
         match rows.journal.as_mut().map(|journal| (journal.flush(), journal.path().display().to_string())) {
             Some((Ok(()), path)) => {
-                format!("\nstopped: {count} of {total} rows are kept in {path}; the same command goes on")
+                format!("\nstopped: {count} of {total} rows are kept in {path}; the same command continues")
             }
             Some((Err(error), _)) => format!("\nstopped: {error}"),
             None => "\nstopped: no rows are kept without --output".to_owned(),
@@ -335,16 +330,5 @@ impl Kept {
 
     fn rows(&self) -> MutexGuard<'_, Rows> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn words_are_quoted_where_a_shell_would_part_them() {
-        let words = ["--start=-0.6,1.2", "a b.toml", "it's", ""];
-        assert_eq!(words.map(for_a_shell), ["--start=-0.6,1.2", "'a b.toml'", "'it'\\''s'", "''"]);
     }
 }

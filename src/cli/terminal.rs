@@ -4,39 +4,55 @@ use super::exit::{DONE, INFEASIBLE, UNKNOWN};
 use crate::text::{INDENT, wrapped};
 use clap::builder::styling::{AnsiColor, Style};
 use std::io::IsTerminal;
-use terminal_size::{Width, terminal_size_of};
+
+use terminal_size::{Height, Width, terminal_size_of};
 
 /// Least width: a narrower terminal would show one word per line.
 const NARROWEST: usize = 40;
 
-/// Returns the number of characters per line on stdout, from `COLUMNS` or the terminal; `None` if stdout is no
-/// terminal.
-fn width() -> Option<usize> {
-    let stdout = std::io::stdout();
-    let told = || std::env::var("COLUMNS").ok()?.parse().ok();
-    let seen = || terminal_size_of(std::io::stdout()).map(|(Width(width), _)| usize::from(width));
-    let width = stdout.is_terminal().then(|| told().or_else(seen)).flatten().filter(|width| *width > 0);
+/// Greatest width of messages and help: longer lines are hard to read.
+pub const WIDEST: usize = 80;
+
+/// Returns the number of characters per line of a terminal, from `COLUMNS` or its size; `None` for other outputs.
+fn width(is_terminal: bool, size: Option<(Width, Height)>) -> Option<usize> {
+    let stated = || std::env::var("COLUMNS").ok()?.parse().ok();
+    let seen = || size.map(|(Width(width), _)| usize::from(width));
+    let width = is_terminal.then(|| stated().or_else(seen)).flatten().filter(|width| *width > 0);
     width.map(|width| width.max(NARROWEST))
 }
 
 /// Returns a summary within the terminal's width, with its verdict in the colour of the exit code. Colours are escape
 /// sequences, which [`anstream`] removes for other outputs.
 pub fn summary(text: &str, code: u8) -> String {
-    let text = width().map_or_else(|| text.to_owned(), |width| narrowed(text, width));
+    let stdout = std::io::stdout();
+    let width = width(stdout.is_terminal(), terminal_size_of(&stdout));
+    let text = width.map_or_else(|| text.to_owned(), |width| narrowed(text, width));
     painted(&text, code)
 }
 
-/// Returns a message with its label in colour.
-pub fn said(text: &str) -> String {
+/// Returns a message for stderr, with its label in colour. For a terminal, its lines are wrapped.
+pub fn message(text: &str) -> String {
+    let stderr = std::io::stderr();
+    let width = width(stderr.is_terminal(), terminal_size_of(&stderr));
+    let text = width.map_or_else(|| text.to_owned(), |width| folded(text, width.min(WIDEST)));
     for (label, color) in [("error:", AnsiColor::Red), ("warning:", AnsiColor::Yellow)] {
         if let Some(rest) = text.strip_prefix(label) {
             return format!("{}{rest}", in_color(label, color));
         }
     }
-    text.to_owned()
+    text
 }
 
-/// Wraps lines to the width; continuation lines are indented to the second column.
+/// Wraps the lines of a message, except quoted source lines, whose carets point at a column.
+fn folded(text: &str, width: usize) -> String {
+    let folded = |line: &str| {
+        let blanks = line.chars().take_while(|c| *c == ' ').count();
+        if line.contains(" | ") { line.to_owned() } else { wrapped(line, width, blanks + 2) }
+    };
+    text.split('\n').map(folded).collect::<Vec<_>>().join("\n")
+}
+
+/// Wraps lines of a summary to the width; continuation lines are indented to the second column.
 fn narrowed(text: &str, width: usize) -> String {
     let narrowed = |line: &str| {
         let blanks = line.chars().take_while(|c| *c == ' ').count();
@@ -101,8 +117,18 @@ mod tests {
     #[test]
     fn labels_are_coloured() {
         assert!(
-            said("error: no").ends_with("error:\u{1b}[0m no") && said("warning: no").ends_with("warning:\u{1b}[0m no")
+            message("error: no").ends_with("error:\u{1b}[0m no")
+                && message("warning: no").ends_with("warning:\u{1b}[0m no")
         );
-        assert_eq!(said("no error: none"), "no error: none");
+        assert_eq!(message("no error: none"), "no error: none");
+    }
+
+    #[test]
+    fn messages_are_wrapped_but_source_lines_are_not() {
+        let text = "error: one two three four\n  12 | joints = [1, 2, 3]\n     | ^^^^\n  hint: five six seven";
+        let folded_text =
+            "error: one two\n  three four\n  12 | joints = [1, 2, 3]\n     | ^^^^\n  hint: five\n    six seven";
+        assert_eq!(folded(text, 14), folded_text);
+        assert_eq!(folded(text, WIDEST), text);
     }
 }

@@ -12,5 +12,5 @@ pub fn clearance(text: &str) -> Result<f64, String> {
 
 /// Parses a time limit, seconds.
 pub fn time_limit(text: &str) -> Result<f64, String> {
-    number_in(text, |x| x > 0.0 && x <= LONGEST_JOB, &format!("of seconds, more than 0 and at most {LONGEST_JOB:e}"))
+    number_in(text, |x| x > 0.0 && x <= LONGEST_JOB, &format!("of seconds, greater than 0 and at most {LONGEST_JOB:e}"))
 }

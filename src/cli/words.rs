@@ -1,4 +1,4 @@
-//! Options of the main job, for callers from a library.
+//! Options of `cplan plan`, for callers from a library.
 
 use super::failure::Failure;
 use super::files::Files;
@@ -11,7 +11,7 @@ use crate::input::Overrides;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Args, Command, Parser};
 
-/// All that says how to plan and what to override, as words of the main job's command line.
+/// Options for planning and overrides, as words of the command line of `cplan plan`.
 #[derive(Debug, Parser)]
 #[command(no_binary_name = true, disable_help_flag = true)]
 struct Words {
@@ -47,24 +47,24 @@ pub fn read_words(words: &[String]) -> Result<(Options, Overrides), String> {
 /// # Errors
 /// The defect, in a line or two.
 pub(super) fn asked(words: &[String]) -> Result<Asked, Failure> {
-    let refused = |error| Failure::Usage(misplaced(&error).unwrap_or_else(|| told(&error)));
+    let refused = |error| Failure::Usage(misplaced(&error).unwrap_or_else(|| message(&error)));
     let words = Words::try_parse_from(words).map_err(refused)?;
     let Words { planner, query, motion, message, options: given } = words;
     let options = plan::options(planner, &given, &motion, &message)?;
     Ok(Asked { options, overrides: query.overrides() })
 }
 
-/// Returns a message for options of the main job that are about files and printing, not about planning.
+/// Returns a message for options of `cplan plan` that are about files and printing, not about planning.
 fn misplaced(error: &clap::Error) -> Option<String> {
     let Some(ContextValue::String(option)) = error.get(ContextKind::InvalidArg) else { return None };
     let main_job = PlanArgs::augment_args(Files::augment_args(Command::new("cplan")));
     let is_known = error.kind() == ErrorKind::UnknownArgument
         && main_job.get_arguments().any(|known| known.get_long() == option.strip_prefix("--"));
-    is_known.then(|| format!("{option} is about files or what is printed, and has no place here"))
+    is_known.then(|| format!("{option} is about files or printed output and does not apply here"))
 }
 
 /// Returns the error in words, without the usage of a program.
-pub(super) fn told(error: &clap::Error) -> String {
+pub(super) fn message(error: &clap::Error) -> String {
     let text = error.to_string();
     let said = text.split("\n\nUsage").next().unwrap_or_default();
     said.strip_prefix("error: ").unwrap_or(said).trim_end().to_owned()

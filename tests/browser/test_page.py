@@ -178,7 +178,7 @@ def test_obstacles_can_be_hidden_one_by_one(program, show_file):
 def test_no_path_shows_its_proof(program, show_file):
     page, result = program.plan("planar_2r_continuous", "no_path", code=3)
     seen = show_file(page)
-    assert "no path: proven" in seen.page.get_by_role("status").inner_text()
+    assert "infeasible: proven" in seen.page.get_by_role("status").inner_text()
     assert seen.do("cplan.world.proof.length") == 4 * len(result["proof"])
     before = pixels(seen, "cspace")
     seen.page.locator("[data-layer='proof']").uncheck()

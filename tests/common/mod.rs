@@ -64,7 +64,7 @@ pub fn arm(joints: [Joint; 2], links: [Link; 2], offset: Vector, tip: Point) -> 
         name: "test arm".into(),
         joints,
         links,
-        base: Point::origin(),
+        base: Point::zeros(),
         offset,
         tip,
         tip_name: "tip".into(),
@@ -184,7 +184,7 @@ pub fn spiral(count: u8) -> Vec<Convex> {
         let center = Vector::new(radius * angle.cos(), radius * angle.sin());
         let corner = |k: u8| {
             let turn = 0.7 * index + std::f64::consts::TAU * f64::from(k) / f64::from(corners);
-            Point::from(center + 0.08 * Vector::new(turn.cos(), turn.sin()))
+            center + 0.08 * Vector::new(turn.cos(), turn.sin())
         };
         convex((0..corners).map(corner).collect(), 0.0)
     };

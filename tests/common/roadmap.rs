@@ -211,7 +211,7 @@ pub fn bitangents(regions: &Regions) -> Vec<[Configuration; 2]> {
             };
             if tangent(c, d.1) && tangent(d, c.1) && sides.iter().all(apart) {
                 let ends = if (c.1.x, c.1.y) < (d.1.x, d.1.y) { [c.1, d.1] } else { [d.1, c.1] };
-                arcs.push(ends.map(|p| p.coords));
+                arcs.push(ends);
             }
         }
     }
@@ -242,7 +242,6 @@ pub fn assert_free(regions: &Regions, path: &Path) {
     let sides = sides(regions);
     let samples = 50;
     for (a, b) in path.segments() {
-        let (a, b) = (Point::from(a), Point::from(b));
         for (c, d) in &sides {
             assert!(!segments_cross(a, b, *c, *d), "{a} {b} crosses {c} {d}");
         }

@@ -3,7 +3,7 @@
 
 use crate::common::{placed, q, rr, wall};
 use cplan::cspace::{Regions, regions, traced_pairs};
-use cplan::geometry::{Point, SimplePolygon, Vector, cross};
+use cplan::geometry::{Point, Pose, SimplePolygon, Vector, cross};
 use cplan::model::{Arm, Heights, Obstacle, Scene, Shape, Workspace};
 use cplan::space::{Configuration, JointRange};
 use proptest::prelude::*;
@@ -105,13 +105,13 @@ fn clearance(scene: &Scene, at: Configuration) -> f64 {
         bar(length).map(|(x, y)| from + Vector::new(x * cos - y * sin, x * sin + y * cos))
     };
     let elbow = Point::new(at[0].cos(), at[0].sin());
-    let links = [turned(Point::origin(), at[0], 1.0), turned(elbow, at[0] + at[1], 0.8)];
+    let links = [turned(Point::zeros(), at[0], 1.0), turned(elbow, at[0] + at[1], 0.8)];
     let pieces = scene.workspace().obstacles.iter().flat_map(|o| &o.pieces);
     pieces.flat_map(|piece| links.iter().map(|link| apart(link, piece.core()))).fold(f64::INFINITY, f64::min)
 }
 
 fn is_free(regions: &Regions, at: Configuration) -> bool {
-    regions.free.iter().any(|polygon| polygon.contains(Point::from(at)))
+    regions.free.iter().any(|polygon| polygon.contains(at))
 }
 
 proptest! {
@@ -158,7 +158,7 @@ fn ten_times_the_corners_in_the_same_room_are_no_more_to_trace() {
 #[test]
 fn what_is_out_of_reach_is_nothing_to_trace() {
     let mut far = polyline(3, 5_000, true);
-    far.pieces = far.pieces.iter().map(|piece| piece.at(&nalgebra::Isometry2::translation(9.0, 0.0))).collect();
-    far.shape = far.shape.at(&nalgebra::Isometry2::translation(9.0, 0.0));
+    far.pieces = far.pieces.iter().map(|piece| piece.at(&Pose::translation(Vector::new(9.0, 0.0)))).collect();
+    far.shape = far.shape.at(&Pose::translation(Vector::new(9.0, 0.0)));
     assert_eq!(traced_pairs(&scene(far), 2e-3), 0);
 }

@@ -45,7 +45,7 @@ fn part() -> impl Strategy<Value = Convex> {
     let bar = (0.3..1.2f64, 0.02..0.1f64)
         .prop_map(|(length, half_width)| common::rectangle(0.0, length, -half_width, half_width));
     let capsule = (0.3..1.2f64, 0.02..0.1f64)
-        .prop_map(|(length, radius)| convex(vec![Point::origin(), Point::new(length, 0.0)], radius));
+        .prop_map(|(length, radius)| convex(vec![Point::zeros(), Point::new(length, 0.0)], radius));
     prop_oneof![bar, capsule, piece()]
 }
 

@@ -81,7 +81,7 @@ fn the_way_out_has_the_known_angle() {
     let limits = JointRange::Interval { lower: -3.0, upper: 3.0 };
     let blind = arm(
         [joint("a", turn, limits), joint("b", turn, limits)],
-        [link("first", vec![wall(Point::origin(), Point::new(1.0, 0.0))]), link("second", Vec::new())],
+        [link("first", vec![wall(Point::zeros(), Point::new(1.0, 0.0))]), link("second", Vec::new())],
         Vector::new(1.0, 0.0),
         Point::new(0.5, 0.0),
     );
@@ -111,7 +111,7 @@ fn the_short_way_round_the_circle_counts() {
 
 #[test]
 fn an_arm_that_is_buried_has_no_way_out() {
-    let obstacles = vec![obstacle("rock", disc(Point::origin(), 5.0))];
+    let obstacles = vec![obstacle("rock", disc(Point::zeros(), 5.0))];
     let workspace = Workspace { name: String::new(), obstacles, clearance: 0.0, preferences: Vec::new() };
     assert_eq!(nearest_free(&placed(rr([JointRange::Circle; 2]), workspace), q(0.0, 0.0)), None);
 }

@@ -75,7 +75,7 @@ fn torus(shift: f64) -> Scene {
         0.0,
     );
     let (arm, workspace) = scene.into_parts();
-    placed(Arm { base: Point::origin(), ..arm }, workspace)
+    placed(Arm { base: Point::zeros(), ..arm }, workspace)
 }
 
 /// Generates corners of a regular polygon, a disc, a thin wall or a point.
@@ -140,7 +140,7 @@ fn points(polygon: &Polygon) -> impl Iterator<Item = (Point, Point)> + '_ {
 
 fn area(contour: &[Point]) -> f64 {
     let n = contour.len();
-    (0..n).map(|i| cross(contour[i].coords, contour[(i + 1) % n].coords)).sum::<f64>() / 2.0
+    (0..n).map(|i| cross(contour[i], contour[(i + 1) % n])).sum::<f64>() / 2.0
 }
 
 /// Returns true if no two sides cross that are not neighbours.
@@ -177,7 +177,7 @@ fn keeps_its_margin(scene: &Scene, margin: f64) -> Result<(), TestCaseError> {
     // On the boundary, where a mistake shows first, the proven distance is kept.
     for (a, b) in regions.free.iter().flat_map(points) {
         for t in [0.0, 0.21, 0.5, 0.83] {
-            let q = a.coords + (b - a) * t;
+            let q = a + (b - a) * t;
             prop_assert!(scene.clearance(q) >= keep + 0.25 * margin - 1e-9, "{} at {q}", scene.clearance(q));
         }
     }
@@ -197,7 +197,7 @@ fn loses_no_more_than_its_margin(scene: &Scene, regions: &Regions, margin: f64) 
     }
     for (a, b) in regions.free.iter().flat_map(points) {
         for t in [0.0, 0.21, 0.5, 0.83] {
-            let q = a.coords + (b - a) * t;
+            let q = a + (b - a) * t;
             let is_limit =
                 |k: usize| <[f64; 2]>::from(regions.window[k]).iter().any(|limit| (q[k] - limit).abs() < 1e-9);
             let clearance = scene.clearance(q);
@@ -341,7 +341,7 @@ fn a_gantry_without_margin_is_exact() {
     assert!(exact.area() > 0.0);
     for q in lattice([(-2.0, 2.0), (-2.0, 2.0)], 150) {
         let distance = scene.clearance(q);
-        assert!(distance.abs() < 1e-9 || exact.contains(Point::from(q)) == (distance < 0.0), "{q}: {distance}");
+        assert!(distance.abs() < 1e-9 || exact.contains(q) == (distance < 0.0), "{q}: {distance}");
     }
 }
 

@@ -53,5 +53,5 @@ fn without_a_driver_it_says_what_to_do() {
     let done = command.output().unwrap();
     let text = String::from_utf8_lossy(&done.stderr);
     assert_eq!(done.status.code(), Some(1), "{text}");
-    assert!(text.contains("--on gpu: no GPU can be used") && text.contains("cure: install a driver"), "{text}");
+    assert!(text.contains("--on gpu: no GPU can be used") && text.contains("hint: install a driver"), "{text}");
 }

@@ -153,12 +153,12 @@ proptest! {
         for i in 0..64 {
             let a = f64::from(i) * std::f64::consts::TAU / 64.0;
             let d = nalgebra::Vector2::new(a.cos(), a.sin());
-            let outline = part.shape.core().iter().map(|p| p.coords.dot(&d)).fold(f64::MIN, f64::max) + part.shape.radius();
+            let outline = part.shape.core().iter().map(|p| p.dot(&d)).fold(f64::MIN, f64::max) + part.shape.radius();
             let sampled = placed.iter().map(|p| p.xy().dot(&d)).fold(f64::MIN, f64::max);
             prop_assert!(outline - sampled < 0.005 * RADIUS + SAMPLING, "excess {}", outline - sampled);
             // The inner outline of proofs is within the solid, and only slightly smaller.
             let inner = part.inner.as_ref().unwrap_or(&part.shape);
-            let support = inner.core().iter().map(|p| p.coords.dot(&d)).fold(f64::MIN, f64::max) + inner.radius();
+            let support = inner.core().iter().map(|p| p.dot(&d)).fold(f64::MIN, f64::max) + inner.radius();
             if shape == CYLINDER {
                 let (axis, half) = (rpy(r) * Vector3::z(), length(seed) / 2.0);
                 let along = axis.xy().dot(&d);
@@ -302,22 +302,22 @@ fn meshes_of_collada_and_obj_are_those_of_stl() {
     }
     let spoilt = |this: &str, that: &str| COLLADA.replace(this, that);
     for (mesh, text, message) in [
-        ("t.obj", "v 0 0 0\nf 1 2 3\n".to_owned(), "line 2: there is no vertex \"2\""),
+        ("t.obj", "v 0 0 0\nf 1 2 3\n".to_owned(), "line 2: no vertex \"2\" precedes"),
         ("t.obj", "v 0 0\n".to_owned(), "line 1: a vertex needs three numbers"),
         ("t.obj", "v 0 0 0\n".to_owned(), "no face"),
         ("t.obj", "v 0 nan 0\nf 1 1 1\n".to_owned(), "not finite"),
-        ("t.dae", "<svg/>".to_owned(), "no Collada"),
-        ("t.dae", "<COLLADA>".to_owned(), "no well-formed XML"),
+        ("t.dae", "<svg/>".to_owned(), "not Collada"),
+        ("t.dae", "<COLLADA>".to_owned(), "not well-formed XML"),
         ("t.dae", spoilt("0.01", "-1"), "makes no sense"),
         ("t.dae", spoilt("0 1 0 0 -1", "0 1 x 0 -1"), "\"x\" is no number"),
-        ("t.dae", spoilt("0 1 0 0 -1", "0 1 0 0"), "make no positions"),
+        ("t.dae", spoilt("0 1 0 0 -1", "0 1 0 0"), "numbers for positions"),
         ("t.dae", spoilt("url=\"#g\"", "url=\"#none\""), "a geometry that the file does not have"),
-        ("t.dae", spoilt("<instance_geometry url=\"#g\"/>", "<instance_node url=\"#inner\"/>"), "hold themselves"),
+        ("t.dae", spoilt("<instance_geometry url=\"#g\"/>", "<instance_node url=\"#inner\"/>"), "contains itself"),
         ("t.dae", "<COLLADA/>".to_owned(), "no mesh"),
         ("t.3ds", String::new(), "neither STL, Collada (.dae) nor OBJ"),
     ] {
         let error = load(mesh, &text).unwrap_err().to_string();
-        assert!(error.contains(message) && error.contains("cure: "), "{message}: {error}");
+        assert!(error.contains(message) && error.contains("hint: "), "{message}: {error}");
     }
 }
 
@@ -374,7 +374,7 @@ fn meshes_are_held_to_a_range_as_they_are_scaled() {
         let error = load(mesh, text, scale).unwrap_err().to_string();
         let place = format!("{}: line 2, column ", urdf.display());
         assert!(error.contains(&place) && error.contains(mesh), "{error}");
-        assert!(error.contains(message) && error.contains("cure: give the scale"), "{message}: {error}");
+        assert!(error.contains(message) && error.contains("hint: give the scale"), "{message}: {error}");
     }
     // Its scale brings a distant shape near.
     assert!(load("t.obj", &far.replace("1e300", "2e9"), "1e-9 1 1").is_ok());
@@ -412,7 +412,7 @@ fn a_bar_stands_in_only_where_it_is_asked_for() {
     let loaded = load_arm(&bare, "bar = 0.05");
     let arm: &Arm = loaded.scene.arm();
     assert_eq!(arm.links[0].source, OutlineSource::Bar);
-    assert_eq!(arm.links[0].parts[0].shape, convex(vec![Point::origin(), Point::new(1.0, 0.0)], 0.05));
+    assert_eq!(arm.links[0].parts[0].shape, convex(vec![Point::zeros(), Point::new(1.0, 0.0)], 0.05));
     assert!(loaded.robot.notes.iter().any(|n| n.contains("size zero are ignored (in \"one\")")));
     let half = load_arm(&urdf_with("<geometry><sphere radius=\"0.1\"/></geometry>"), "");
     assert_eq!(half.scene.arm().links[1].source, OutlineSource::None);
@@ -459,7 +459,7 @@ fn folding() -> LoadedScene {
 #[test]
 fn where_a_joint_does_not_matter_the_preferred_value_is_taken() {
     let arm = folding().scene.into_parts().0;
-    let folded = inverse(&arm, Point::origin(), Configuration::new(0.7, 0.2));
+    let folded = inverse(&arm, Point::zeros(), Configuration::new(0.7, 0.2));
     assert_eq!(folded.free, Some(Freedom::Joint(0)));
     assert_eq!((folded.branches.len(), folded.branches[0][0]), (1, 0.7));
     assert!((folded.branches[0][1].abs() - std::f64::consts::PI).abs() < 1e-9);

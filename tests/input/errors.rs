@@ -96,7 +96,7 @@ fn joints_that_cannot_move() {
     bad_arm(
         "<axis xyz=\"0 0 1\"/>",
         "<axis xyz=\"0 0 0\"/>",
-        &["line 5", "joint \"j1\"", "is zero", "cure: give the axis"],
+        &["line 5", "joint \"j1\"", "is zero", "hint: give the axis"],
     );
     bad_arm("lower=\"-3\" upper=\"3\"", "lower=\"3\" upper=\"-3\"", &["line 6", "reversed", "swap"]);
     bad_arm("lower=\"-3\" upper=\"3\"", "", &["line 6", "unset", "[robot] limits = { j1 = [-3.1, 3.1] }"]);
@@ -104,7 +104,7 @@ fn joints_that_cannot_move() {
     bad_arm("lower=\"-3\" upper=\"3\"", "lower=\"-1\" upper=\"1e16\"", &["line 6", "too long", "continuous"]);
     bad_arm("type=\"revolute\"", "type=\"hinge\"", &["line 3", "type \"hinge\" is unknown", "revolute"]);
     let soft = "<safety_controller soft_lower_limit=\"4\" soft_upper_limit=\"5\" k_velocity=\"1\"/></joint>";
-    bad_arm("</joint>", soft, &["line 7", "soft limits [4, 5] leave nothing", "limits = { j1 = [-3, 3] }"]);
+    bad_arm("</joint>", soft, &["line 7", "soft limits [4, 5] do not overlap", "limits = { j1 = [-3, 3] }"]);
 }
 
 #[test]
@@ -181,7 +181,7 @@ fn arms_that_are_none() {
     let urdf = bare.iter().fold(ARM.to_owned(), |urdf, text| urdf.replacen(text, "", 1));
     refused(
         load_files("arm.urdf", &urdf, WORLD, &Overrides::default()),
-        &["arm.urdf", "nothing of the arm", "bar = 0.05"],
+        &["arm.urdf", "the arm cannot collide", "bar = 0.05"],
     );
     bad_arm("<box size=\"1 0.1 0.1\"/>", "<mesh filename=\"a.dae\"/>", &["line 9", "a.dae", "STL", "bar = "]);
     bad_arm(
@@ -320,7 +320,7 @@ fn preferences_are_checked_like_obstacles() {
         (format!("epsilon = 1\npolygon = {square}\nconfigurations = {square}"), ["preference 1", "it has both"]),
         (format!("epsilon = inf\npolygon = {square}"), ["line 7, column 11", "is not a finite number"]),
         (format!("name = \"bay\"\nepsilon = 1\ncircle = {square}"), ["line 9", "unknown key `circle`"]),
-        (format!("epsilon = 1\ndirection = [0, 0]\npolygon = {square}"), ["line 8", "the direction has no length"]),
+        (format!("epsilon = 1\ndirection = [0, 0]\npolygon = {square}"), ["line 8", "the direction is zero"]),
         (format!("epsilon = 1\ndirection = [1]\npolygon = {square}"), ["line 8", "expected two numbers"]),
         ("epsilon = 1\npolygon = [[0, 0], [1, 1], [1, 0], [0, 1]]".into(), ["line 8", "is not a simple polygon"]),
         (

@@ -17,7 +17,7 @@ fn robot(table: &str) -> String {
 /// Checks that files are refused with a hint, and that they load with the hint applied to either of them.
 fn holds([urdf, world]: [&str; 2], hint: &str, mended: &[[&str; 2]]) {
     let refused = load_files("arm.urdf", urdf, world, &Overrides::default()).expect_err(hint).to_string();
-    let hints = refused.split("cure: ").skip(1).collect::<Vec<_>>().join("\n");
+    let hints = refused.split("hint: ").skip(1).collect::<Vec<_>>().join("\n");
     assert!(hints.contains(hint), "no \"{hint}\" in:\n{refused}");
     for [urdf, world] in mended {
         let loaded = load_files("arm.urdf", urdf, world, &Overrides::default());
@@ -141,7 +141,7 @@ fn hints_about_the_robot_table() {
         of_robot(&format!("{table} = {{ j1 = 0 }}"), "give a number above 0", &[&format!("{table} = {{ j1 = 0.5 }}")]);
     }
     of_robot("bar = -1", "bar = 0.05, metres", &["bar = 0.05"]);
-    of_robot("fixd = {}", "use a key that is known, or remove this one", &["fixed = {}", ""]);
+    of_robot("fixd = {}", "use a known key, or remove this one", &["fixed = {}", ""]);
 }
 
 #[test]
@@ -182,7 +182,7 @@ fn hints_about_obstacles() {
     of_world(
         shape,
         &two,
-        "a second shape is an [[obstacle]] of its own",
+        "put a second shape into another [[obstacle]]",
         &[&two.replace("\npoly", "\n[[obstacle]]\npoly")],
     );
     of_world(
@@ -198,7 +198,7 @@ fn hints_about_obstacles() {
 #[test]
 fn hints_about_start_and_goal() {
     let (start, goal) = ("joints = [0.0, 0.5]", "joints = [1.0, -0.5]");
-    let limits = "choose values within, or override [robot] limits in the world file";
+    let limits = "choose values within the limits, or override [robot] limits in the world file";
     let wide = "[robot]\nlimits = { j1 = [-3.2, 3.2], j2 = [-3.1, 3.1] }\n[start]";
     let override_limits = |world: &str| with(world, "[start]", wide);
     let beyond = with(WORLD, start, "joints = [0.0, 2.5]");
@@ -230,5 +230,5 @@ fn hints_about_start_and_goal() {
     let near = with(WORLD, goal, "tip = [0.1, 0.0]");
     holds([&long, &near], "choose a point farther from joint 1", &[[&long, &with(WORLD, goal, "tip = [1.2, 0.0]")]]);
     let clearance = with(WORLD, "name = \"test\"", "clearance = 2.0");
-    holds([ARM, &clearance], "or ask for less clearance", &[[ARM, &with(WORLD, "name = \"test\"", "clearance = 0.1")]]);
+    holds([ARM, &clearance], "or require less clearance", &[[ARM, &with(WORLD, "name = \"test\"", "clearance = 0.1")]]);
 }

@@ -53,7 +53,7 @@ fn planar_pairs_in_several_planes_or_on_branches_are_refused_with_what_to_write(
     let two_arms = chain(&[("revolute", UP), ("revolute", UP)]).replace("</robot>", right);
     for urdf in [two_planes, two_arms] {
         let error = loaded(&urdf).unwrap_err().to_string();
-        assert!(error.contains("which two are to be planned for is not said"), "{error}");
+        assert!(error.contains("which two should cplan plan for?"), "{error}");
         assert!(error.contains("[robot] joints = [\"j1\", \"j2\"], or [robot] joints = "), "{error}");
         // The hint is sufficient.
         let world = Source::in_memory("world.toml", "[robot]\njoints = [\"j1\", \"j2\"]\n");

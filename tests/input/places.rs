@@ -40,8 +40,8 @@ fn a_robot_stands_where_the_world_puts_it() {
             for (link, (own_link, link_there)) in own.links.iter().zip(&there.links).enumerate() {
                 for (part, part_there) in own_link.parts.iter().zip(&link_there.parts) {
                     for (p, p_there) in part.shape.core().iter().zip(part_there.shape.core()) {
-                        let corner = own.pose(link, q) * p;
-                        assert!(near(there.pose(link, q) * p_there, placed([corner.x, corner.y])), "{robot}");
+                        let corner = own.pose(link, q).point(*p);
+                        assert!(near(there.pose(link, q).point(*p_there), placed([corner.x, corner.y])), "{robot}");
                     }
                     assert_eq!(part.shape.radius(), part_there.shape.radius());
                 }

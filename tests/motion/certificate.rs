@@ -68,7 +68,7 @@ proptest! {
 fn the_clearance_bounds_the_radius() {
     // A tool of radius 0.1 at (x, y), a post inside the right angle of its path.
     let (mut gantry, _) = crate::empty([1.0, 1.0], [4.0, 4.0]).into_parts();
-    gantry.links[1] = crate::common::link("tool", vec![disc(cplan::geometry::Point::origin(), 0.1)]);
+    gantry.links[1] = crate::common::link("tool", vec![disc(cplan::geometry::Point::zeros(), 0.1)]);
     let post = disc(cplan::geometry::Point::new(0.8, 0.2), 0.05);
     let scene = scene(gantry, vec![post]);
     let path = certify(&scene, Path::new(vec![q(0.0, 0.0), q(1.0, 0.0), q(1.0, 1.0)]), 0.0).unwrap();

@@ -32,7 +32,7 @@ fn empty(velocity: [f64; 2], acceleration: [f64; 2]) -> Scene {
         joint
     };
     let joints = [slide(0, 1.0, 0.0), slide(1, 0.0, 1.0)];
-    scene(arm(joints, [link("a", vec![]), link("b", vec![])], Vector::zeros(), Point::origin()), vec![])
+    scene(arm(joints, [link("a", vec![]), link("b", vec![])], Vector::zeros(), Point::zeros()), vec![])
 }
 
 fn certified(scene: &Scene, waypoints: &[[f64; 2]]) -> CertifiedPath {

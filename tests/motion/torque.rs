@@ -6,7 +6,7 @@ use super::common::dice::Dice;
 use super::common::random::times;
 use super::common::{all_kinds, arm, dice, joint, link, rectangle, scene};
 use cplan::check::certify;
-use cplan::geometry::{Point, Vector};
+use cplan::geometry::{Point, Pose, Vector};
 use cplan::model::{
     Arm, Body, Dynamics, Grip, Heights, Holding, JointType, Object, Payload, Scene, Shape, Task, Torques,
 };
@@ -251,9 +251,9 @@ fn gantry(effort: [f64; 2], mass: [f64; 2], gravity: Vector) -> Arm {
         [slide("x", 1.0, 0.0), slide("y", 0.0, 1.0)],
         [link("a", vec![]), link("b", vec![])],
         Vector::zeros(),
-        Point::origin(),
+        Point::zeros(),
     );
-    let bodies = mass.map(|mass| Body { mass, center: Point::origin(), inertia: 0.0 });
+    let bodies = mass.map(|mass| Body { mass, center: Point::zeros(), inertia: 0.0 });
     arm.dynamics = Some(Dynamics { bodies, gravity, effort, assumed: [true; 2], limits: true });
     arm.joints.iter_mut().for_each(|joint| (joint.velocity, joint.acceleration) = (100.0, 1e6));
     arm
@@ -289,12 +289,12 @@ fn what_is_carried_counts() {
         heights: Heights::ALL,
         lift: 0.0,
         holding: Holding::Rigid,
-        at: nalgebra::Isometry2::identity(),
+        at: Pose::identity(),
         course: None,
         mass: 6.0,
     };
     let bare = gantry([24.0, 30.0], [4.0, 2.0], Vector::zeros());
-    let rigid = Grip::Rigid(nalgebra::Isometry2::translation(0.5, 0.0));
+    let rigid = Grip::Rigid(Pose::translation(Vector::new(0.5, 0.0)));
     let carrying = |arm: &Arm, grip| {
         let task = Task {
             arm: arm.clone(),
@@ -315,7 +315,7 @@ fn what_is_carried_counts() {
     turning.dynamics = Some(Dynamics { bodies: [Body { mass: 1.0, ..Body::NONE }; 2], ..bare.dynamics.expect("its") });
     let body = |grip| Torques::limited(&carrying(&turning, grip)).expect("limits").dynamics.bodies[1];
     let held = body(rigid);
-    let about_joint = held.inertia + held.mass * held.center.coords.norm_squared();
+    let about_joint = held.inertia + held.mass * held.center.norm_squared();
     assert!(
         (held.mass - 7.0).abs() < 1e-12 && (about_joint - (6.0 * 5.0 / 12.0 + 6.0 * 0.25)).abs() < 1e-9,
         "{held:?}"
@@ -323,6 +323,6 @@ fn what_is_carried_counts() {
     // A level payload does not turn: its whole mass counts at the tip.
     let level = Grip::Level { angle: 0.3, point: Point::new(0.2, 0.1) };
     let held = body(level);
-    let about_joint = held.inertia + held.mass * held.center.coords.norm_squared();
-    assert!((about_joint - 6.0 * turning.tip.coords.norm_squared()).abs() < 1e-9, "{held:?}");
+    let about_joint = held.inertia + held.mass * held.center.norm_squared();
+    assert!((about_joint - 6.0 * turning.tip.norm_squared()).abs() < 1e-9, "{held:?}");
 }

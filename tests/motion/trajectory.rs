@@ -27,7 +27,7 @@ fn scene(obstacle: bool) -> Scene {
         jerk: None,
     };
     let tool = Part {
-        shape: disc(Point::origin(), 0.1),
+        shape: disc(Point::zeros(), 0.1),
         inner: None,
         number: 0,
         is_visual: false,
@@ -44,9 +44,9 @@ fn scene(obstacle: bool) -> Scene {
             Link { name: "turret".into(), parts: vec![], source: OutlineSource::None },
             Link { name: "slider".into(), parts: vec![tool], source: OutlineSource::Collision },
         ],
-        base: Point::origin(),
+        base: Point::zeros(),
         offset: Vector::zeros(),
-        tip: Point::origin(),
+        tip: Point::zeros(),
         tip_name: "slider".into(),
         plane: Plane { u: Vector3::x(), v: Vector3::y(), normal: Vector3::z() },
         dynamics: None,

@@ -7,13 +7,12 @@ use crate::drawn::{at, mover, position};
 use crate::solid::{Solid, V, add, norm, rotate, sub};
 use crate::world::world;
 use cplan::engine::task::{Event, Leg, TaskAnswer};
-use cplan::geometry::{Point, Vector};
+use cplan::geometry::{Point, Pose, Vector};
 use cplan::model::{
     Action, Arm, Course, Goal, Heights, Holding, Item, JointType, Mover, Object, Obstacle, Scene, Shape, Step, Stop,
     Task, TimedWorkspace,
 };
 use cplan::space::Configuration;
-use nalgebra::Isometry2;
 
 /// Returns a task for a kind of arm and a seed; `None` if the draw makes no task.
 pub fn drawn(kind: &str, seed: u64) -> Option<Task> {
@@ -35,7 +34,7 @@ pub fn drawn(kind: &str, seed: u64) -> Option<Task> {
     let objects = (0..count).map(|number| object(&mut dice, &still, number, level)).collect();
     let mut items = Vec::new();
     for object in 0..count {
-        let grasp = if dice.chance(0.3) { Point::new(0.03, 0.01) } else { Point::origin() };
+        let grasp = if dice.chance(0.3) { Point::new(0.03, 0.01) } else { Point::zeros() };
         items.push(Action::Pick { object, grasp, supports: Vec::new(), when: Vec::new() });
         if dice.chance(0.3) {
             items.push(Action::Move(Goal::Tip(somewhere(&mut dice, &still))));
@@ -67,7 +66,7 @@ fn somewhere(dice: &mut Dice, still: &Scene) -> Point {
 fn object(dice: &mut Dice, still: &Scene, number: usize, level: bool) -> Object {
     let size = dice.within(0.02, 0.06);
     let piece =
-        if dice.chance(0.5) { disc(Point::origin(), size) } else { rectangle(-size, size, -size / 2.0, size / 2.0) };
+        if dice.chance(0.5) { disc(Point::zeros(), size) } else { rectangle(-size, size, -size / 2.0, size / 2.0) };
     let (place, angle) = (somewhere(dice, still), dice.within(-1.0, 1.0));
     let direction = dice.within(-3.2, 3.2);
     let speed = Vector::new(direction.cos(), direction.sin()) * dice.within(0.03, 0.25) * still.arm().reach();
@@ -82,7 +81,7 @@ fn object(dice: &mut Dice, still: &Scene, number: usize, level: bool) -> Object 
         }
         _ => Some(Course::new(vec![stop(0.0, from, angle)], speed).expect("a course")),
     };
-    let at = course.as_ref().map_or_else(|| Isometry2::new(place.coords, angle), |course| course.pose(0.0));
+    let at = course.as_ref().map_or_else(|| Pose::new(place, angle), |course| course.pose(0.0));
     Object {
         name: format!("part {number}"),
         shape: Shape::Pieces,
@@ -128,7 +127,7 @@ pub fn on_course(object: &Object, time: f64) -> Frame {
         return ([angle.cos(), angle.sin()], [object.at.translation.x, object.at.translation.y]);
     };
     // A point of it and another one beside it, which give its pose.
-    let pieces = vec![disc(Point::origin(), 0.1), disc(Point::new(1.0, 0.0), 0.1)];
+    let pieces = vec![disc(Point::zeros(), 0.1), disc(Point::new(1.0, 0.0), 0.1)];
     let points = Obstacle { name: String::new(), shape: Shape::Pieces, pieces, heights: Heights::ALL };
     let placed = at(&Mover { obstacle: points, course }, time).pieces;
     let [origin, beside] = [0, 1].map(|k| [placed[k].core()[0].x, placed[k].core()[0].y]);

@@ -89,7 +89,7 @@ impl Moving {
     pub fn speeds(&self) -> Vec<[f64; 3]> {
         let of = |mover: &Mover| {
             let pieces = mover.obstacle.pieces.iter();
-            let reach = pieces.map(|piece| piece.reach_from(Point::origin())).fold(0.0, f64::max);
+            let reach = pieces.map(|piece| piece.reach_from(Point::zeros())).fold(0.0, f64::max);
             let stops = mover.course.stops();
             let leg = |ends: &[Stop]| {
                 let [a, b] = [ends[0], ends[1]];
@@ -127,7 +127,7 @@ pub fn mover(dice: &mut Dice, base: Point, reach: f64, halfway: Point) -> Mover 
     let course = match dice.below(4) {
         0 => {
             let speed = Vector::new(dice.within(-0.5, 0.5), dice.within(-0.5, 0.5));
-            Course::conveyor(places[0].coords.into(), speed.into())
+            Course::conveyor(places[0].into(), speed.into())
         }
         kind => {
             let mut time = if dice.chance(0.5) { 0.0 } else { dice.within(0.0, 2.0) };

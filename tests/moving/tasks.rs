@@ -72,17 +72,17 @@ fn single_pick(seed: u64) -> Task {
     };
     let posts = (0..dice.below(4_usize)).map(|number| {
         let at = spot(&mut dice, [0.5, 1.8]);
-        Obstacle::circle(&format!("post {number}"), at.coords.into(), 0.06).expect("a circle")
+        Obstacle::circle(&format!("post {number}"), at.into(), 0.06).expect("a circle")
     });
     let workspace = Workspace::new(posts.collect::<Vec<_>>());
     let (near, angle) = (spot(&mut dice, [0.5, 1.6]), dice.within(-PI, PI));
     let velocity = Vector::new(angle.cos(), angle.sin()) * dice.within(0.1, 0.6);
     let from = near - velocity * dice.within(0.5, 4.0);
-    let course = Course::conveyor(from.coords.into(), velocity.into()).expect("a course");
+    let course = Course::conveyor(from.into(), velocity.into()).expect("a course");
     let object = Object {
         name: "bottle".into(),
         shape: Shape::Pieces,
-        pieces: vec![disc(Point::origin(), 0.04)],
+        pieces: vec![disc(Point::zeros(), 0.04)],
         heights: Heights::ALL,
         lift: 0.0,
         holding: Holding::Rigid,
@@ -90,7 +90,7 @@ fn single_pick(seed: u64) -> Task {
         course: Some(course),
         mass: 0.0,
     };
-    let action = Action::Pick { object: 0, grasp: Point::origin(), supports: Vec::new(), when: Vec::new() };
+    let action = Action::Pick { object: 0, grasp: Point::zeros(), supports: Vec::new(), when: Vec::new() };
     let step = Step { action, number: 1, cycle: 1, place: String::new(), speed: 1.0, dwell: 0.0 };
     let start = Configuration::new(dice.within(-PI, PI), dice.within(-PI, PI));
     let workspace = workspace.into();
@@ -132,7 +132,7 @@ fn soonest(task: &Task) -> Option<f64> {
 
 /// Returns both IK solutions of a place, by the shorter turn from the start, from the law of cosines.
 fn postures(task: &Task, [x, y]: V) -> Vec<V> {
-    let (a, b) = (task.arm.offset.norm(), task.arm.tip.coords.norm());
+    let (a, b) = (task.arm.offset.norm(), task.arm.tip.norm());
     let cosine = (x * x + y * y - a * a - b * b) / (2.0 * a * b);
     if cosine.abs() >= 1.0 {
         return Vec::new();

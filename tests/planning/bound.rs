@@ -126,13 +126,12 @@ fn the_bound_covers_all_goals() {
 /// A gantry's tool passes a block: around its corner on two straight pieces of known length.
 #[test]
 fn around_a_block_the_bound_is_the_shortest_path() {
-    let tool = disc(Point::origin(), 0.0);
-    let slide =
-        |angle: f64| cplan::model::JointType::Prismatic { direction: Point::new(angle.cos(), angle.sin()).coords };
+    let tool = disc(Point::zeros(), 0.0);
+    let slide = |angle: f64| cplan::model::JointType::Prismatic { direction: Point::new(angle.cos(), angle.sin()) };
     let axis = JointRange::Interval { lower: -2.0, upper: 2.0 };
     let joints = [common::joint("x", slide(0.0), axis), common::joint("y", slide(TAU / 4.0), axis)];
     let links = [common::link("beam", Vec::new()), common::link("tool", vec![tool])];
-    let arm = common::arm(joints, links, Point::origin().coords, Point::origin());
+    let arm = common::arm(joints, links, Point::zeros(), Point::zeros());
     let block = common::rectangle(-0.5, 0.5, -2.5, 0.25);
     let problem = asked(scene(arm, vec![block]), q(-1.5, 0.0), q(1.5, 0.0));
     let string = 1.0 + 2.0 * 1.0_f64.hypot(0.25);
@@ -144,17 +143,16 @@ fn around_a_block_the_bound_is_the_shortest_path() {
 /// above that of the strips.
 #[test]
 fn gantries_find_their_way_into_spirals() {
-    let slide =
-        |angle: f64| cplan::model::JointType::Prismatic { direction: Point::new(angle.cos(), angle.sin()).coords };
+    let slide = |angle: f64| cplan::model::JointType::Prismatic { direction: Point::new(angle.cos(), angle.sin()) };
     let (gap, radius) = (1.0, 0.2);
     for turns in [2, 6] {
         let size = gap * f64::from(turns);
         let axis = JointRange::Interval { lower: -size - 3.0, upper: size + 3.0 };
         let joints = [common::joint("x", slide(0.0), axis), common::joint("y", slide(TAU / 4.0), axis)];
-        let links = [common::link("beam", Vec::new()), common::link("tool", vec![disc(Point::origin(), radius)])];
-        let arm = common::arm(joints, links, Point::origin().coords, Point::origin());
+        let links = [common::link("beam", Vec::new()), common::link("tool", vec![disc(Point::zeros(), radius)])];
+        let arm = common::arm(joints, links, Point::zeros(), Point::zeros());
         // From the middle outwards: two sides of each length.
-        let mut corners = vec![Point::origin()];
+        let mut corners = vec![Point::zeros()];
         for side in 0..4 * turns {
             let (sin, cos) = (TAU / 4.0 * f64::from(side)).sin_cos();
             let length = gap * f64::from(side / 2 + 1);

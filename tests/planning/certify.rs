@@ -281,8 +281,8 @@ fn what_separates_is_decided_as_by_flood_fill() {
 /// Returns the arm of [`rr`] as two segments without thickness.
 fn skeleton(axes: [JointRange; 2]) -> cplan::model::Arm {
     let mut arm = rr(axes);
-    arm.links[0].parts[0].shape = wall(Point::origin(), Point::new(1.0, 0.0));
-    arm.links[1].parts[0].shape = wall(Point::origin(), Point::new(0.8, 0.0));
+    arm.links[0].parts[0].shape = wall(Point::zeros(), Point::new(1.0, 0.0));
+    arm.links[1].parts[0].shape = wall(Point::zeros(), Point::new(0.8, 0.0));
     arm
 }
 
@@ -355,7 +355,7 @@ fn link_1_sliding_along_a_wall_leaves_few_boxes() {
     let bridge = link("bridge", vec![rectangle(0.0, 0.25, 0.0, 0.25)]);
     let head = link("head", vec![rectangle(0.0, 0.25, 0.0, 0.25)]);
     let joints = [joint("x", slide(1.0, 0.0), range), joint("y", slide(0.0, 1.0), range)];
-    let arm = arm(joints, [bridge, head], Vector::zeros(), Point::origin());
+    let arm = arm(joints, [bridge, head], Vector::zeros(), Point::zeros());
     let scene = scene(arm, vec![rectangle(0.0, 4.0, -0.5, 0.0)]);
     let exploration = explore(&scene, q(0.5, 0.5), &q(1.5, 0.5).into(), 0.0, 1000);
     assert!(matches!(exploration.answer, Connectivity::Undecided { .. }));

@@ -192,9 +192,9 @@ fn range(lower: f64, upper: f64) -> JointRange {
 /// Returns a gantry that carries a disc of radius 0.05 m over `[-1, 1]^2`: configurations are the disc's centres.
 fn gantry(obstacles: Vec<Convex>) -> Scene {
     let slide = |name, x, y| joint(name, JointType::Prismatic { direction: Vector::new(x, y) }, range(-1.0, 1.0));
-    let tool = link("tool", vec![disc(Point::origin(), 0.05)]);
+    let tool = link("tool", vec![disc(Point::zeros(), 0.05)]);
     let joints = [slide("x", 1.0, 0.0), slide("y", 0.0, 1.0)];
-    scene(arm(joints, [link("carriage", vec![]), tool], Vector::zeros(), Point::origin()), obstacles)
+    scene(arm(joints, [link("carriage", vec![]), tool], Vector::zeros(), Point::zeros()), obstacles)
 }
 
 /// Returns a polar arm with a disc of radius 0.05 m at its end, 0.5 to 1.5 m from the joint, and a wall beyond 1 m in
@@ -204,8 +204,8 @@ fn polar(turn: JointRange) -> Scene {
         joint("turn", JointType::Revolute { sign: 1.0 }, turn),
         joint("reach", JointType::Prismatic { direction: Vector::x() }, range(0.5, 1.5)),
     ];
-    let links = [link("turret", vec![]), link("tool", vec![disc(Point::origin(), 0.05)])];
-    scene(arm(joints, links, Vector::zeros(), Point::origin()), vec![wall(Point::origin(), Point::new(2.0, 0.0))])
+    let links = [link("turret", vec![]), link("tool", vec![disc(Point::zeros(), 0.05)])];
+    scene(arm(joints, links, Vector::zeros(), Point::zeros()), vec![wall(Point::zeros(), Point::new(2.0, 0.0))])
 }
 
 #[test]

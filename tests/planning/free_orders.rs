@@ -8,11 +8,10 @@ use cplan::Options;
 use cplan::Outcome;
 use cplan::engine::Method;
 use cplan::engine::task::{TaskAnswer, plan};
-use cplan::geometry::Point;
+use cplan::geometry::{Point, Pose};
 use cplan::input::{Overrides, load_scene};
 use cplan::model::{Action, Heights, Item, Object, Step, Task};
 use cplan::motion::Drive;
-use nalgebra::Isometry2;
 use serde_json::Value;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -176,9 +175,9 @@ fn among_many(task: &Task, pairs: &[[Step; 2]]) -> Task {
         let object = many.objects.len();
         // Neither the arm nor each other.
         let below = Heights { lower: -10.0 - f64::from(number), upper: -9.5 - f64::from(number) };
-        let lies = Isometry2::new(at.coords, 0.0);
+        let lies = Pose::new(at, 0.0);
         many.objects.push(Object { name: format!("{number}"), heights: below, at: lies, ..task.objects[0].clone() });
-        let pick = Action::Pick { object, grasp: Point::origin(), supports: Vec::new(), when: Vec::new() };
+        let pick = Action::Pick { object, grasp: Point::zeros(), supports: Vec::new(), when: Vec::new() };
         let place = Action::Place { at, angle: None, supports: Vec::new() };
         let [first, second] = &pairs[0];
         let step = |action, step: &Step| Step { action, number: step.number + 2 * object, ..step.clone() };

@@ -38,13 +38,13 @@ fn drawn(dice: &mut Dice) -> (Arm, Point) {
         // The tip is on the axis of a revolute joint 2.
         0 | 1 => {
             let joints = [joint("a", turn(dice), turns(dice)), joint("b", turn(dice), turns(dice))];
-            let arm = arm(joints, links(1.0), Vector::new(1.0, 0.0), Point::origin());
+            let arm = arm(joints, links(1.0), Vector::new(1.0, 0.0), Point::zeros());
             let angle = dice.within(-1.4, 1.4);
             (arm, Point::new(angle.cos(), angle.sin()))
         }
         2 => {
             let joints = [joint("a", slide(FRAC_PI_2), stroke(dice)), joint("b", turn(dice), turns(dice))];
-            let arm = arm(joints, links(0.4), Vector::new(0.4, 0.0), Point::origin());
+            let arm = arm(joints, links(0.4), Vector::new(0.4, 0.0), Point::zeros());
             (arm, Point::new(0.4, dice.within(-0.3, 0.3)))
         }
         // The goal is on the axis of joint 1: an arm folded back, and one drawn in.
@@ -53,11 +53,11 @@ fn drawn(dice: &mut Dice) -> (Arm, Point) {
                 joint("a", turn(dice), turns(dice)),
                 joint("b", turn(dice), JointRange::Interval { lower: -3.3, upper: 3.3 }),
             ];
-            (arm(joints, links(0.7), Vector::new(0.7, 0.0), Point::new(0.7, 0.0)), Point::origin())
+            (arm(joints, links(0.7), Vector::new(0.7, 0.0), Point::new(0.7, 0.0)), Point::zeros())
         }
         _ => {
             let joints = [joint("a", turn(dice), turns(dice)), joint("b", slide(0.0), stroke(dice))];
-            (arm(joints, links(0.3), Vector::new(-0.2, 0.0), Point::new(0.2, 0.0)), Point::origin())
+            (arm(joints, links(0.3), Vector::new(-0.2, 0.0), Point::new(0.2, 0.0)), Point::zeros())
         }
     }
 }
@@ -254,6 +254,6 @@ fn joints_about_one_axis_share_the_angle() {
         let end = path.path().goal();
         assert!((end[0] + end[1] - (1.9 - TAU)).abs() < 1e-9, "{method}: {end}");
     }
-    let anywhere = inverse(&coaxial(Point::origin()), Point::origin(), start).solutions(&coaxial(Point::origin()));
+    let anywhere = inverse(&coaxial(Point::zeros()), Point::zeros(), start).solutions(&coaxial(Point::zeros()));
     assert_eq!(anywhere, [Segment::point(start)]);
 }

@@ -95,7 +95,7 @@ fn cells(regions: &Regions) -> (Vec<Vec<Point>>, usize) {
     let run = run(&TAUT, regions, &query((1e9, 1e9), (1e9, 1e9)));
     let (Trace::Channel { cells, .. }, Size::Graph { nodes, edges }) = (run.trace, run.size) else { panic!() };
     assert_eq!(nodes, cells.len());
-    (cells.iter().map(|cell| cell.iter().copied().map(Point::from).collect()).collect(), edges)
+    (cells.to_vec(), edges)
 }
 
 /// Cells are convex, cover free space without overlap (their areas add up and their middles are free), and are joined
@@ -106,8 +106,8 @@ fn assert_decomposed(regions: &Regions) {
     for cell in &cells {
         assert!(cell.len() == 3 || cell.len() == 4, "{cell:?}");
         assert!(area([cell.clone()]) > 0.0);
-        let middle = cell.iter().fold(nalgebra::Vector2::zeros(), |sum, p| sum + p.coords) / cell.len() as f64;
-        assert!(is_nearly_free(&sides, Point::from(middle)));
+        let middle = cell.iter().fold(Point::zeros(), |sum, p| sum + p) / cell.len() as f64;
+        assert!(is_nearly_free(&sides, middle));
     }
     let free = area(contours(regions).cloned());
     assert!((area(cells.clone()) - free).abs() < 1e-9 * free.max(1.0));
@@ -159,7 +159,7 @@ proptest! {
         let goals = [Point::new(side as f64 - g.x, g.y), Point::new(g.x, side as f64 - g.x)];
         for metric in metrics(ratio) {
             let planner = Visibility { metric, ..VISIBILITY };
-            let query = Query { start: s.coords, goals: goals.map(|g| g.coords).into_iter().collect() };
+            let query = Query { start: s, goals: goals.into_iter().collect() };
             let found = metric.length(&checked_path(&planner, &regions, &query).unwrap());
             let expected = goals.map(|g| brute_force(&crowd, window, s, g, metric).unwrap());
             prop_assert!((found - expected[0].min(expected[1])).abs() < 1e-8, "{metric:?} {found} {expected:?}");

@@ -129,7 +129,7 @@ fn a_proof_across_the_seam() {
 #[test]
 fn thin_links_among_thin_walls() {
     let turn = JointType::Revolute { sign: 1.0 };
-    let thin = |length| wall(Point::origin(), Point::new(length, 0.0));
+    let thin = |length| wall(Point::zeros(), Point::new(length, 0.0));
     let arm = arm(
         [joint("a", turn, JointRange::Circle), joint("b", turn, JointRange::Circle)],
         [link("one", vec![thin(1.0)]), link("two", vec![thin(0.8)])],

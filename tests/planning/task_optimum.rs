@@ -3,13 +3,12 @@
 use crate::common::{arm, disc, joint, link, obstacle, q, rectangle};
 use cplan::engine::task::{TaskAnswer, plan, rest_to_rest};
 use cplan::engine::{Method, Options};
-use cplan::geometry::{Point, Vector};
+use cplan::geometry::{Point, Pose, Vector};
 use cplan::model::{
     Action, Arm, Goal, Heights, Holding, Item, JointType, Object, Shape, Step, Task, Workspace, inverse, within,
 };
 use cplan::motion::Drive;
 use cplan::space::{Configuration, JointRange};
-use nalgebra::Isometry2;
 use std::collections::BTreeMap;
 
 fn options() -> Options {
@@ -40,12 +39,12 @@ fn thing(name: &str, at: Point) -> Object {
     let below = Heights { lower: -1.0, upper: -0.9 };
     Object {
         name: name.into(),
-        shape: Shape::Circle { center: Point::origin(), radius: 1e-3 },
-        pieces: vec![disc(Point::origin(), 1e-3)],
+        shape: Shape::Circle { center: Point::zeros(), radius: 1e-3 },
+        pieces: vec![disc(Point::zeros(), 1e-3)],
         heights: below,
         lift: 0.0,
         holding: Holding::Level,
-        at: Isometry2::new(at.coords, 0.0),
+        at: Pose::new(at, 0.0),
         course: None,
         mass: 0.0,
     }
@@ -63,7 +62,7 @@ fn task(limits: [[f64; 2]; 2], spots: &[[Point; 2]], free: bool) -> Task {
     workspace.obstacles.iter_mut().for_each(|o| o.heights = Heights { lower: -0.5, upper: 0.5 });
     let objects = spots.iter().enumerate().map(|(i, [from, _])| thing(&format!("thing {i}"), *from)).collect();
     let pair = |(object, [_, to]): (usize, &[Point; 2])| {
-        let pick = Action::Pick { object, grasp: Point::origin(), supports: Vec::new(), when: Vec::new() };
+        let pick = Action::Pick { object, grasp: Point::zeros(), supports: Vec::new(), when: Vec::new() };
         [step(pick, 2 * object + 1), step(Action::Place { at: *to, angle: None, supports: Vec::new() }, 2 * object + 2)]
     };
     let pairs: Vec<[Step; 2]> = spots.iter().enumerate().map(pair).collect();

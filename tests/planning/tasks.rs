@@ -8,7 +8,6 @@ use crate::random_tasks::replay;
 use cplan::Outcome;
 use cplan::engine::task::{TaskAnswer, plan};
 use cplan::engine::{Method, Options};
-use cplan::geometry::Point;
 use cplan::input::{self, Overrides};
 use cplan::model::{Action, Goal, Holding, Item, Object, Step, Task, TimedWorkspace, inverse, within};
 use cplan::space::Configuration;
@@ -95,7 +94,7 @@ fn carrying_closes_a_passage() {
     // The reported data of the failed motion must hold: a gantry has one IK solution for a place, its coordinates.
     let [to] = &impossible.ik_solutions[..] else { panic!("{:?}", impossible.ik_solutions) };
     assert_eq!((impossible.from, to.ik_solution), (Configuration::new(0.4, 1.1), Configuration::new(1.6, 0.9)));
-    assert!(impossible.reasons[0].starts_with("to joints (1.6, 0.9) m: there is no way"), "{:?}", impossible.reasons);
+    assert!(impossible.reasons[0].starts_with("to joints (1.6, 0.9) m: there is no path"), "{:?}", impossible.reasons);
     let clearance = impossible.scene.workspace().clearance;
     let stuck = to.proof.as_ref().expect("a proof").stuck();
     assert_eq!(recheck(stuck, &impossible.scene, impossible.from, &to.ik_solution.into(), clearance), Ok(()));
@@ -120,7 +119,7 @@ fn reasons_name_the_motions_that_were_tried() {
 /// Returns all IK solutions within the limits that put the tip at a step's target, from the closed form.
 fn ik_solutions(task: &Task, step: &Step) -> Vec<Configuration> {
     let target = match &step.action {
-        Action::Pick { object, .. } => Point::from(task.objects[*object].at.translation.vector),
+        Action::Pick { object, .. } => task.objects[*object].at.translation,
         Action::Place { at, .. } => *at,
         Action::Move(_) => panic!("picks and places only"),
     };

@@ -88,7 +88,7 @@ fn first_contact(scene: &Scene, path: &Path) -> Option<Configuration> {
     let shapes: Vec<_> = pairs.iter().map(|(link, a, b)| (*link, shape(a), place(a), shape(b), place(b))).collect();
     let meets = |q: Configuration| {
         let poses = scene.arm().poses(q).map(|pose| {
-            let t = pose.translation.vector;
+            let t = pose.translation;
             let rotation = Rotation { re: pose.rotation.re, im: pose.rotation.im };
             Pose::from_parts(Vector::new(t.x, t.y), rotation)
         });

@@ -50,9 +50,9 @@ fn no_convex_shape_is_made_of_what_is_none() {
         assert_eq!(Convex::new(points(corners), *radius), Err(*error), "{corners:?}");
     }
     assert!(matches!(Convex::new(points(&pentagram), 0.0), Err(NotConvex { .. })), "{pentagram:?}");
-    assert!(matches!(Convex::disc(Point::origin(), NAN), Err(Radius { .. })));
+    assert!(matches!(Convex::disc(Point::zeros(), NAN), Err(Radius { .. })));
     assert_eq!(Convex::disc(Point::new(NAN, 0.0), 1.0), Err(NotFinite { corner: 0 }));
-    assert_eq!(Convex::segment(Point::origin(), Point::new(0.0, NAN)), Err(NotFinite { corner: 1 }));
+    assert_eq!(Convex::segment(Point::zeros(), Point::new(0.0, NAN)), Err(NotFinite { corner: 1 }));
 }
 
 #[test]
@@ -94,7 +94,7 @@ fn no_scene_is_made_of_an_arm_that_cannot_be() {
     let cases: &[(Change, &str)] = &[
         (
             |a| a.joints[1].range = JointRange::Interval { lower: 1.0, upper: -1.0 },
-            "joint \"elbow\": no range from 1 to -1",
+            "joint \"elbow\": the range from 1 to -1 is invalid",
         ),
         (
             |a| a.joints[1].range = JointRange::Interval { lower: NAN, upper: 1.0 },
@@ -102,10 +102,13 @@ fn no_scene_is_made_of_an_arm_that_cannot_be() {
         ),
         (
             |a| a.joints[1].range = JointRange::Interval { lower: 0.0, upper: INFINITE },
-            "joint \"elbow\": no range from 0 to inf",
+            "joint \"elbow\": the range from 0 to inf is invalid",
         ),
         (|a| a.joints[0].joint_type = JointType::Prismatic { direction: Vector::x() }, "joint \"shoulder\" slides"),
-        (|a| a.joints[0].joint_type = JointType::Revolute { sign: 0.5 }, "joint \"shoulder\": a sign is 1 or -1"),
+        (
+            |a| a.joints[0].joint_type = JointType::Revolute { sign: 0.5 },
+            "joint \"shoulder\": its sign must be 1 or -1",
+        ),
         (|a| a.joints[0].velocity = 0.0, "joint \"shoulder\": its velocity must be positive and finite, is 0"),
         (|a| a.joints[0].acceleration = NAN, "its acceleration must be positive and finite, is NaN"),
         (|a| a.joints[1].jerk = Some(-1.0), "joint \"elbow\": its jerk must be positive and finite, is -1"),
@@ -114,7 +117,10 @@ fn no_scene_is_made_of_an_arm_that_cannot_be() {
         (|a| a.tip.x = NAN, "the arm's tip is no place"),
         (|a| a.plane.normal = a.plane.u, "not of length 1 and at right angles"),
         (|a| a.plane.v *= 2.0, "not of length 1 and at right angles"),
-        (|a| a.links[0].parts[0].heights = Heights { lower: 1.0, upper: 0.0 }, "\"upper\": no heights from 1 to 0"),
+        (
+            |a| a.links[0].parts[0].heights = Heights { lower: 1.0, upper: 0.0 },
+            "\"upper\": the heights from 1 to 0 are invalid",
+        ),
     ];
     for (change, message) in cases {
         let error = Scene::new(arm(change), workspace(|_| ())).expect_err(message).to_string();
@@ -135,7 +141,10 @@ fn no_scene_is_made_of_a_workspace_that_cannot_be() {
     let cases: &[(Change, &str)] = &[
         (|w| w.clearance = -0.1, "the clearance must be from 0 to 1e15 m, is -0.1"),
         (|w| w.clearance = NAN, "the clearance must be from 0 to 1e15 m, is NaN"),
-        (|w| w.obstacles[0].heights = Heights { lower: 0.0, upper: NAN }, "\"post\": no heights from 0 to NaN"),
+        (
+            |w| w.obstacles[0].heights = Heights { lower: 0.0, upper: NAN },
+            "\"post\": the heights from 0 to NaN are invalid",
+        ),
     ];
     for (change, message) in cases {
         let error = Scene::new(arm(|_| ()), workspace(change)).expect_err(message).to_string();
@@ -178,7 +187,7 @@ fn nothing_is_carried_that_cannot_be() {
     let parts = vec![AttachedPart { shape, number: 0, on_supports: false, is_evidence: true }];
     let carried =
         |grip, heights, supports| Attachment { name: "part".into(), heights, grip, parts: parts.clone(), supports };
-    let level = |angle| Grip::Level { angle, point: Point::origin() };
+    let level = |angle| Grip::Level { angle, point: Point::zeros() };
     let cases = [
         (carried(level(NAN), Heights::ALL, vec![]), vec![], SceneError::Grip { object: "part".into() }),
         (carried(level(0.0), Heights::ALL, vec![1]), vec![], SceneError::NoObstacle { number: 1, count: 1 }),
@@ -310,7 +319,7 @@ fn a_hair_decides() {
         assert_eq!(orientation(corners[0], corners[1], corners[2]) == Orientation::CounterClockwise, convex);
         assert_eq!(Convex::new(corners, 0.0).is_ok(), convex, "{y}");
     }
-    let thin = wall(Point::origin(), Point::new(5e-324, 0.0));
+    let thin = wall(Point::zeros(), Point::new(5e-324, 0.0));
     assert_eq!(thin.core().len(), 2);
     assert_eq!(link("thin", vec![thin]).parts.len(), 1);
 }

@@ -12,7 +12,7 @@ use std::f64::consts::{PI, TAU};
 
 fn run(regions: &Regions, start: Point, goal: Point) -> Run {
     let planner = Voronoi::default();
-    let query = Query { start: start.coords, goals: goal.coords.into() };
+    let query = Query { start, goals: goal.into() };
     planner.query(regions, &planner.build(regions), &query)
 }
 
@@ -52,9 +52,7 @@ fn clearance(sides: &[(Point, Point)], p: Point) -> f64 {
 
 /// Returns the least clearance of a path, over many samples.
 fn least_clearance(sides: &[(Point, Point)], path: &Path) -> f64 {
-    let along = |(a, b): (Configuration, Configuration)| {
-        (0..=40).map(move |k| Point::from(a + (b - a) * (f64::from(k) / 40.0)))
-    };
+    let along = |(a, b): (Configuration, Configuration)| (0..=40).map(move |k| a + (b - a) * (f64::from(k) / 40.0));
     path.segments().flat_map(along).map(|p| clearance(sides, p)).fold(f64::INFINITY, f64::min)
 }
 
@@ -78,7 +76,7 @@ fn assert_is_diagram(regions: &Regions, run: &Run, ends: &[Point]) {
         let is_end = ends.iter().any(|end| (p - end).norm() < 1e-9) || clearance(&sides, p) < 1e-6 || on_border(p);
         assert!(is_end, "an arc ends at {p}, {} from obstacles", clearance(&sides, p));
     }
-    for [a, b] in edges.iter().map(|edge| edge.map(Point::from)).filter(|edge| !is_leg(edge)) {
+    for [a, b] in edges.iter().filter(|edge| !is_leg(edge)) {
         for (share, is_end) in [(0.0, true), (1.0, true), (0.25, false), (0.5, false), (0.75, false)] {
             let p = a + (b - a) * share;
             let foot = sides.iter().map(|side| nearest(p, *side));
@@ -197,9 +195,9 @@ proptest! {
         let copies = turns(0).into_iter().flat_map(|x| turns(1).into_iter().map(move |y| Point::new(goal.x + x, goal.y + y)));
         let copies: Vec<Point> = copies.collect();
         assert_is_diagram(&regions, &run, &[&[start][..], &copies].concat());
-        let path = path(&run).expect("there are ways");
+        let path = path(&run).expect("a path exists");
         assert_free(&regions, path);
-        prop_assert!(copies.iter().any(|copy| (copy.coords - path.goal()).norm() < 1e-9));
+        prop_assert!(copies.iter().any(|copy| (copy - path.goal()).norm() < 1e-9));
         let width = least_clearance(&obstacles(&regions), path);
         let shrunk = [0, 1].map(|k| if [first, second][k] { (-1.5 * PI, 1.5 * PI) } else { regions.window[k] });
         let near: Vec<Point> = copies.into_iter().filter(|p| (0..2).all(|k| shrunk[k].0 < p[k] && p[k] < shrunk[k].1)).collect();
@@ -249,7 +247,7 @@ fn a_square_room_has_its_diagonals() {
     let regions = window_with_holes((0.0, 2.0), (0.0, 2.0), Vec::new());
     let planner = Voronoi { path: PathKind::Taut, ..Voronoi::default() };
     let query = Query { start: configuration(1.0, 0.3), goals: configuration(1.8, 1.0).into() };
-    let own = run(&regions, query.start.into(), Point::new(1.8, 1.0));
+    let own = run(&regions, query.start, Point::new(1.8, 1.0));
     assert_eq!(
         path(&own).expect("a way").waypoints(),
         [(1.0, 0.3), (1.0, 1.0), (1.8, 1.0)].map(|(x, y)| configuration(x, y))

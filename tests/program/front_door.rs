@@ -121,7 +121,7 @@ fn what_makes_no_sense_is_refused_by_name() {
     }
     let task = Problem::load(shipped("robots/scara.urdf"), shipped("workspaces/tasks/table_mission.toml")).unwrap();
     let refused = plan(&task, &Options { planner: shortest.with_gap(0.01), ..plain }).expect_err("a gap of a task");
-    assert!(refused.to_string().contains("--gap is for a single motion"), "{refused}");
+    assert!(refused.to_string().contains("--gap is for single motions"), "{refused}");
 }
 
 #[test]
@@ -183,7 +183,7 @@ fn predicates_and_differences_in_code() {
         assert!((found - expected).abs() < 1e-12, "{x} {y} {half}: {found} {expected}");
         let difference = SimplePolygon::new(b.minkowski_difference(&a).core().to_vec()).unwrap();
         assert!((difference.area() - (1.0 + 2.0 * half).powi(2)).abs() < 1e-9);
-        assert_eq!(difference.contains(Point::origin()), meet, "{x} {y} {half}");
+        assert_eq!(difference.contains(Point::zeros()), meet, "{x} {y} {half}");
     }
     assert!(apart > 20 && together > 20, "{apart} {together}");
 }

@@ -75,7 +75,7 @@ fn what_a_planner_does_not_have_is_refused() {
             "--planner harmonic --search dfs",
             "--search needs --planner wavefront, visibility, trapezoid, triangles, voronoi or prm",
         ),
-        ("--planner prm --search wave", "--search wave labels the cells of a grid"),
+        ("--planner prm --search wave", "--search wave needs a planner with a grid"),
         (
             "--backward",
             "--backward needs --planner visibility, trapezoid, triangles, voronoi, prm or wavefront: shortest has no roadmap",

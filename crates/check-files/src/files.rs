@@ -36,7 +36,7 @@ impl Files {
     ) -> Result<Self, CheckError> {
         for (what, text, said) in [("URDF", urdf, &certificate.urdf), ("world", world, &certificate.world)] {
             if let Some(said) = said.as_ref().filter(|said| !said.eq_ignore_ascii_case(&digest(text.as_bytes()))) {
-                return CheckError::fails(format!("it is about another {what}: one whose SHA-256 is {said}"));
+                return CheckError::fails(format!("it is about another {what}, whose SHA-256 is {said}"));
             }
         }
         Ok(Self { given, others: certificate.others.clone() })

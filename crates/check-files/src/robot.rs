@@ -62,7 +62,7 @@ impl<'a> Robot<'a> {
         let own = || movable.iter().map(|name| (*name).to_owned()).collect();
         let chosen: Vec<String> = said.clone().or(implied).unwrap_or_else(own);
         let [first, second] = &chosen[..] else {
-            let message = format!("{} joints can move: the world file has to name two, [robot] joints", chosen.len());
+            let message = format!("{} joints can move: the world file must name two, as [robot] joints", chosen.len());
             return Err(CheckError::in_file(Input::Urdf, message));
         };
         let node = |name: &str| match tree.named.get(name) {
@@ -74,7 +74,7 @@ impl<'a> Robot<'a> {
         let mut joints = [node(first)?, node(second)?];
         if tree.above(carried(joints[0]))?[1..].contains(&joints[1]) {
             if world.robot.joints.is_some() {
-                let message = "[robot] joints: the second carries the first: swap them";
+                let message = "[robot] joints: the second joint carries the first; swap them";
                 return Err(CheckError::in_file(Input::World, message));
             }
             joints.swap(0, 1);
@@ -84,7 +84,7 @@ impl<'a> Robot<'a> {
             if joint.is_none_or(|joint| {
                 world.robot.fixed.contains_key(name) && (joints.contains(joint) || child(*joint, "mimic").is_some())
             }) {
-                let message = format!("[robot] fixed or limits: \"{name}\" is no joint of which that can be said");
+                let message = format!("[robot] fixed or limits: these values cannot apply to \"{name}\"");
                 return Err(CheckError::in_file(Input::World, message));
             }
         }

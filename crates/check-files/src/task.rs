@@ -24,7 +24,7 @@ pub fn found(robot: &Robot, file: &WorldFile, certificate: &Certificate, done: &
     let wrong = |input: Input, message: &str| Err(CheckError::in_file(input, message));
     let Some(task) = &file.task else { return wrong(Input::World, "it has no steps") };
     if certificate.goal.is_some() || certificate.goal_tip.is_some() || certificate.bound.is_some() {
-        return wrong(Input::Certificate, "that of a task has neither a goal nor a bound");
+        return wrong(Input::Certificate, "a task's certificate cannot have a goal or a bound");
     }
     let Some(motion) = &certificate.motion else { return wrong(Input::Certificate, "it has no motion") };
     well_formed(&motion.interpolation, &motion.knots)?;
@@ -32,7 +32,7 @@ pub fn found(robot: &Robot, file: &WorldFile, certificate: &Certificate, done: &
     let mut order = Order { left: done.iter().enumerate().peekable(), renewed: Vec::new(), matched: Vec::new() };
     order.group(&task.steps)?;
     if let Some((index, done)) = order.left.next() {
-        return CheckError::fails(format!("steps[{index}] is step {}, where the world asks for no more", done.step));
+        return CheckError::fails(format!("steps[{index}] is step {}, but the world has no further steps", done.step));
     }
     let steps = order.matched;
     let stands = stands(motion, &steps)?;
@@ -40,7 +40,7 @@ pub fn found(robot: &Robot, file: &WorldFile, certificate: &Certificate, done: &
     for (index, step) in steps.iter().enumerate() {
         let number = step.step.number;
         if motion.knots[step.done.knots[1]].iter().skip(3).take(2).any(|rate| rate.sign() != Sign::NoSign) {
-            return CheckError::fails(format!("steps[{index}], step {number}: at its end the arm moves"));
+            return CheckError::fails(format!("steps[{index}], step {number}: the arm still moves at its end"));
         }
         replay.step(step, &steps[index + 1..]).map_err(|error| match error {
             CheckError::Fails(why) => CheckError::Fails(format!("steps[{index}], step {number}: {why}")),
@@ -49,7 +49,7 @@ pub fn found(robot: &Robot, file: &WorldFile, certificate: &Certificate, done: &
         if &stands[index] + &Decimal::power_of_ten(SHORT) < step.step.dwell {
             let dwell = &step.step.dwell;
             return CheckError::fails(format!(
-                "after steps[{index}], step {number}, the arm does not stand for {dwell} s"
+                "after steps[{index}], step {number}, the arm does not rest for {dwell} s"
             ));
         }
     }

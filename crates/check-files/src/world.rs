@@ -232,7 +232,7 @@ impl Reader<'_> {
                     let table = self.table(value)?;
                     let (Some(center), Some(radius), 2) = (table.get("center"), table.get("radius"), table.len())
                     else {
-                        return self.error(value, "a circle has a center and a radius");
+                        return self.error(value, "a circle needs a center and a radius");
                     };
                     outlines.push(Outline::Circle(self.two(center, |n| self.number(n))?, self.number(radius)?));
                 }
@@ -255,7 +255,7 @@ impl Reader<'_> {
         let cells = |name: String| Cells::read(self.files, &self.file(&name)?, unknown_is_solid);
         outlines.extend(image.map(|name| Outline::Squares(cells(name).map(|cells| Rc::new(cells) as _))));
         let [outline] =
-            <[Outline; 1]>::try_from(outlines).or_else(|_| self.error(value, "an obstacle has one shape"))?;
+            <[Outline; 1]>::try_from(outlines).or_else(|_| self.error(value, "an obstacle needs exactly one shape"))?;
         let outline = match outline {
             Outline::Polygon(mut rings) => {
                 rings.extend(holes);

@@ -85,7 +85,7 @@ fn the_way_over_a_wall_is_no_shorter_than_its_corners_make_it() {
         let mut other = walls.clone();
         (other[k].0[0], other[k].1) = (x, [x, y]);
         let message = check(GANTRY, WORLD, &certificate(1.0, EUCLIDEAN, &other)).unwrap_err().to_string();
-        assert_eq!(message, format!("wall {k}: along it the shape can come off the part"));
+        assert_eq!(message, format!("wall {k}: the shape does not touch the part all along it"));
     }
     // Only the limit of y blocks the path below the floor.
     let higher = GANTRY.replacen(r#"lower="0""#, r#"lower="-9""#, 2);

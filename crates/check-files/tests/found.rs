@@ -135,7 +135,7 @@ fn what_is_falsified_is_named() {
         ("[0, -1, 0], [1, -0.2, 2.5], [2, 1, 2.5], [3, 1, 0]", "from knot 0"),
         ("[0, -1, 0], [1, -1, 2.5], [2, 1, 2.5], [3, 1, 0.1]", "goal"),
         ("[0, -1.1, 0], [1, -1, 2.5], [2, 1, 2.5], [3, 1, 0]", "start"),
-        ("[0, -1, 0], [1, -1, 2.5], [1, 1, 2.5], [3, 1, 0]", "knot 2 is no later"),
+        ("[0, -1, 0], [1, -1, 2.5], [1, 1, 2.5], [3, 1, 0]", "knot 2 is not later"),
         ("[0, -1, 0], [1, -1, 2.91], [2, 1, 2.5], [3, 1, 0]", "after knot 0 (linear) joint \"b\" leaves its limits"),
         ("[0, -1, 0], [1, -1, 2.9000000000000000000000000000000000001], [2, 1, 2.5], [3, 1, 0]", "limits"),
         ("[0, -1, 0], [1, 1e300, 2.5], [3, 1, 0]", "limits"),
@@ -320,7 +320,7 @@ fn bad_input_is_named() {
     urdf("box size=\"0.8 0.1 0.1\"", "mesh filename=\"m\"", "mesh");
     urdf("<collision> <origin xyz=\"0.4 0 0\"/> <geometry>", "<collision> <geometry/> <geometry>", "second element");
     urdf("<link name=\"fore\">", "<link name=\"fore\"> <collision/>", "no geometry");
-    urdf("<box size=\"0.8 0.1 0.1\"/>", "<box size=\"0.8 0.1 0.1\"/> <sphere radius=\"3\"/>", "of several shapes");
+    urdf("<box size=\"0.8 0.1 0.1\"/>", "<box size=\"0.8 0.1 0.1\"/> <sphere radius=\"3\"/>", "exactly one shape");
     urdf("collision", "nothing", "could collide");
     urdf("<link name=\"fore\">", "<joint name=\"m\" type=\"revolute\"> <parent link=\"fore\"/> <child link=\"c\"/> <mimic joint=\"a\"/> </joint>
           <link name=\"c\"> <collision> <geometry> <sphere radius=\"0.1\"/> </geometry> </collision> </link> <link name=\"fore\">", "mimic");

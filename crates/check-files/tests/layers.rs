@@ -109,7 +109,7 @@ fn proofs_name_layers() {
     fails(shut(0.05, &own("")), &["has several layers: it needs a height"]);
     fails(shut(0.05, &own(r#", "height": 0.03"#)), &["passes over or under"]);
     fails(shut(0.05, &own(r#", "height": 0.3"#)), &["no collision shape number 0"]);
-    fails(shut(0.2, &own(r#", "height": 0.22"#)), &["can come off"]);
+    fails(shut(0.2, &own(r#", "height": 0.22"#)), &["does not touch"]);
     // A quill above the base does not cut it.
     fails(shut(0.3, &own("")), &["passes over or under"]);
     // Neither does one that also reaches below it.

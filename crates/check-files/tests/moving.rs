@@ -163,7 +163,7 @@ fn picks_of_what_moves() {
     judged("window = [3.5, 4]\nat = [5, 4]", "5, 4", "5").unwrap();
     fails(judged("", "5.01, 4", "5"), "misses the target");
     fails(judged("window = [1, 3.9]", "5, 4", "5"), "outside its window");
-    fails(judged("at = [5.1, 4]", "5, 4", "5"), "not picked where it is to be then");
+    fails(judged("at = [5.1, 4]", "5, 4", "5"), "not at the position of its pick then");
     // The second bottle hits the arm while it rests at the first one, unless the arm leaves in time: its square begins
     // at x = 5.5.
     let second = "[[object]]\nname = \"other\"\ncircle = { center = [0, 0], radius = 0.1 }\nat = [10.5, 4]\nmotion = { velocity = [-1, 0] }\n";
@@ -179,9 +179,9 @@ fn courses_that_are_none() {
         other => panic!("{motion}: {other:?}"),
     };
     for (motion, message) in [
-        ("{ stops = [] }", "each later than the one before"),
-        ("{ stops = [{ time = 1 }, { time = 1, at = [0, 9] }] }", "each later than the one before"),
-        ("{ stops = [{ at = [0, 9] }] }", "a stop has a time"),
+        ("{ stops = [] }", "each later than the previous one"),
+        ("{ stops = [{ time = 1 }, { time = 1, at = [0, 9] }] }", "each later than the previous one"),
+        ("{ stops = [{ at = [0, 9] }] }", "a stop needs a time"),
         ("{ stops = [{ time = 1, speed = 3 }] }", "the key speed of a stop"),
         ("{ turn = 3 }", "the key turn of a motion"),
         ("3", "expected a table"),

@@ -194,7 +194,7 @@ fn proofs_name_links_that_stand_still() {
     }
     // A smaller base leaves room.
     let small = round(0.1).replacen("radius=\"0.3\"", "radius=\"0.2\"", 1);
-    fails(judged(&small, LIMITS, &certificate), &["can come off"]);
+    fails(judged(&small, LIMITS, &certificate), &["does not touch"]);
 }
 
 /// A carried object must not hit static links.
@@ -323,7 +323,7 @@ fn proofs_name_links_that_joint_1_carries() {
     fails(judged(&turning(0.35, 0.5), LIMITS, &proof(&[2.65], QUILL, UPPER)), &["do not separate"]);
     holds(judged(&scara(0.35).replacen("0.6 0.1 0.2", "0.6 0.5 0.2", 1), LIMITS, &proof(&[2.65], QUILL, UPPER)));
     for (lowest, wide, robot, shape, part, why) in [
-        (0.35, 0.3, "", QUILL, UPPER, "can come off"),
+        (0.35, 0.3, "", QUILL, UPPER, "does not touch"),
         (0.45, 0.5, "", QUILL, UPPER, "passes over or under"),
         (0.35, 0.5, "own_body = false", QUILL, UPPER, "no collision shape number 0"),
         (0.35, 0.5, "ignore_contact = [[\"quill\", \"upper\"]]", QUILL, UPPER, "no collision shape number 0"),

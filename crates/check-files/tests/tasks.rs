@@ -77,12 +77,12 @@ fn every_step_is_done_once_and_in_its_order() {
     let with = |steps: &str| judged(GANTRY, &world, KNOTS, steps);
     let [one, two, three] = <[&str; 3]>::try_from(DONE.split(", {").collect::<Vec<_>>()).unwrap();
     let [two, three] = [two, three].map(|step| format!("{{{step}"));
-    fails(with(&format!("{one}, {two}")), "asks for step 3 then, and there are no more");
-    fails(with(&format!("{one}, {three}")), "steps[1] is step 3, where the world asks for step 2");
+    fails(with(&format!("{one}, {two}")), "requires step 3 next, but the certificate ends");
+    fails(with(&format!("{one}, {three}")), "steps[1] is step 3, but the world requires step 2");
     fails(with(&format!("{two}, {one}, {three}")), "steps[0] is step 2");
-    fails(with(&format!("{DONE}, {three}")), "asks for no more");
-    fails(with(""), "asks for step 1");
-    fails(with(&DONE.replace("[2, 3]", "[1, 2]")), "after knot 2, which belongs to no step, the arm moves");
+    fails(with(&format!("{DONE}, {three}")), "has no further steps");
+    fails(with(""), "requires step 1");
+    fails(with(&DONE.replace("[2, 3]", "[1, 2]")), "the arm moves after knot 2, which belongs to no step");
     fails(with(&DONE.replace("[0, 1]", "[0, 2]").replace("[2, 3]", "[1, 3]")), "steps[1] begins before");
     fails(with(&DONE.replace("[4, 5]", "[4, 6]")), "steps[2] ends before");
     fails(with(&DONE.replace("[2, 3]", "[3, 2]").replace("[0, 1]", "[0, 3]")), "steps[1] ends before");
@@ -196,7 +196,7 @@ fn the_wrist_turns_what_it_carries() {
     fails(judged(GANTRY, &world(""), KNOTS, DONE), "by more than 1e-5");
     fails(judged(GANTRY, &world(""), KNOTS, &turned("1.57082")), "by more than 1e-5");
     for round in ["7.853981634", "-7000000", "1e300"] {
-        fails(judged(GANTRY, &world(""), KNOTS, &turned(round)), "by more than a turn");
+        fails(judged(GANTRY, &world(""), KNOTS, &turned(round)), "by more than one revolution");
     }
     let level = |world: String| judged(GANTRY, &world, KNOTS, &turned("1.5708"));
     fails(level(world("").replace(", wrist = { velocity = 1 }", "")), "there is no wrist");
@@ -309,9 +309,9 @@ fn pairs_in_free_order() {
         let (code, said) = with("free", &order);
         assert_eq!(code, 0, "{order:?}: {said}");
     }
-    fails(with("fixed", &[1, 0, 2]), "steps[0] is step 3, where the world asks for step 1");
-    fails(with("free", &[0, 1, 1]), "where the world asks for step 5");
-    fails(with("free", &[0, 1]), "asks for step 5 then");
+    fails(with("fixed", &[1, 0, 2]), "steps[0] is step 3, but the world requires step 1");
+    fails(with("free", &[0, 1, 1]), "but the world requires step 5");
+    fails(with("free", &[0, 1]), "requires step 5 next");
 }
 
 #[test]
@@ -378,8 +378,7 @@ fn the_arm_stands_where_a_step_ends() {
         check(GANTRY, &format!("{HEAD}{BLOCK}{STEPS}"), &certificate)
     };
     assert!(played("0").is_ok(), "{:?}", played("0"));
-    let fails =
-        |speed: &str| matches!(played(speed), Err(CheckError::Fails(why)) if why.contains("at its end the arm moves"));
+    let fails = |speed: &str| matches!(played(speed), Err(CheckError::Fails(why)) if why.contains("the arm still moves at its end"));
     assert!(fails("0.5") && fails("1e-300"));
 }
 
@@ -400,7 +399,7 @@ fn the_tool_carries_the_tip() {
         judged(&GANTRY.replace("</robot>", &end), &format!("{head}{BLOCK}{STEPS}"), KNOTS, DONE)
     };
     holds(with("spindle", "0"));
-    is_wrong(with("spindle", "1e-5"), "does not go through");
+    is_wrong(with("spindle", "1e-5"), "does not pass through");
     is_wrong(with("quill", "0"), "does not carry the tip");
 }
 
@@ -446,7 +445,7 @@ fn without_a_stroke_what_is_placed_is_free_where_it_lies() {
         let other = other.replace("[-0.3, -0.25]", height);
         judged(GANTRY, &format!("{HEAD}{block}{other}{STEPS}"), KNOTS, DONE)
     };
-    fails(lying(3.0, "[-0.3, -0.25]"), "step 2: obstacle 1 is inside what is carried");
+    fails(lying(3.0, "[-0.3, -0.25]"), "step 2: obstacle 1 is inside the payload");
     fails(lying(3.39, "[-0.3, -0.25]"), "step 2");
     holds(lying(3.41, "[-0.3, -0.25]"));
     holds(lying(3.0, "[-0.24, -0.16]"));
@@ -458,7 +457,7 @@ fn the_arm_stands_for_the_dwell() {
         format!("{HEAD}{BLOCK}{STEPS}").replacen("pick = \"block\"", &format!("pick = \"block\"\ndwell = {dwell}"), 1)
     };
     holds(judged(GANTRY, &world("1.0000009"), KNOTS, DONE));
-    fails(judged(GANTRY, &world("1.000002"), KNOTS, DONE), "does not stand for 1.000002 s");
+    fails(judged(GANTRY, &world("1.000002"), KNOTS, DONE), "does not rest for 1.000002 s");
 }
 
 #[test]
@@ -478,7 +477,7 @@ fn objects_that_are_not_convex() {
         ["circle = { center = [1, 0.85], radius = 0.01 }", "polygon = [[0.99, 0.84], [1.01, 0.84], [1, 0.86]]"]
     {
         let (code, said) = with(&format!("[[obstacle]]\n{inside}\n"));
-        assert!(code == 3 && said.contains("inside what is carried"), "{code} {said}");
+        assert!(code == 3 && said.contains("inside the payload"), "{code} {said}");
     }
     holds(with("[[obstacle]]\ncircle = { center = [1.05, 1.4], radius = 0.01 }\n"));
 }
@@ -515,14 +514,14 @@ fn what_is_not_convex_presses_no_deeper_than_it_may() {
         }
         // The object may touch the button, but must not contain it.
         let button = "circle = { center = [1, 1.1], radius = 1e-6 }";
-        fails(over(&slotted, button, true), "obstacle 0 is inside what is carried");
+        fails(over(&slotted, button, true), "obstacle 0 is inside the payload");
     }
     let foil = |thick: f64| {
         let top = thick - 0.1;
         format!("polygon = [[-0.2, -0.1], [0.2, -0.1], [0.2, {top}], [-0.2, {top}]]")
     };
     holds(over(&foil(1.5e-4), &rail(1.25), true));
-    is_wrong(over(&foil(1.4e-4), &rail(1.25), true), "too thin for what it may press into them");
+    is_wrong(over(&foil(1.4e-4), &rail(1.25), true), "too thin or too pointed for the depth");
 }
 
 #[test]
@@ -531,7 +530,7 @@ fn worlds_that_ask_for_nothing_that_is_known() {
     for (old, new, part) in [
         ("pick = \"block\"", "pick = \"blok\"", "no object of this name"),
         ("place = {", "place = { on = \"tray 1,1\",", "either `at` or `on`"),
-        ("pick = \"block\"", "pick = \"block\"\nplace = { at = [3, 1] }", "a step does one thing"),
+        ("pick = \"block\"", "pick = \"block\"\nplace = { at = [3, 1] }", "a step needs exactly one action"),
         ("pick = \"block\"", "pick = \"block\"\nhow = 1", "does not know the key how"),
         ("at = [1, 1]", "pallet = \"tray\"", "no pallet of this name"),
         ("\"level\"", "\"lose\"", "\"rigid\" or \"level\""),

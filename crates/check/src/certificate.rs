@@ -117,7 +117,7 @@ pub fn read(text: &str) -> Result<Certificate, CheckError> {
     }
     let read: Result<Certificate, _> = serde_json::from_str(text);
     let certificate = read.map_err(|error| {
-        let message = format!("this is no certificate: {error}");
+        let message = format!("this is not a certificate: {error}");
         CheckError::Input { input: Input::Certificate, line: Some(error.line()), message }
     })?;
     if certificate.format != FORMAT {

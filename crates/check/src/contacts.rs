@@ -73,7 +73,7 @@ impl<'a> Contacts<'a> {
         for (number, (stuck, ranges)) in stuck.iter().zip(boxes).enumerate() {
             let Pair { body, part, beside } = self.pair(stuck.shape, stuck.part, || format!("box {number}"))?;
             if !Mover::new(arm, body).overlaps(part, &Cell::from(ranges).beside(beside)) {
-                return CheckError::fails(format!("box {number}: within it the shape can come off the part"));
+                return CheckError::fails(format!("box {number}: the shape does not touch the part everywhere in it"));
             }
         }
         Ok(())
@@ -86,7 +86,7 @@ impl<'a> Contacts<'a> {
     pub fn pair(&self, shape: usize, part: usize, who: impl Fn() -> String) -> Result<Pair<'_>, CheckError> {
         let fails = |why: &str| CheckError::fails(format!("{}{why}", who()));
         let (Some(shape), Some(part)) = (self.shapes.get(shape), self.parts.get(part)) else {
-            return fails(" names a shape or a part that is not there");
+            return fails(" names a shape or a part that does not exist");
         };
         let (body, beside) = (&shape.within, part.link.as_ref());
         if !body.is_at(part.heights.as_ref()) {

@@ -56,7 +56,7 @@ impl End {
     pub fn named(&self, arm: &Arm) -> String {
         match self.at {
             Goal::Joints(_) => self.own.clone(),
-            Goal::Tip(_) => format!("{}, a place of the tip \"{}\",", self.own, arm.tip_link),
+            Goal::Tip(_) => format!("{}, a position of the tip \"{}\",", self.own, arm.tip_link),
             Goal::Areas(_) => format!("{}, an area of the tip \"{}\",", self.own, arm.tip_link),
         }
     }

@@ -15,7 +15,7 @@ pub fn infeasible(arm: &Arm, world: &World, certificate: &Certificate) -> Result
     let stuck = certificate.boxes.as_deref().unwrap_or_default();
     let boxes = rectangles(stuck)?;
     let Some(reached) = Reached::new(&arm.domain, &boxes, &start.configuration(arm)?) else {
-        return CheckError::fails("the boxes leave more gaps than the checker looks at");
+        return CheckError::fails("the boxes leave more gaps than the checker examines");
     };
     if !goal.region(arm)?.places(arm, MOST_PARTS, |part| !reached.meets(part)).is_empty() {
         return CheckError::fails("the boxes do not separate the goal from the start");

@@ -108,7 +108,7 @@ impl Interval {
 
     /// Returns the quotient by a positive enclosure.
     pub fn divided(&self, by: &Self) -> Self {
-        assert!(by.lower.sign() == Sign::Plus, "a quotient by what may be 0");
+        assert!(by.lower.sign() == Sign::Plus, "a quotient by a value that may be 0");
         let (lower, upper) = (&self.lower << BITS, &self.upper << BITS);
         let least = if lower.sign() == Sign::Minus { &by.lower } else { &by.upper };
         let most = if upper.sign() == Sign::Minus { &by.upper } else { &by.lower };

@@ -128,7 +128,7 @@ impl Obstacle {
     /// If there is no such part, with the reason. [`CheckError::Input`] if the obstacle is not known.
     pub fn part(&self, given: &[Corner]) -> Result<Shape, CheckError> {
         if self.course.is_some() {
-            return CheckError::fails("it moves, and is not always there");
+            return CheckError::fails("it moves, so it does not always block");
         }
         let placed = |p: &Point| self.placed(p);
         let named = |corners: &[&Corner]| {

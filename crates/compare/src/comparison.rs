@@ -60,9 +60,9 @@ impl Comparison {
             Status::ALL.map(|outcome| self.rows.iter().filter(|row| row.outcome == outcome).count());
         match (found, proved) {
             (0, 0) => format!("{unknown} of {all} left it open"),
-            (0, _) => format!("{proved} of {all} proved that there is none"),
+            (0, _) => format!("{proved} of {all} proved infeasibility"),
             (_, 0) => format!("{found} of {all} found a certified path"),
-            _ => format!("{found} of {all} found a certified path, {proved} proved that there is none"),
+            _ => format!("{found} of {all} found a certified path, {proved} proved infeasibility"),
         }
     }
 
@@ -336,12 +336,12 @@ mod tests {
         assert!(!all.is_contradictory() && all.alarm().is_none());
         assert_eq!(all.outcome(), "2 of 3 found a certified path");
         all.rows[2].outcome = Status::Infeasible;
-        assert_eq!(all.outcome(), "2 of 3 found a certified path, 1 proved that there is none");
+        assert_eq!(all.outcome(), "2 of 3 found a certified path, 1 proved infeasibility");
         let alarm = all.alarm().unwrap();
         assert!(alarm.contains("on shelf: visibility, harmonic found") && alarm.contains("| c proved"), "{alarm}");
         all.rows.remove(0);
         all.rows.remove(0);
         assert!(!all.is_contradictory(), "proofs alone agree");
-        assert_eq!(all.outcome(), "1 of 1 proved that there is none");
+        assert_eq!(all.outcome(), "1 of 1 proved infeasibility");
     }
 }

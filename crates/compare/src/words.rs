@@ -108,7 +108,7 @@ fn pulled_taut(study: &Study) -> Option<String> {
         Some(format!("{name} length {:.2}{clearance} ({})", length.median, counted(length.n, "problem")))
     });
     let sentences: Vec<String> = sentences.collect();
-    let said = "Pulled taut, in parts of what a planner's own path has (median)";
+    let said = "Taut path relative to the planner's own path (median)";
     (!sentences.is_empty()).then(|| format!("{said}: {}.", sentences.join("; ")))
 }
 
@@ -289,7 +289,7 @@ mod tests {
             row.other_path = Some(OtherPath { length: 1.0, clearance: Some(0.01) });
         }
         let words = words(&study(all));
-        let pulled = "Pulled taut, in parts of what a planner's own path has (median): harmonic length 0.67, \
+        let pulled = "Taut path relative to the planner's own path (median): harmonic length 0.67, \
                       clearance 0.25 (9 problems).";
         assert_eq!(words[2], pulled);
         assert!(words[3].starts_with("Roadmaps found the shorter paths.") && words[3].contains("fields 1.5000"));

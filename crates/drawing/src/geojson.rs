@@ -16,11 +16,11 @@ pub(crate) fn read(text: &str, settings: &Settings) -> Result<Drawing, Error> {
     let value: Value = serde_json::from_str(text).map_err(|error| {
         let message = error.to_string();
         let message = message.split(" at line ").next().unwrap_or_default();
-        Error::new(error.line().max(1), format!("this is no JSON: {message}"), "export the file again")
+        Error::new(error.line().max(1), format!("this is not JSON: {message}"), "export the file again")
     })?;
     let mut sheet = Sheet::new(settings);
     let unit = settings.unit.unwrap_or_else(|| {
-        sheet.notes.add("GeoJSON does not say its unit: read as m", None);
+        sheet.notes.add("GeoJSON does not state a unit: read as m", None);
         Unit::METRE
     });
     let scale = unit.metres() * settings.scale;
@@ -29,8 +29,8 @@ pub(crate) fn read(text: &str, settings: &Settings) -> Result<Drawing, Error> {
     Ok(reader.sheet.finish())
 }
 
-const CURE: &str = "a GeoJSON file holds a FeatureCollection, a Feature or a geometry";
-const LISTS: &str = "features, geometries and rings stand in lists, as positions do: [[0, 0], [1, 0], [1, 1], [0, 0]]";
+const CURE: &str = "a GeoJSON file contains a FeatureCollection, a Feature or a geometry";
+const LISTS: &str = "write features, geometries, rings and positions as lists: [[0, 0], [1, 0], [1, 1], [0, 0]]";
 const NUMBERS: &str = "write both coordinates as numbers, without quotes";
 const HEIGHT: &str = "write heights as numbers, without quotes, or leave the height out";
 
@@ -104,7 +104,7 @@ impl Reader {
                 let cure = "convert it first, e.g. with `topo2geo` or `ogr2ogr cell.geojson cell.topojson`";
                 Err(Error::new(None, "this is TopoJSON, not GeoJSON", cure))
             }
-            other => Err(wrong(at, &format!("\"{other}\" is no type of GeoJSON"), CURE)),
+            other => Err(wrong(at, &format!("\"{other}\" is not a type of GeoJSON"), CURE)),
         }
     }
 
@@ -180,7 +180,7 @@ fn feature(value: &Value, at: &str, unit: f64) -> Result<Origin, Error> {
                 }
                 [Some(low), Some(high)] => {
                     let message = format!("{at}.properties.height: {high} is below {low}");
-                    let cure = "write the lower end first; a single number is above 0";
+                    let cure = "write the lower end first; a single number must be above 0";
                     return Err(Error::new(None, message.trim_start_matches('.'), cure));
                 }
                 _ => {

@@ -100,7 +100,7 @@ pub fn read(bytes: &[u8], format: Format, settings: &Settings) -> Result<Drawing
 fn text(bytes: &[u8]) -> Result<&str, Error> {
     let text = std::str::from_utf8(bytes).map_err(|error| {
         let line = bytes[..error.valid_up_to()].iter().filter(|&&byte| byte == b'\n').count() + 1;
-        Error::new(line, "this is no UTF-8 text", "save the drawing as text in UTF-8")
+        Error::new(line, "this is not UTF-8 text", "save the drawing as text in UTF-8")
     })?;
     Ok(text.trim_start_matches('\u{feff}'))
 }

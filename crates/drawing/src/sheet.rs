@@ -67,8 +67,8 @@ impl Sheet {
     /// Returns the error that a curve needs too many chords.
     pub fn too_fine(&self, origin: &Origin) -> Error {
         let (kind, tolerance) = (&origin.kind, self.tolerance);
-        let message = format!("{kind}: within {tolerance} m of its chords it would have too many of them");
-        Error::new(origin.line, message, "take a larger tolerance, or look whether the unit is meant")
+        let message = format!("{kind}: a tolerance of {tolerance} m needs too many chords");
+        Error::new(origin.line, message, "use a larger tolerance, or check the unit")
     }
 
     /// Returns the chords of a curve, or the error that there would be too many.
@@ -155,7 +155,7 @@ impl Sheet {
             self.points += 1;
             if !point.iter().all(|x| x.abs() <= LARGEST) {
                 let message = format!("{}: its coordinates are too large (beyond {LARGEST:e} m)", origin.kind);
-                return Err(Error::new(origin.line, message, "look for a scale or a coordinate that is not meant"));
+                return Err(Error::new(origin.line, message, "check its scale and its coordinates"));
             }
         }
         if self.points > MOST_POINTS {
@@ -163,7 +163,7 @@ impl Sheet {
             return Err(Error::new(
                 origin.line,
                 message,
-                "leave out all that the arm cannot reach, or take a larger tolerance",
+                "remove parts that the arm cannot reach, or use a larger tolerance",
             ));
         }
         Ok(())

@@ -44,7 +44,7 @@ pub fn joined(a: &Body, b: &Body) -> Body {
     if mass == 0.0 {
         return Body { inertia: a.inertia + b.inertia, ..*a };
     }
-    let center = Point::from((a.center.coords * a.mass + b.center.coords * b.mass) / mass);
+    let center = (a.center * a.mass + b.center * b.mass) / mass;
     let about = |body: &Body| body.inertia + body.mass * (body.center - center).norm_squared();
     Body { mass, center, inertia: about(a) + about(b) }
 }
@@ -72,7 +72,7 @@ fn sheet(piece: &Convex) -> Body {
         let corners = [core[0], side[0], side[1]];
         let [a, b, c] = [corners[1] - corners[0], corners[2] - corners[0], corners[2] - corners[1]];
         let mass = a.perp(&b).abs() / 2.0;
-        let center = Point::from(corners.iter().map(|corner| corner.coords).sum::<Vector>() / 3.0);
+        let center = corners.iter().sum::<Vector>() / 3.0;
         Body { mass, center, inertia: mass * (a.norm_squared() + b.norm_squared() + c.norm_squared()) / 36.0 }
     });
     triangles.fold(Body::NONE, |sum, triangle| joined(&sum, &triangle))
@@ -194,7 +194,7 @@ impl<'a> Torques<'a> {
     pub fn least_determinant(&self) -> f64 {
         use JointType::{Prismatic, Revolute};
         let (arm, [a, b]) = (self.arm, &self.dynamics.bodies);
-        let about = |body: &Body| body.inertia + body.mass * body.center.coords.norm_squared();
+        let about = |body: &Body| body.inertia + body.mass * body.center.norm_squared();
         match (arm.joints[0].joint_type, arm.joints[1].joint_type) {
             (Revolute { .. }, Revolute { .. }) => about(a) * about(b) + b.mass * arm.offset.norm_squared() * b.inertia,
             (Revolute { .. }, Prismatic { .. }) => b.mass * (about(a) + b.inertia),
@@ -318,7 +318,7 @@ fn bounds(arm: &Arm, link: usize, point: Point, middle: Configuration, reach: f6
     let column = |length: f64, way: [f64; 4]| [length, way[0], way[1]];
     let slide = |k: usize| [v[k], a[k], j[k], 0.0];
     let plus = |x: [f64; 4], y: [f64; 4]| [0, 1, 2, 3].map(|n| x[n] + y[n]);
-    let length = point.coords.norm();
+    let length = point.norm();
     let inner = arm.offset.norm();
     match (arm.joints[0].joint_type, arm.joints[1].joint_type) {
         (Revolute { .. }, _) if link == 0 => {
@@ -332,7 +332,7 @@ fn bounds(arm: &Arm, link: usize, point: Point, middle: Configuration, reach: f6
             Bounds { column: [column(inner + length, way), column(length, outer)], way }
         }
         (Revolute { .. }, Prismatic { direction }) => {
-            let r = (arm.offset + direction * middle[1] + point.coords).norm() + v[1] * reach;
+            let r = (arm.offset + direction * middle[1] + point).norm() + v[1] * reach;
             let turned = lever(1.0, v[0], a[0], j[0]);
             // Derivatives of the product of a turning lever and a changing length.
             let mixed = [

@@ -128,20 +128,20 @@ pub fn plan_with(problem: &Problem, options: &Options, progress: &mut dyn FnMut(
     Ok(Plan { problem: problem.clone(), options: *options, detail: Box::new(detail), clock })
 }
 
-/// What the options ask of a robot that its file does not say.
+/// Returns the reason why the options do not fit the robot, if they do not.
 fn lack(options: &Options, problem: &Problem) -> Option<String> {
     if options.planner.is_exact() && !has_exact_polygons(problem.scene()) {
         let kind = problem.scene().arm().kind();
         return Some(format!(
-            "--margin 0 takes C-obstacles that are polygons, as gantries (PP) have them: this arm ({kind}) turns, or slides in one \
-             direction; use a small margin, such as --margin 1e-5"
+            "--margin 0 needs C-obstacles that are polygons, and only gantries (PP) have these: this arm is {kind}; use a \
+             small margin, such as --margin 1e-5"
         ));
     }
     if !options.drive.torque || problem.scene().arm().dynamics.is_some() {
         return None;
     }
-    let why = problem.robot().no_dynamics.as_deref().unwrap_or("the arm has none of them");
-    Some(format!("--torque takes masses, inertias and efforts: {why}"))
+    let why = problem.robot().no_dynamics.as_deref().unwrap_or("the arm has none of these");
+    Some(format!("--torque needs masses, inertias and efforts: {why}"))
 }
 
 /// Plans a single motion.

@@ -4,8 +4,7 @@ use super::element::Element;
 use super::question::{Question, farthest};
 use super::threshold::{Threshold, threshold};
 use cplan_core::model::{Obstacle, Outcome};
-use cplan_geometry::{Convex, Point, Vector};
-use nalgebra::Translation2;
+use cplan_geometry::{Convex, Point, Pose, Vector};
 use serde::Serialize;
 use std::f64::consts::TAU;
 
@@ -150,7 +149,7 @@ pub(super) fn middle(obstacle: &Obstacle) -> Option<(Point, f64)> {
         .iter()
         .map(|piece| piece.bounds().map(Point::from))
         .reduce(|[a, b], [c, d]| [a.inf(&c), b.sup(&d)])?;
-    let middle = nalgebra::center(&lower, &upper);
+    let middle = (lower + upper) * 0.5;
     Some((middle, obstacle.pieces.iter().map(|piece| piece.reach_from(middle)).fold(0.0, f64::max)))
 }
 
@@ -168,7 +167,7 @@ fn moving(
         Vector::new(cos, sin)
     };
     let ask = |share: f64, by: f64| {
-        let moved = nalgebra::convert(Translation2::from(toward(share) * by));
+        let moved = Pose::translation(toward(share) * by);
         question.with_pieces(number, obstacle.pieces.iter().map(|piece| piece.at(&moved)).collect()).answer(boxes)
     };
     let most = farthest(question.scene());

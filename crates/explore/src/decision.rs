@@ -85,7 +85,7 @@ impl Explorer<'_> {
 
     fn too_coarse(&self) -> Ending {
         let [a, b] = self.settings.cells;
-        Ending::Unknown(format!("no middle of {a} x {b} cells near ({}) is known to be free", shown(self.at)))
+        Ending::Unknown(format!("no centre of {a} x {b} cells near ({}) is known to be free", shown(self.at)))
     }
 
     /// Moves to a frontier configuration, or ends with "explored" if they are all out of reach.
@@ -273,8 +273,9 @@ impl Explorer<'_> {
             Outcome::Found(path) => path,
             Outcome::Infeasible(proof) => {
                 let boxes = counted(proof.stuck().len(), "box");
-                let why =
-                    format!("proven: separated from the goal by {boxes} of configurations that meet what was seen");
+                let why = format!(
+                    "proven: separated from the goal by {boxes} of configurations that collide with seen obstacles"
+                );
                 return Decision::Done(Ending::Unreachable(why));
             }
             // Its planner may give up, as in a trap: others see farther.
@@ -347,10 +348,10 @@ impl Explorer<'_> {
         Decision::Done(match solve(&problem, &options, &mut |_| ()).outcome {
             Outcome::Found(path) => return Decision::Go(path.certified, None),
             Outcome::Infeasible(_) => {
-                Ending::Unreachable("nothing new can be seen, and in what is known there is no way: proven".into())
+                Ending::Unreachable("nothing new can be seen, and in the known space there is no path: proven".into())
             }
             Outcome::Unknown(Unknown { reason, .. }) => {
-                Ending::Unknown(format!("nothing new can be seen, and in what is known {reason}"))
+                Ending::Unknown(format!("nothing new can be seen, and in the known space {reason}"))
             }
         })
     }
@@ -363,7 +364,10 @@ fn problem(scene: Scene, start: Configuration, goals: &GoalSet) -> Result<Motion
     let (blocked, open): (Vec<&Segment>, Vec<&Segment>) = goals.pieces().iter().partition(is_blocked);
     if let (true, Some(first)) = (open.is_empty(), blocked.first()) {
         let why = scene.obstructions(first.ends()[0]).iter().map(|o| scene.explain(o)).collect::<Vec<_>>();
-        return Err(Ending::Unknown(format!("the goal meets cells that are not known to be free: {}", listed(&why))));
+        return Err(Ending::Unknown(format!(
+            "the goal collides with cells that are not known to be free: {}",
+            listed(&why)
+        )));
     }
     let open: GoalSet = open.into_iter().copied().collect();
     MotionProblem::new(scene, start, open).map_err(|error| Ending::Unknown(error.to_string()))

@@ -77,7 +77,7 @@ pub fn explore(
             break Ending::Reached;
         }
         if decisions.len() == settings.decisions {
-            break Ending::Unknown(format!("not done after {}", counted(decisions.len(), "decision")));
+            break Ending::Unknown(format!("not finished after {}", counted(decisions.len(), "decision")));
         }
         let clock = Instant::now();
         explorer.take_note();

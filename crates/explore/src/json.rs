@@ -14,7 +14,7 @@ impl Exploration {
     pub fn to_json(&self, joints: [&str; 2], sensor: &Sensor, timed: bool) -> Value {
         let map = self.survey.map();
         let [free, occupied, unknown] = self.survey.counts();
-        let origin = map.pose.translation.vector;
+        let origin = map.pose.translation;
         let rows = self.readings.iter().map(|r| json!([r.at[0], r.at[1], r.length, r.new.len()]));
         let legs = self.legs.iter().map(|leg| {
             let waypoints = leg.curve.curve().path().waypoints().iter().map(|q| [q[0], q[1]]).collect::<Vec<_>>();

@@ -11,7 +11,7 @@ const SHADES: [u8; 3] = [254, 205, 0];
 #[must_use]
 pub fn map_description(survey: &Survey, picture: &str) -> String {
     let map = survey.map();
-    let origin = map.pose.translation.vector;
+    let origin = map.pose.translation;
     format!(
         "image: {}\nresolution: {}\norigin: [{}, {}, 0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n",
         // A string of JSON is one of YAML.

@@ -62,9 +62,9 @@ pub enum ExploreError {
     #[error("a map of cells of {0} m would have more than {MOST_CELLS} of them")]
     Map(f64),
     /// The known map is not of this world.
-    #[error("the map that is known already {0}")]
+    #[error("the known map {0}")]
     Known(String),
     /// There is no goal to go to.
-    #[error("the strategy \"goal\" has no goal to go to")]
+    #[error("the strategy \"goal\" needs a goal")]
     NoGoal,
 }

@@ -3,9 +3,8 @@
 use super::views::{AROUND_CELL, Crossing};
 use cplan_core::model::{Arm, Heights, JointType, Obstacle, Scene, Shape, Workspace};
 use cplan_core::space::{Configuration, Draws};
-use cplan_geometry::{Convex, Point, Vector, shapes_meet};
+use cplan_geometry::{Convex, Point, Pose, Vector, shapes_meet};
 use cplan_world::{Occupancy, OccupancyMap, Sensor};
-use nalgebra::{Isometry2, Vector2};
 
 /// Cells of the largest map.
 pub const MOST_CELLS: usize = 1 << 22;
@@ -47,7 +46,7 @@ impl Survey {
         let known = OccupancyMap {
             size,
             resolution: cell,
-            pose: Isometry2::new(Vector2::from(origin), 0.0),
+            pose: Pose::translation(Vector::from(origin)),
             cells: vec![Occupancy::Unknown; size[0] * size[1]],
             notes: Vec::new(),
             picture: None,
@@ -74,7 +73,7 @@ impl Survey {
             let [width, height] = own.size;
             let at = self.origin();
             return Err(format!(
-                "has other cells than the {width} x {height} of {} m from ({}, {}) that the arm and its sensor ask for",
+                "has other cells than the {width} x {height} cells of {} m from ({}, {}) that the arm and its sensor need",
                 own.resolution, at.x, at.y
             ));
         }
@@ -87,10 +86,10 @@ impl Survey {
             if is_wrong {
                 let [width, height] = map.size;
                 let [x, y] = [cell % width, height - 1 - cell / width].map(|k| (k as f64 + 0.5) * map.resolution);
-                let at = map.pose * Point::new(x, y);
+                let at = map.pose.point(Point::new(x, y));
                 let (said, is) =
                     if self.truth[cell].is_some() { ("free", "something") } else { ("occupied", "nothing") };
-                return Err(format!("says that it is {said} about ({:.4}, {:.4}), where there is {is}", at.x, at.y));
+                return Err(format!("has {said} space near ({:.4}, {:.4}), but the world has {is} there", at.x, at.y));
             }
         }
         self.known.cells.clone_from(&map.cells);
@@ -119,7 +118,7 @@ impl Survey {
 
     /// Returns the corner of the map from which cells are counted.
     pub(super) fn origin(&self) -> Vector {
-        self.known.pose.translation.vector
+        self.known.pose.translation
     }
 
     /// Returns the number of a cell, by column from the left and row from below.
@@ -136,8 +135,7 @@ impl Survey {
         let grown = Convex::trusted(shape.core().to_vec(), shape.radius() + margin);
         let around = grown.radius() / cell + AROUND_CELL;
         // In cells, from the middle of the first.
-        let core: Vec<Vector> =
-            shape.core().iter().map(|p| (p.coords - self.origin()) / cell - Vector::repeat(0.5)).collect();
+        let core: Vec<Vector> = shape.core().iter().map(|p| (p - self.origin()) / cell - Vector::repeat(0.5)).collect();
         let range = |k: usize| {
             let local = core.iter().map(|p| p[k]);
             let (least, most) = local.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)));
@@ -170,8 +168,7 @@ impl Survey {
 
     /// Returns a cell as a shape, by column from the left and row from below.
     fn square(&self, x: usize, y: usize) -> Convex {
-        let at =
-            |x: usize, y: usize| Point::from(self.origin() + Vector::new(x as f64, y as f64) * self.known.resolution);
+        let at = |x: usize, y: usize| self.origin() + Vector::new(x as f64, y as f64) * self.known.resolution;
         Convex::trusted(vec![at(x, y), at(x + 1, y), at(x + 1, y + 1), at(x, y + 1)], 0.0)
     }
 
@@ -228,7 +225,7 @@ impl Survey {
 
     /// Returns the map cell that contains a point.
     pub(super) fn cell_at(&self, point: Point) -> Option<usize> {
-        let local = (point.coords - self.origin()) / self.known.resolution;
+        let local = (point - self.origin()) / self.known.resolution;
         let is_inside = (0..2).all(|k| 0.0 <= local[k] && local[k] < self.known.size[k] as f64);
         is_inside.then(|| self.index(local.x as usize, local.y as usize))
     }
@@ -330,11 +327,7 @@ fn swept(arm: &Arm, heights: Heights) -> Vec<(Point, f64)> {
     for q1 in <[f64; 2]>::from(first.range.domain()) {
         for &q2 in &ends {
             let poses = arm.poses([q1, q2].into());
-            discs.push(if turns {
-                (arm.elbow_at(q1), arm.tip.coords.norm())
-            } else {
-                (arm.tip_at([q1, q2].into()), 0.0)
-            });
+            discs.push(if turns { (arm.elbow_at(q1), arm.tip.norm()) } else { (arm.tip_at([q1, q2].into()), 0.0) });
             for (link, pose) in poses.iter().enumerate() {
                 for part in arm.links[link].parts.iter().filter(|part| part.heights.meet(heights)) {
                     let (shape, elbow) = (part.shape.at(pose), arm.elbow_at(q1));

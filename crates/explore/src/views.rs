@@ -38,7 +38,7 @@ impl Survey {
     /// From side to side (Amanatides, Woo 1987).
     pub(super) fn crossings(&self, from: Point, angle: f64, range: f64) -> impl Iterator<Item = Crossing> + use<> {
         let cell = self.known.resolution;
-        let (size, local) = (self.known.size, (from.coords - self.origin()) / cell);
+        let (size, local) = (self.known.size, (from - self.origin()) / cell);
         let ahead = [angle.cos(), angle.sin()];
         let step = ahead.map(|d| if d > 0.0 { 1_i64 } else { -1 });
         // Distance from one side across to the next.
@@ -121,7 +121,7 @@ impl Survey {
     fn rays_to(&self, sensor: &Sensor, from: Point, ahead: f64, cell: usize) -> impl Iterator<Item = usize> + use<> {
         let [width, height] = self.known.size;
         let middle = Vector::new((cell % width) as f64 + 0.5, (height - 1 - cell / width) as f64 + 0.5);
-        let way = middle - (from.coords - self.origin()) / self.known.resolution;
+        let way = middle - (from - self.origin()) / self.known.resolution;
         let sine = AROUND_CELL / way.norm();
         sensor.rays_about(ahead, way.y.atan2(way.x), if sine < 1.0 { sine.asin() } else { PI })
     }
@@ -188,7 +188,7 @@ impl Survey {
 
     /// Iterates over the cells within a range of a point, up to rounding.
     fn near<'a>(&self, cells: &'a Rows, point: Point, range: f64) -> impl Iterator<Item = usize> + use<'a> {
-        let local = (point.coords - self.origin()) / self.known.resolution;
+        let local = (point - self.origin()) / self.known.resolution;
         let [width, height] = self.known.size;
         let (x, y) = (local.x, height as f64 - local.y);
         let range = range / self.known.resolution + SLACK;

@@ -91,7 +91,7 @@ const BENT: f64 = 16.0 * f64::EPSILON;
 /// by rounding.
 fn is_hull_up_to_rounding(core: &[Point]) -> bool {
     let hull = hull(core);
-    let bent = BENT * core.iter().fold(0.0_f64, |most, p| most.max(p.coords.amax()));
+    let bent = BENT * core.iter().fold(0.0_f64, |most, p| most.max(p.amax()));
     let n = core.len();
     let Some(first) = core.iter().position(|p| hull.len() > 2 && *p == hull[0]) else { return false };
     // The side on which the previous corner lies, and its position along it.
@@ -241,7 +241,7 @@ impl Convex {
     /// Returns the shape moved by `pose`, up to rounding.
     #[must_use]
     pub fn at(&self, pose: &Pose) -> Self {
-        Self { core: self.core.iter().map(|p| pose * p).collect(), radius: self.radius }
+        Self { core: self.core.iter().map(|&p| pose.point(p)).collect(), radius: self.radius }
     }
 
     /// Returns the greatest distance of a point of the shape from `pivot`, metres. With a negative radius it measures
@@ -267,7 +267,7 @@ impl Convex {
         let (mut twice, mut perimeter) = (0.0, 0.0);
         for (i, a) in self.core.iter().enumerate() {
             let b = &self.core[(i + 1) % n];
-            twice += super::cross(a.coords, b.coords);
+            twice += super::cross(*a, *b);
             perimeter += (b - a).norm();
         }
         twice / 2.0 + perimeter * self.radius + std::f64::consts::PI * self.radius * self.radius
@@ -277,7 +277,7 @@ impl Convex {
     pub fn is_sliver(&self) -> bool {
         let [first, others @ ..] = &self.core[..] else { return false };
         let twice: f64 = others.windows(2).map(|pair| super::cross(pair[0] - first, pair[1] - first).abs()).sum();
-        let largest = self.core.iter().map(|p| p.coords.amax()).fold(0.0, f64::max);
+        let largest = self.core.iter().map(|p| p.amax()).fold(0.0, f64::max);
         let long = others.iter().map(|p| (p - first).norm()).fold(0.0, f64::max);
         self.radius == 0.0 && others.len() > 1 && twice <= 64.0 * f64::EPSILON * largest * long
     }

@@ -275,7 +275,7 @@ mod tests {
         let corners = points(&[[0.1, 0.1], [3.9, 0.1], [3.9, 0.9], [0.1, 0.9]]);
         let is_near = |p: &Point| corners.iter().any(|corner| (p - corner).norm() < 1e-12);
         assert!(matches!(&left[..], [one] if one.len() == 1 && one[0].core().iter().all(is_near)), "{left:?}");
-        let disc = [Convex::point(Point::origin()).grown(0.3)];
+        let disc = [Convex::point(Point::zeros()).grown(0.3)];
         let radii = [0.1, 0.4].map(|by| drawn_in(&disc, by)[0][0].radius());
         assert_eq!(radii, [0.3 - 0.1, 0.0]);
     }
@@ -342,7 +342,7 @@ mod tests {
 
     /// Inserts straight corners in the middle of some sides.
     fn with_straight(ring: &[Point], some: u8) -> Vec<Point> {
-        let halfway = |k: usize| (some >> k & 1 == 1).then(|| nalgebra::center(&ring[k], &beside(ring, k)[0]));
+        let halfway = |k: usize| (some >> k & 1 == 1).then(|| (ring[k] + beside(ring, k)[0]) * 0.5);
         (0..ring.len()).flat_map(|k| std::iter::once(ring[k]).chain(halfway(k))).collect()
     }
 

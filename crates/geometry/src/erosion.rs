@@ -32,7 +32,7 @@ impl Convex {
 }
 
 fn mean(points: &[Point]) -> Point {
-    Point::from(points.iter().map(|p| p.coords).sum::<super::Vector>() / points.len() as f64)
+    points.iter().sum::<super::Vector>() / points.len() as f64
 }
 
 #[cfg(test)]
@@ -53,7 +53,7 @@ mod tests {
             let shape = Convex::trusted(hull(&corners), radius);
             let eroded = shape.eroded(by);
             prop_assert!(by > shape.depth() || eroded.is_some());
-            let point = Point::from(Vector::new(at.0, at.1));
+            let point = Vector::new(at.0, at.1);
             // The depth of a point: how far the shape must move to leave it outside.
             let depth = -separation(&shape, &Convex::point(point)).distance;
             let inside = eroded.is_some_and(|e| separation(&e, &Convex::point(point)).distance <= 0.0);
@@ -82,7 +82,7 @@ mod tests {
             let (near, far) = (separation(&other, &shape), separation(&other, &shape.receding(by)));
             prop_assert!((far.distance - near.distance - by).abs() < 1e-12);
             let difference = shape.receding(by).minkowski_difference(&other);
-            let of_difference = separation(&Convex::point(Point::origin()), &difference).distance;
+            let of_difference = separation(&Convex::point(Point::zeros()), &difference).distance;
             prop_assert!((of_difference - far.distance).abs() < 1e-9, "{of_difference} {}", far.distance);
             let again = shape.receding(by).eroded(shape.radius() - by).expect("all of it");
             prop_assert!(again.core() == shape.core() && again.radius() < 1e-15);
@@ -103,7 +103,7 @@ mod tests {
         assert_eq!((left.core().len(), left.radius()), (4, 0.0));
         assert!(bar.eroded(0.051).is_none());
         assert!(Convex::trusted(vec![Point::new(0., 0.), Point::new(1., 0.)], 0.0).eroded(1e-9).is_none());
-        assert_eq!(Convex::point(Point::origin()).grown(0.3).eroded(0.1).unwrap().radius(), 0.3 - 0.1);
-        assert!(Convex::point(Point::origin()).grown(0.3).eroded(0.31).is_none());
+        assert_eq!(Convex::point(Point::zeros()).grown(0.3).eroded(0.1).unwrap().radius(), 0.3 - 0.1);
+        assert!(Convex::point(Point::zeros()).grown(0.3).eroded(0.31).is_none());
     }
 }

@@ -12,7 +12,7 @@ pub fn inset(polygon: &[Point], by: f64) -> Option<Vec<Point>> {
     for (i, &a) in polygon.iter().enumerate() {
         let b = polygon[(i + 1) % polygon.len()];
         let normal = perpendicular(b - a).try_normalize(0.0)?;
-        left = clip(&left, normal, normal.dot(&a.coords) + by);
+        left = clip(&left, normal, normal.dot(&a) + by);
     }
     let left = hull(&left);
     (left.len() > 2).then_some(left)
@@ -22,7 +22,7 @@ pub fn inset(polygon: &[Point], by: f64) -> Option<Vec<Point>> {
 #[must_use]
 fn clip(polygon: &[Point], normal: Vector, offset: f64) -> Vec<Point> {
     let n = polygon.len();
-    let height = |p: Point| normal.dot(&p.coords) - offset;
+    let height = |p: Point| normal.dot(&p) - offset;
     let mut left = Vec::with_capacity(n + 1);
     for (i, &a) in polygon.iter().enumerate() {
         let b = polygon[(i + 1) % n];
@@ -44,7 +44,7 @@ pub fn common(polygon: &[Point], with: &[Point]) -> Vec<Point> {
     let mut left = polygon.to_vec();
     for (i, &a) in with.iter().enumerate() {
         let normal = perpendicular(with[(i + 1) % with.len()] - a);
-        left = clip(&left, normal, normal.dot(&a.coords));
+        left = clip(&left, normal, normal.dot(&a));
     }
     left
 }

@@ -34,6 +34,7 @@ mod penetration;
 pub mod planar;
 mod pole;
 mod polygon;
+mod pose;
 mod predicates;
 mod rings;
 mod separation;
@@ -59,6 +60,7 @@ pub use penetration::{
 };
 pub use pole::pole_of_inaccessibility;
 pub use polygon::{PolygonError, SimplePolygon};
+pub use pose::Pose;
 pub use predicates::{Orientation, in_circle, orientation, point_on_segment, segments_cross, segments_meet};
 pub use rings::{Polygon, RingError, RingSide};
 pub use separation::{Separation, separation};
@@ -68,12 +70,11 @@ pub use sliding::{along_and_across, sliding_tracks};
 pub use turning::{Features, Hits, ROUNDING, turning, turning_from};
 pub use turning::{normalized, product};
 
-/// A point of the plane, metres.
-pub type Point = nalgebra::Point2<f64>;
 /// A displacement in the plane, metres.
 pub type Vector = nalgebra::Vector2<f64>;
-/// A rigid motion of the plane: rotation, then translation.
-pub type Pose = nalgebra::Isometry2<f64>;
+/// A position in the plane, metres: its displacement from the origin. The same type as [`Vector`], so that nothing
+/// needs to be converted; signatures say which is meant.
+pub type Point = Vector;
 
 /// Returns `v` turned by a quarter turn counter-clockwise.
 #[must_use]

@@ -19,7 +19,7 @@ pub fn minkowski_difference(b: &[Point], a: &[Point]) -> Vec<Point> {
     let (Some(mut plus), Some(mut minus)) = (Sweep::new(b, false), Sweep::new(a, true)) else { return Vec::new() };
     let mut corners = Vec::with_capacity(b.len() + a.len());
     loop {
-        corners.push(Point::from(plus.corner() - minus.corner()));
+        corners.push(plus.corner() - minus.corner());
         let order = match (plus.side(), minus.side()) {
             (None, None) => break,
             (Some(_), None) => Ordering::Less,

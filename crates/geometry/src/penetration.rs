@@ -134,7 +134,7 @@ fn corners_inside(corners: &[Point], polygon: &[Point]) -> Vec<CornerInside> {
 
 /// Returns the depth of the origin in a convex counter-clockwise polygon, or the negative distance to it, metres.
 pub(super) fn origin_depth(polygon: &[Point]) -> f64 {
-    let origin = Point::origin();
+    let origin = Point::zeros();
     let penetration = core_penetration(origin, polygon);
     if penetration.location == Location::Outside {
         -sides(polygon).map(|(a, b)| distance_to_segment(origin, a, b)).fold(f64::INFINITY, f64::min)

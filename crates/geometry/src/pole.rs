@@ -15,9 +15,9 @@ const MOST: usize = 4096;
 /// are divided into four, the most promising first, as polylabel does (Agafonkin 2016).
 #[must_use]
 pub fn pole_of_inaccessibility(corners: &[Point], precision: f64) -> Option<(Point, f64)> {
-    let (mut low, mut high) = (corners.first()?.coords, corners.first()?.coords);
+    let (mut low, mut high) = (*corners.first()?, *corners.first()?);
     for corner in corners {
-        (low, high) = (low.inf(&corner.coords), high.sup(&corner.coords));
+        (low, high) = (low.inf(corner), high.sup(corner));
     }
     let half = (high - low).max() / 2.0;
     let mut best: Option<(Point, f64)> = None;

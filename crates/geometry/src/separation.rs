@@ -33,13 +33,13 @@ pub fn separation_at<R>(a: &Convex, pose: &Pose, b: &Convex, and: impl FnOnce(&[
     const FEW: usize = 8;
     let (mut few, many);
     let corners = if a.core().len() <= FEW {
-        few = [Point::origin(); FEW];
+        few = [Point::zeros(); FEW];
         for (corner, p) in few.iter_mut().zip(a.core()) {
-            *corner = pose * p;
+            *corner = pose.point(*p);
         }
         &few[..a.core().len()]
     } else {
-        many = a.core().iter().map(|p| pose * p).collect::<Vec<Point>>();
+        many = a.core().iter().map(|&p| pose.point(p)).collect::<Vec<Point>>();
         &many
     };
     let core = core_separation(corners, b.core());
@@ -49,10 +49,10 @@ pub fn separation_at<R>(a: &Convex, pose: &Pose, b: &Convex, and: impl FnOnce(&[
 /// Returns the gap between the supporting lines of `b` and of `a` moved by a pose, along a unit direction. Negative if
 /// they overlap. No gap exceeds the [`separation`], which is the greatest of them. `O(n + m)`.
 pub fn gap_along(a: &Convex, pose: &Pose, b: &Convex, direction: Vector) -> f64 {
-    let own = pose.inverse_transform_vector(&direction);
-    let of_a = a.core().iter().map(|p| own.dot(&p.coords)).fold(f64::NEG_INFINITY, f64::max);
-    let of_b = b.core().iter().map(|p| direction.dot(&p.coords)).fold(f64::INFINITY, f64::min);
-    of_b - of_a - direction.dot(&pose.translation.vector) - a.radius() - b.radius()
+    let own = pose.inverse_direction(direction);
+    let of_a = a.core().iter().map(|p| own.dot(p)).fold(f64::NEG_INFINITY, f64::max);
+    let of_b = b.core().iter().map(|p| direction.dot(p)).fold(f64::INFINITY, f64::min);
+    of_b - of_a - direction.dot(&pose.translation) - a.radius() - b.radius()
 }
 
 /// Rounding error of a distance from a side, relative to the largest coordinate. A difference, two products and a sum

@@ -23,7 +23,7 @@ pub fn along_and_across<'a>(
 ) -> Vec<Vector> {
     corners
         .map(|p| {
-            let v = p.coords - origin;
+            let v = p - origin;
             Vector::new(direction.dot(&v), cross(direction, v))
         })
         .collect()

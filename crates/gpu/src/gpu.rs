@@ -9,7 +9,7 @@ use thiserror::Error;
 pub enum GpuError {
     /// There is no suitable adapter.
     #[error(
-        "no GPU can be used: {0}\n  cure: install a driver for Vulkan (Linux: that of the graphics card; without one Mesa's software \
+        "no GPU can be used: {0}\n  hint: install a driver for Vulkan (Linux: that of the graphics card; without one Mesa's software \
          driver, Debian's mesa-vulkan-drivers), Metal or Direct3D 12; or solve on the CPU"
     )]
     NoAdapter(String),
@@ -17,7 +17,7 @@ pub enum GpuError {
     #[error("{0}")]
     Refused(String),
     /// The adapter has no buffers of this size.
-    #[error("the GPU has buffers of {most} bytes, {needed} are needed\n  cure: fewer cells, or solve on the CPU")]
+    #[error("the GPU has buffers of {most} bytes, {needed} are needed\n  hint: fewer cells, or solve on the CPU")]
     TooLarge {
         /// Size of the largest buffer needed, in bytes.
         needed: u64,
@@ -25,7 +25,7 @@ pub enum GpuError {
         most: u64,
     },
     /// Out of memory, or the device was lost, with the driver's message.
-    #[error("the GPU failed: {0}\n  cure: fewer cells, or solve on the CPU")]
+    #[error("the GPU failed: {0}\n  hint: fewer cells, or solve on the CPU")]
     Failed(String),
     /// Values grew without bound, or are not numbers.
     #[error("the relaxation diverged: after {sweeps} sweeps cell ({}, {}) has the value {value:e}", cell[0], cell[1])]

@@ -60,7 +60,7 @@ impl TryFrom<CourseRecord> for Course {
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum CourseError {
     /// There are no stops.
-    #[error("a course needs a stop")]
+    #[error("a moving obstacle needs at least one stop")]
     Empty,
     /// A time that is not later than the previous one, or negative, or beyond [`LATEST`].
     #[error("stop {} is at {time} s; times begin at 0 or later, increase, and end before {LATEST:e}", stop + 1)]
@@ -71,7 +71,7 @@ pub enum CourseError {
         time: f64,
     },
     /// A place, angle or velocity that is not finite, or too large.
-    #[error("stop {} has a place or a velocity that is none", stop + 1)]
+    #[error("stop {} has a position or a velocity that is not finite or too large", stop + 1)]
     Place {
         /// Number of the stop, from 0.
         stop: usize,
@@ -98,7 +98,7 @@ impl Leg {
     #[must_use]
     pub fn pose(&self, time: f64) -> Pose {
         let since = time - self.from;
-        Pose::new((self.start.at + self.velocity * since).coords, self.start.angle + self.turn * since)
+        Pose::new(self.start.at + self.velocity * since, self.start.angle + self.turn * since)
     }
 
     /// Returns true if nothing moves in it.
@@ -201,7 +201,7 @@ impl Course {
             // Whole turns count, which a pose does not contain.
             let leg = self.leg(time);
             let angle = leg.start.angle + leg.turn * (time - leg.from);
-            stops.insert(0, Stop { time: 0.0, at: here.translation.vector.into(), angle });
+            stops.insert(0, Stop { time: 0.0, at: here.translation, angle });
         }
         let legs = legs(&stops, self.velocity);
         Self { stops, velocity: self.velocity, legs }
@@ -310,7 +310,7 @@ mod tests {
             let later = course.since(time);
             for since in [0.0, 0.3, 0.5, 1.0, 2.5, 9.0] {
                 let (a, b) = (course.pose(time + since), later.pose(since));
-                assert!((a.translation.vector - b.translation.vector).norm() < 1e-12, "{since} s after {time} s");
+                assert!((a.translation - b.translation).norm() < 1e-12, "{since} s after {time} s");
                 assert!((a.rotation.angle() - b.rotation.angle()).abs() < 1e-12, "{since} s after {time} s");
             }
         }
@@ -332,7 +332,7 @@ mod tests {
         let there_and_back = Course::new(stops, Vector::zeros()).unwrap();
         assert_eq!(there_and_back.passes(Point::new(1.0, 0.0), 1e-3), [[2.0, 3.0]]);
         assert_eq!(there_and_back.passes(Point::new(0.5, 0.0), 1e-3), [[1.5, 1.5], [3.5, 3.5]]);
-        assert_eq!(there_and_back.passes(Point::origin(), 1e-3), [[0.0, 1.0], [4.0, f64::INFINITY]]);
+        assert_eq!(there_and_back.passes(Point::zeros(), 1e-3), [[0.0, 1.0], [4.0, f64::INFINITY]]);
     }
 
     #[test]
@@ -365,12 +365,12 @@ mod tests {
             let course = Course::new(stops.collect(), Vector::new(at[0][0], at[1][0])).unwrap();
             let drift = course.drift(from, from + lasts);
             let point = Point::from(point);
-            let middle = drift.middle * point;
-            let then = course.pose(from + share * lasts) * point;
+            let middle = drift.middle.point(point);
+            let then = course.pose(from + share * lasts).point(point);
             let moved = then - middle;
             let linear = drift.of(middle) * (2.0 * share - 1.0);
             prop_assert!((moved - linear).norm() <= drift.beyond(middle) + 1e-12);
-            prop_assert!(moved.norm() <= drift.farthest(point.coords.norm()) + 1e-12);
+            prop_assert!(moved.norm() <= drift.farthest(point.norm()) + 1e-12);
         }
     }
 }

@@ -60,7 +60,7 @@ impl Payload {
         match self.grip {
             Grip::Rigid(in_link) => {
                 let body = spread(*mass, pieces);
-                Body { center: in_link * body.center, ..body }
+                Body { center: in_link.point(body.center), ..body }
             }
             Grip::Level { .. } => Body { mass: *mass, center: arm.tip, inertia: 0.0 },
         }

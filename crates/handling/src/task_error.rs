@@ -50,7 +50,7 @@ pub enum TaskError {
     #[error("a group of steps in any order has no steps")]
     EmptyGroup,
     /// Something moves, and the task needs a feature that supports static obstacles only.
-    #[error("\"{mover}\" moves, and {why}")]
+    #[error("\"{mover}\" moves, but {why}")]
     Moves {
         /// Name of a moving obstacle or object.
         mover: String,
@@ -58,7 +58,7 @@ pub enum TaskError {
         why: &'static str,
     },
     /// An object cannot be renewed.
-    #[error("an object is renewed that does not exist, or moves, or is carried then")]
+    #[error("a renewed object does not exist, moves, or is still carried")]
     Renewed,
 }
 
@@ -79,7 +79,10 @@ impl Task {
         }
         let mut names: BTreeSet<&str> = self.workspace.all().map(|o| o.name.as_str()).collect();
         if let Some(object) = self.objects.iter().find(|object| !names.insert(&object.name)) {
-            return Err(TaskError::Object { object: object.name.clone(), why: "something else has this name" });
+            return Err(TaskError::Object {
+                object: object.name.clone(),
+                why: "another obstacle or object has this name",
+            });
         }
         self.check_tool()?;
         if self.steps().next().is_none() {
@@ -106,14 +109,14 @@ impl Task {
         let (first, _) = courses.first()?;
         let turns = |step: &Step| matches!(step.action, Action::Place { angle: Some(_), .. });
         if self.stroke.is_some() {
-            return Some(((*first).clone(), "the tool is lowered and raised among what stands"));
+            return Some(((*first).clone(), "a tool that is lowered and raised needs static obstacles"));
         }
         if self.wrist.is_some() && self.steps().any(turns) {
-            return Some(((*first).clone(), "a wrist turns objects among what stands"));
+            return Some(((*first).clone(), "a wrist that turns objects needs static obstacles"));
         }
         let (turning, _) = courses.iter().find(|(_, course)| course.turns())?;
         let is_level = self.objects.iter().any(|object| object.holding == Holding::Level);
-        is_level.then(|| ((*turning).clone(), "objects are held level where nothing that moves turns"))
+        is_level.then(|| ((*turning).clone(), "objects that are held level need moving obstacles that do not turn"))
     }
 
     fn check_tool(&self) -> Result<(), TaskError> {
@@ -121,9 +124,9 @@ impl Task {
         let farthest = |stroke: &Stroke| self.objects.iter().map(|object| stroke.depth(object)).fold(0.0, f64::max);
         let stroke = self.stroke.iter().map(|stroke| (stroke.velocity, stroke.acceleration, farthest(stroke)));
         let why = if !wrist.chain(stroke).all(|(velocity, acceleration, way)| is_drive(velocity, acceleration, way)) {
-            "speeds and accelerations must be positive and finite, and such that it takes no more than a million seconds"
+            "speeds and accelerations must be positive, finite, and large enough for at most a million seconds"
         } else if self.stroke.iter().any(|s| !s.joint.is_sound() || s.joint.range.is_circle()) {
-            "its joint needs a sign of 1 or -1, a range, and a rest within that"
+            "its joint needs a sign of 1 or -1, a range, and a rest value within the range"
         } else if self.stroke.iter().filter_map(|s| s.travel).any(|travel| !travel.is_finite() || travel < 0.0) {
             "its travel must be finite and not negative"
         } else if self.stroke.iter().any(|stroke| !self.objects.iter().all(|object| stroke.reaches(object))) {
@@ -147,11 +150,11 @@ fn angle_at_first(object: &Object) -> f64 {
 
 fn check_object(object: &Object) -> Result<(), TaskError> {
     let why = if !is_pose(&object.at) {
-        "where it lies is no finite pose"
+        "its pose must be finite"
     } else if !(0.0..=LARGEST).contains(&object.lift) {
-        "its lift must be no negative number, and no more than 1e15 m"
+        "its lift must be from 0 to 1e15 m"
     } else if !(0.0..=LARGEST).contains(&object.mass) {
-        "its mass must be no negative number, and no more than 1e15 kg"
+        "its mass must be from 0 to 1e15 kg"
     } else if !object.pieces.iter().all(is_small) {
         "it is larger than 1e15 m"
     } else {
@@ -181,7 +184,7 @@ impl Gripper<'_> {
                     let is_place = matches!(place.action, Action::Place { .. });
                     match pick.action.picked() {
                         Some(object) if is_place && picked.insert(object) => {}
-                        _ => return Err(wrong(pick, "in any order there are picks of different objects and places")),
+                        _ => return Err(wrong(pick, "a group in any order consists of picks of different objects, each followed by its place")),
                     }
                     self.step(pick)?;
                     self.step(place)
@@ -205,32 +208,41 @@ impl Gripper<'_> {
         if !(step.speed > 0.0 && step.speed <= 1.0 && (0.0..=LONGEST).contains(&step.dwell)) {
             return Err(wrong(
                 step,
-                "its speed must be more than 0 and at most 1, its dwell at most a million seconds, and not negative",
+                "its speed must be greater than 0 and at most 1, and its dwell from 0 to a million seconds",
             ));
         }
         match &step.action {
             Action::Pick { object, grasp, supports, when } => {
                 if *object >= self.task.objects.len() || self.carried.is_some() {
-                    return Err(wrong(step, "it picks what does not exist, or while something is carried"));
+                    return Err(wrong(
+                        step,
+                        "it picks an object that does not exist, or picks while the tool carries an object",
+                    ));
                 }
                 let is_first = self.task.objects[*object].course.is_some() && self.picked.insert(*object);
                 let mut ends = when.iter().flatten();
                 let is_timely = is_first && ends.clone().is_sorted() && ends.all(|end| (0.0..=LATEST).contains(end));
                 if !when.is_empty() && !is_timely {
-                    return Err(wrong(step, "only what moves is picked at times, which are in order"));
+                    return Err(wrong(
+                        step,
+                        "only the first pick of a moving object has times, and these must be in order",
+                    ));
                 }
                 self.carried = Some(*object);
                 self.rest(step, *object, supports, are_small(grasp.iter().copied()))
             }
             Action::Place { at, angle, supports } => {
                 let Some(object) = self.carried.take() else {
-                    return Err(wrong(step, "nothing is carried to be placed"));
+                    return Err(wrong(step, "it places an object, but the tool carries none"));
                 };
                 if let Some(angle) = *angle {
                     let is_turned = angle != std::mem::replace(&mut self.turned[object], angle);
                     let is_level = self.task.objects[object].holding == Holding::Level;
                     if !is_level || is_turned && self.task.wrist.is_none() {
-                        return Err(wrong(step, "what it places cannot be turned"));
+                        return Err(wrong(
+                            step,
+                            "its object cannot be turned: it is not held level, or the tool has no wrist",
+                        ));
                     }
                 }
                 let is_finite = are_small(at.iter().chain(angle).copied());
@@ -239,14 +251,14 @@ impl Gripper<'_> {
             Action::Move(Goal::Joints(q)) => {
                 let mut values = self.task.arm.joints.iter().zip(q.iter());
                 let is_within = values.all(|(joint, value)| joint.range.contains(*value));
-                is_within.then_some(()).ok_or_else(|| wrong(step, "it goes beyond the joint limits"))
+                is_within.then_some(()).ok_or_else(|| wrong(step, "its joint values are beyond the joint limits"))
             }
             Action::Move(Goal::Area(_)) => {
-                Err(wrong(step, "it goes to joint values or a place of the tip, not to an area"))
+                Err(wrong(step, "a move needs joint values or a position of the tip, not an area"))
             }
             Action::Move(Goal::Tip(tip)) => {
                 let is_finite = are_small(tip.iter().copied());
-                is_finite.then_some(()).ok_or_else(|| wrong(step, "it goes to no finite place"))
+                is_finite.then_some(()).ok_or_else(|| wrong(step, "its position must be finite"))
             }
         }
     }
@@ -256,9 +268,9 @@ impl Gripper<'_> {
         let task = self.task;
         let count = task.obstacle_number(task.objects.len());
         if !is_finite {
-            Err(wrong(step, "it goes to no finite place"))
+            Err(wrong(step, "its position must be finite"))
         } else if supports.iter().any(|&support| support >= count || support == task.obstacle_number(object)) {
-            Err(wrong(step, "it rests on itself, or on what does not exist"))
+            Err(wrong(step, "its object rests on itself or on an obstacle that does not exist"))
         } else if !supports.is_empty() && !task.objects[object].can_rest(&task.arm) {
             Err(wrong(step, "its object is too thin to rest on anything"))
         } else {

@@ -49,7 +49,7 @@ impl Alone {
         match (serde_json::from_str(order), &mut self.desk) {
             (Err(error), _) => tell(failed(format!("no order: {error}"))),
             (Ok(Order::Take { request, spent }), Some(desk)) => desk.take(&request, &Interrupt::new(), spent, tell),
-            (Ok(Order::Take { .. }), None) => tell(failed("nothing is open".into())),
+            (Ok(Order::Take { .. }), None) => tell(failed("no world is open".into())),
             (Ok(Order::Open { id, files, seconds, held }), place) => {
                 let is_new = held.is_none();
                 match opened(files, seconds, held) {
@@ -143,7 +143,7 @@ mod tests {
     fn what_makes_no_sense_is_said_so() {
         let mut alone = Alone::default();
         let error = |replies: Vec<Value>| replies[0]["error"].as_str().unwrap().to_owned();
-        assert_eq!(error(told(&mut alone, &plan(1, "nothing"))), "nothing is open");
+        assert_eq!(error(told(&mut alone, &plan(1, "nothing"))), "no world is open");
         assert!(error(told(&mut alone, &json!({ "do": "sing" }))).starts_with("no order: "));
         let mut wrong = open(Value::Null);
         wrong["files"]["world"] = json!("image = \"den.yaml\"");

@@ -150,7 +150,7 @@ impl Answering<'_> {
             Some(Ok(Err(error))) => Ok(refused(About::Options, error)),
             Some(Err(Interrupted::Set)) => Err(Interrupted::Set),
             None | Some(Err(Interrupted::TimeUp)) => {
-                let reason = Some("not decided while something moves".into());
+                let reason = Some("not decided among moving obstacles".into());
                 let shown = self.bare(problem.timed(), ends.both(), "planning")?;
                 Ok(ends.put_into(AnswerReply { reason, ..shown }))
             }

@@ -75,14 +75,14 @@ fn reply(obstruction: &Obstruction) -> HitReply {
 fn in_the_way(scene: &Scene, what: &str, blocked: &[(Configuration, Vec<Obstruction>)]) -> String {
     let one = |hits: &[Obstruction]| hits.iter().map(|hit| in_words(scene, hit)).collect::<Vec<_>>().join("; ");
     let touches = blocked.iter().all(|(_, hits)| hits.iter().any(|hit| hit.touches));
-    let help = if touches { "Move" } else { "Ask for less clearance, or move" };
+    let help = if touches { "Move" } else { "Require less clearance, or move" };
     let help = format!("{help} the {what} or the obstacle.");
     match blocked {
         [(_, hits)] => format!("The {what} is blocked: {}. {help}", one(hits)),
         _ => {
             let each: Vec<String> =
                 blocked.iter().zip(1..).map(|((_, hits), k)| format!("configuration {k}: {}", one(hits))).collect();
-            format!("The {what} is blocked, whichever way the arm bends. {}. {help}", each.join(". "))
+            format!("The {what} is blocked for both IK solutions. {}. {help}", each.join(". "))
         }
     }
 }

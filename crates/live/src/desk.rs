@@ -235,19 +235,19 @@ impl Desk {
         let deadlines = Deadlines::new(interrupt, spent, self.host.time);
         match deadlines.plan.run(|| files::content(loaded, &options, format)) {
             Ok(content) => Ok((format!("plan.{format}"), content?)),
-            Err(Interrupted::Set) => Err("the file is not made: the page has changed since".into()),
-            Err(Interrupted::TimeUp) => Err(format!("the file is not made: {}", time_up(self.host.time))),
+            Err(Interrupted::Set) => Err("the file is not written: the page has changed since".into()),
+            Err(Interrupted::TimeUp) => Err(format!("the file is not written: {}", time_up(self.host.time))),
         }
     }
 
     /// Returns the text of the world that the page shows.
     fn text(&self, ask: &Ask) -> Result<String, String> {
         if ask.base != self.base {
-            return Err(format!("the page speaks of world {}, this is world {}", ask.base, self.base));
+            return Err(format!("the page shows world {}, but this is world {}", ask.base, self.base));
         }
         match &ask.state {
             None => Ok(self.document.text().to_owned()),
-            Some(_) if self.scene.has_steps() => Err("a world with steps is shown, not changed; edit its text".into()),
+            Some(_) if self.scene.has_steps() => Err("a world with steps cannot be changed here; edit its text".into()),
             Some(state) => self.document.changed(state, self.begin(state.start)),
         }
     }

@@ -95,7 +95,7 @@ impl Document {
 
     /// Returns true if anything changed.
     fn change_obstacles(&self, toml: &mut DocumentMut, pieces: &[Piece]) -> Result<bool, String> {
-        let (before, moving) = self.by_motion().ok_or("the text's obstacles are no [[obstacle]] tables")?;
+        let (before, moving) = self.by_motion().ok_or("the text's obstacles are not [[obstacle]] tables")?;
         let same = pieces.len() == before.len()
             && pieces.iter().zip(&before).enumerate().all(|(i, (piece, table))| {
                 let keeps = |shape: &Form| form(table).as_ref() == Some(shape);

@@ -18,5 +18,5 @@ pub fn content(loaded: LoadedScene, options: &Options, format: &str) -> Result<V
     let problem = Problem::of_scene(loaded, &Overrides::default()).map_err(|error| in_words(&error))?;
     let plan = plan(&problem, options).map_err(|error| in_words(&error))?;
     let bytes = plan.bytes(format).map_err(|error| in_words(&error))?;
-    bytes.ok_or_else(|| "there is no trajectory to put into it".to_owned())
+    bytes.ok_or_else(|| "the result has no trajectory".to_owned())
 }

@@ -77,7 +77,7 @@ impl TipSpeed<'_> {
         let arm = self.arm;
         let [w1, w2] = [0, 1].map(|k| part.slope[k].abs() + part.bend[k].abs() * part.half);
         let [b1, b2] = [part.bend[0].abs(), part.bend[1].abs()];
-        let tip = arm.tip.coords;
+        let tip = arm.tip;
         match (arm.joints[0].joint_type, arm.joints[1].joint_type) {
             (Revolute { sign: s1 }, Revolute { sign: s2 }) => {
                 // Turning rate of link 2.

@@ -15,7 +15,7 @@ pub enum WriteError {
         path: PathBuf,
     },
     /// The folder does not exist.
-    #[error("cannot write {}: there is no folder {}, make it first", path.display(), folder.display())]
+    #[error("cannot write {}: the folder {} does not exist; create it first", path.display(), folder.display())]
     NoFolder {
         /// The file as given.
         path: PathBuf,

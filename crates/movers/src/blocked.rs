@@ -87,7 +87,7 @@ impl<'a> Around<'a> {
     fn placed(&self) -> &(Convex, f64) {
         self.placed.get_or_init(|| {
             let placed = self.part.at(&self.pose);
-            let reach = placed.reach_from(Point::origin());
+            let reach = placed.reach_from(Point::zeros());
             (placed, reach)
         })
     }
@@ -118,11 +118,11 @@ impl Stretch {
             leg,
             own: piece.clone(),
             own_disc: disc(piece),
-            reach: placed.reach_from(Point::origin()),
+            reach: placed.reach_from(Point::zeros()),
             disc: disc(&placed),
             piece: placed,
             slide: (leg.turn == 0.0 && speed > 0.0).then(|| (leg.velocity / speed, speed)),
-            speed: leg.speed(piece.reach_from(Point::origin())),
+            speed: leg.speed(piece.reach_from(Point::zeros())),
         }
     }
 
@@ -142,7 +142,7 @@ impl Stretch {
                 between > far(between, self.disc.1)
             }
             None => {
-                let between = (self.leg.pose(f64::midpoint(from, to)) * self.own_disc.0 - point).norm();
+                let between = (self.leg.pose(f64::midpoint(from, to)).point(self.own_disc.0) - point).norm();
                 between > far(between, self.own_disc.1) + self.speed * (to - from) / 2.0
             }
         }
@@ -152,7 +152,7 @@ impl Stretch {
     fn distance(&self, around: &Around, time: f64, most: f64) -> Option<f64> {
         let pose = self.leg.pose(time);
         let ((at, extent), (center, radius)) = (around.disc, self.own_disc);
-        let between = (pose * center - at).norm();
+        let between = (pose.point(center) - at).norm();
         let is_far = between - extent - radius > most + ROOM * (between + extent + radius);
         let distance = (!is_far).then(|| separation_at(&self.own, &pose, &around.placed().0, |_, here| here.distance));
         distance.filter(|distance| *distance <= most)
@@ -350,7 +350,7 @@ fn common([a, b]: Interval, [from, to]: Interval) -> Option<Interval> {
 /// Returns a disc around a shape.
 fn disc(shape: &Convex) -> (Point, f64) {
     let [low, high] = shape.bounds();
-    (nalgebra::center(&low, &high), (high - low).norm() / 2.0)
+    ((low + high) * 0.5, (high - low).norm() / 2.0)
 }
 
 /// Returns the times from 0 on that are outside the intervals. The ends of the intervals belong to them.

@@ -134,17 +134,16 @@ pub fn in_time(
 
 fn reason(ways: usize, refuted: usize, movers: usize) -> String {
     let moves = if movers == 1 { "an obstacle moves".into() } else { format!("{movers} obstacles move") };
-    let tried =
-        if ways == 1 { "the one way that was tried".into() } else { format!("the {ways} ways that were tried") };
+    let tried = if ways == 1 { "the one route tried".into() } else { format!("the {ways} routes tried") };
     let known = match refuted {
-        _ if refuted == ways => format!("proven: along {tried} no timing keeps clear of what moves"),
-        0 => format!("along {tried} no timing was found that keeps clear of what moves"),
+        _ if refuted == ways => format!("along {tried}, no timing avoids the moving obstacles (proven)"),
+        0 => format!("along {tried}, no timing was found that avoids the moving obstacles"),
         _ => format!(
-            "along {tried} no timing was found that keeps clear of what moves, and along {} there is none: proven",
-            counted(refuted, "way")
+            "along {tried}, no timing was found that avoids the moving obstacles, and along {} none exists (proven)",
+            counted(refuted, "route")
         ),
     };
-    format!("there are ways among what stands, but {moves}; {known}")
+    format!("a path exists past the static obstacles, but {moves}; {known}")
 }
 
 /// Certifies a motion in both forms in which consumers join its samples.

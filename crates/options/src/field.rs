@@ -1,4 +1,4 @@
-//! Words for fields.
+//! Options for fields.
 
 use super::names::word;
 use super::number::{finite, positive};
@@ -13,46 +13,46 @@ use cplan_fields::{
 use cplan_fields::{EquationChoice, FieldChoice, FieldPlanner};
 use cplan_solver::{Method, Setting};
 
-/// Equations.
+/// Equations of fields.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum FieldName {
     /// Laplace's equation.
     Harmonic,
-    /// A drift in one direction everywhere: --epsilon, --direction.
+    /// A drift in one direction everywhere: needs --epsilon and --direction.
     Oriented,
-    /// The drift of each [[preference]] region of the world within it.
+    /// In each [[preference]] region of the world, the region's drift.
     Local,
-    /// The epsilon of each [[preference]] region, along the slope of the harmonic field.
+    /// In each [[preference]] region, a drift of its epsilon along the slope of the harmonic field.
     Bvp,
-    /// The same along the field's own slope.
+    /// The same, along the field's own slope.
     Bvp2,
-    /// Attraction by the goal, repulsion by the nearest obstacle or by all; may end in a local minimum, and says so.
+    /// Attraction by the goal, repulsion by the nearest obstacle or by all. May end in a local minimum, which is reported.
     Khatib,
 }
 
-/// Relaxations.
+/// Methods of relaxation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum RelaxationName {
     /// All cells at once.
     Jacobi,
-    /// All cells at once, by a --factor of less than 1.
+    /// All cells at once, with a --factor below 1.
     WeightedJacobi,
     /// One cell after the other.
     GaussSeidel,
-    /// One cell after the other, by a --factor of more than 1 or the one of the formula.
+    /// One cell after the other, with a --factor above 1; by default the formula's factor.
     Sor,
 }
 
-/// Orders.
+/// Orders of a sweep over the cells.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum OrderName {
     /// Line by line, joint 2 fastest.
     Rows,
     /// Line by line, joint 1 fastest.
     Columns,
-    /// Line by line from the four corners in turn.
+    /// Line by line, from each of the four corners in turn.
     Corners,
-    /// Like the squares of a chessboard.
+    /// First the red, then the black squares of a chessboard.
     RedBlack,
     /// In blocks of 2 x 2 cells, one cell of each block after the other.
     FourColor,
@@ -70,91 +70,93 @@ impl From<OrderName> for Order {
     }
 }
 
-/// The field of the harmonic planner.
+/// Options for the field of the harmonic planner.
 #[derive(Debug, Clone, Default, PartialEq, Args)]
 #[command(next_help_heading = "Fields (planner harmonic)")]
 pub struct FieldArgs {
     /// Equation of the field, such as --field oriented --epsilon 0.5 --direction 0,-1.
     #[arg(long, value_enum, value_name = "NAME")]
     pub field: Option<FieldName>,
-    /// Strength of the drift, per grid cell: everywhere (oriented), or outside the world's [[preference]] regions (bvp,
-    /// bvp2; default 0).
+    /// Strength of the drift per grid cell: everywhere (oriented), or outside the world's [[preference]] regions (bvp and
+    /// bvp2, default 0).
     #[arg(long, value_name = "E", value_parser = finite, allow_hyphen_values = true)]
     pub epsilon: Option<f64>,
-    /// Direction of the drift in joint space, such as 0,-1: of oriented, or of local for regions without one.
+    /// Direction of the drift in joint space, such as 0,-1: everywhere (oriented), or in regions without a direction
+    /// (local).
     #[arg(long, value_name = "v1,v2", value_parser = direction, allow_hyphen_values = true)]
     pub direction: Option<Direction>,
-    /// How slopes are discretised (oriented, local, bvp) [default: central].
+    /// Discretisation of slopes (oriented, local, bvp) [default: central].
     #[arg(long, value_parser = word::<Difference>(), value_name = "NAME")]
     pub difference: Option<Difference>,
-    /// How the equation is relaxed, such as --relaxation sor --order corners [default, if the field is not the plain
-    /// harmonic one: gauss-seidel].
+    /// Relaxation of the equation, such as --relaxation sor --order corners [default: gauss-seidel, except for the plain
+    /// harmonic field, which has a faster solver].
     #[arg(long, value_enum, value_name = "NAME")]
     pub relaxation: Option<RelaxationName>,
-    /// In which order cells go (gauss-seidel, sor) [default: corners, on a GPU red-black].
+    /// Order of the cells in a sweep (gauss-seidel, sor) [default: corners; on a GPU red-black].
     #[arg(long, value_enum, value_name = "NAME")]
     pub order: Option<OrderName>,
-    /// How far cells go (weighted-jacobi, sor) [default of sor: the best one for Laplace's equation in an empty
+    /// Relaxation factor (weighted-jacobi, sor) [default of sor: the best factor for Laplace's equation in an empty
     /// rectangle].
     #[arg(long, value_name = "W", value_parser = positive, allow_hyphen_values = true)]
     pub factor: Option<f64>,
-    /// Whether the equation sees that cells are not square [default: square].
+    /// Weights of a cell's neighbours: as for square cells, or by the cells' real shape [default: square].
     #[arg(long, value_parser = word::<Stencil>(), value_name = "NAME")]
     pub stencil: Option<Stencil>,
-    /// What lies beyond joint limits [default: high].
+    /// Effect of the joint limits on the field [default: high].
     #[arg(long, value_parser = word::<Limits>(), value_name = "NAME")]
     pub limits: Option<Limits>,
-    /// What of a sweep's changes must fall below the tolerance. The relative measure alone sees values that are small, far from
-    /// the goal. By another one the path may be stuck there; then sweeps go on by the relative one, and the result says so
-    /// [default: relative, of sor absolute, on a GPU relative].
+    /// Measure of a sweep's changes, which must fall below the tolerance. Only the relative measure notices the small
+    /// values far from the goal. If a path gets stuck there under another measure, sweeps continue under the relative one,
+    /// and the result reports it [default: relative; for sor on a CPU absolute].
     #[arg(long, value_parser = word::<Measure>(), value_name = "NAME")]
     pub measure: Option<Measure>,
-    /// Relax until the measure is below this [default: 1e-6, of absolute 0.01].
+    /// Relax until the measure is below this [default: 1e-6; of absolute and sums 0.01, of squares 0.0001].
     #[arg(long, value_name = "SIZE", value_parser = positive, allow_hyphen_values = true)]
     pub tolerance: Option<f64>,
-    /// At most so many sweeps, of each stage [default: 30000].
+    /// Maximum number of sweeps in each stage [default: 30000].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub max_sweeps: Option<u32>,
-    /// What the field is relaxed on [default: cpu].
+    /// Device for the relaxation [default: cpu].
     #[arg(long, value_parser = word::<Device>(), value_name = "DEVICE")]
     pub on: Option<Device>,
-    /// Pull of the goal (khatib): constant:C, or linear:K for K times the distance [default: linear:1].
+    /// Attraction by the goal (khatib): constant:C, or linear:K for K times the distance [default: linear:1].
     #[arg(long, value_name = "LAW", value_parser = attraction)]
     pub attraction: Option<Attraction>,
-    /// Push at a distance p (khatib). Of the nearest obstacle: ranged:K,P0 for the potential K/2 (1/p - 1/P0)^2 within P0,
-    /// or inverse-square:Q for the force Q/p^2; of all obstacle cells together: sum:Q for the force Q/p^2 of each, p in
-    /// cells [default: ranged:0.01,0.5].
+    /// Repulsion at a distance p (khatib). By the nearest obstacle: ranged:K,P0 for the potential K/2 (1/p - 1/P0)^2
+    /// within P0, or inverse-square:Q for the force Q/p^2. By all obstacle cells together: sum:Q for the force Q/p^2 of
+    /// each, p in cells [default: ranged:0.01,0.5].
     #[arg(long, value_name = "LAW", value_parser = repulsion)]
     pub repulsion: Option<Repulsion>,
-    /// Let each component of pull and push go through tanh (khatib).
+    /// Apply tanh to each component of attraction and repulsion (khatib).
     #[arg(long)]
     pub saturated: bool,
-    /// Leave local minima (khatib): wave fills the basin until it runs over into a lower cell; walk:SEED goes at random and then
-    /// down, until that leads lower; walk is walk:1. The answer reports it [default: a local minimum ends the search].
+    /// Escape from local minima (khatib). wave fills the basin until it overflows into a lower cell. walk:SEED walks at
+    /// random and then descends, until it ends lower; walk is walk:1. The result reports escapes [default: a local minimum
+    /// ends the search].
     #[arg(long, value_name = "HOW", value_parser = escape)]
     pub escape: Option<Escape>,
 }
 
-/// Sweeps of each stage before the relaxation is given up: more than any published count.
+/// Default of the maximum number of sweeps in each stage: more than any published count.
 const MAX_SWEEPS: u32 = 30_000;
-/// Tolerance of sums of changes over all cells: that of published sweep counts (Deicu 2012, Tables 17 to 19).
+/// Tolerance for sums of changes over all cells, from published sweep counts (Deicu 2012, Tables 17 to 19).
 const SUM_TOLERANCE: f64 = 0.01;
 
 impl FieldArgs {
-    /// The planner that follows the field; none where nothing but the default is asked for.
+    /// Returns the planner that follows the field; `None` if only the default field is requested.
     ///
     /// # Errors
-    /// Options that contradict each other or the planner, in words.
+    /// The reason, if options contradict each other or the planner.
     pub fn planner(&self, method: Method) -> Result<Option<FieldPlanner>, String> {
         let given = self.given();
         let Some(first) = given.first() else { return Ok(None) };
-        require(first, &[Setting::Field], method, "follows no such field")?;
+        require(first, &[Setting::Field], method, "does not follow a field")?;
         let name = self.field.unwrap_or(FieldName::Harmonic);
         for option in &given {
             if let Some(fields) = needed_field(option)
                 && !fields.contains(&name)
             {
-                return Err(format!("{option} is for --field {}", names(fields)));
+                return Err(format!("{option} needs --field {}", names(fields)));
             }
         }
         let is_plain = |option: &&str| *option == "--field" || (*option == "--on" && self.device().is_cpu());
@@ -178,29 +180,31 @@ impl FieldArgs {
             },
         };
         if self.saturated && self.escape.is_some() {
-            return Err("--escape leads to where the potential is lower: the forces of --saturated have none".into());
+            return Err(
+                "--escape needs a potential, which the forces of --saturated lack; leave out one of the two".into()
+            );
         }
         let limits = self.limits.unwrap_or_default();
         Ok(Some(FieldPlanner { field, limits, escape: self.escape, path: PathKind::Own }))
     }
 
-    /// What ends the relaxation. That of over-relaxed values ends where published counts do.
+    /// Returns the measure that ends the relaxation. The default for SOR is the measure of published sweep counts.
     fn measure(&self) -> Measure {
         let is_sor = self.relaxation == Some(RelaxationName::Sor) && self.device().is_cpu();
         self.measure.unwrap_or(if is_sor { Measure::SumOfChange } else { Measure::GreatestRelativeChange })
     }
 
-    /// What the field is relaxed on.
+    /// Returns the device for the relaxation.
     fn device(&self) -> Device {
         self.on.map_or(Device::Cpu, Device::from)
     }
 
-    /// Why what it is relaxed on cannot be had, if it cannot, with the cure.
+    /// Returns the reason, with a hint, if the device is not available.
     pub fn missing(&self) -> Option<String> {
         self.device().adapter().err().map(|reason| format!("--on gpu: {reason}"))
     }
 
-    /// The options that were given, in the order of the help.
+    /// Returns the given options, in the order of the help.
     fn given(&self) -> Vec<&'static str> {
         let options = [
             ("--field", self.field.is_some()),
@@ -244,25 +248,27 @@ impl FieldArgs {
         let usual = if self.device().is_cpu() { OrderName::Corners } else { OrderName::RedBlack };
         let order = self.order.unwrap_or(usual);
         if !self.device().is_cpu() && order != OrderName::RedBlack {
-            return Err("--on gpu takes cells red-black: other orders are for --on cpu".into());
+            return Err("--on gpu needs --order red-black: other orders need --on cpu".into());
         }
         let order = order.into();
         let jacobi = matches!(name, RelaxationName::Jacobi | RelaxationName::WeightedJacobi);
         if jacobi && self.order.is_some() {
-            return Err("--order is for --relaxation gauss-seidel and sor: with Jacobi's all cells go at once".into());
+            return Err(
+                "--order needs --relaxation gauss-seidel or sor: Jacobi's relaxations update all cells at once".into(),
+            );
         }
-        // A GPU's sweeps know no guard.
+        // Sweeps on a GPU have no guard.
         let guarded = |relaxation: Relaxation| if self.device().is_cpu() { relaxation.guarded() } else { relaxation };
         match (name, self.factor) {
             (RelaxationName::Jacobi, None) => Ok(Relaxation::JACOBI),
-            (RelaxationName::Jacobi, Some(_)) => Err("--factor is for --relaxation weighted-jacobi and sor".into()),
+            (RelaxationName::Jacobi, Some(_)) => Err("--factor needs --relaxation weighted-jacobi or sor".into()),
             (RelaxationName::WeightedJacobi, Some(factor)) => Ok(Relaxation::weighted_jacobi(factor)),
             (RelaxationName::WeightedJacobi, None) => {
                 Err("--relaxation weighted-jacobi needs --factor, such as 0.8".into())
             }
             (RelaxationName::GaussSeidel, None) => Ok(Relaxation::gauss_seidel(order)),
             (RelaxationName::GaussSeidel, Some(_)) => {
-                Err("--factor is for --relaxation weighted-jacobi and sor: Gauss-Seidel is sor with 1".into())
+                Err("--factor needs --relaxation weighted-jacobi or sor: gauss-seidel is sor with the factor 1".into())
             }
             (RelaxationName::Sor, Some(factor)) => Ok(guarded(Relaxation::sor(Factor::Given(factor), order))),
             (RelaxationName::Sor, None) => Ok(guarded(Relaxation::sor(Factor::Formula, order))),
@@ -270,17 +276,17 @@ impl FieldArgs {
     }
 }
 
-/// The tolerance of a measure.
+/// Returns the default tolerance of a measure.
 fn usual_tolerance(measure: Measure) -> f64 {
     match measure {
         Measure::SumOfChange | Measure::DifferenceOfSums => SUM_TOLERANCE,
-        // Of changes of which each is as large as if their sum were just met on 1 cell.
+        // The squared tolerance of sums: both then agree on a grid of one cell.
         Measure::SumOfSquares => SUM_TOLERANCE * SUM_TOLERANCE,
         Measure::GreatestChange | Measure::GreatestRelativeChange => RELATIVE_TOLERANCE,
     }
 }
 
-/// The fields that an option is for, if not for all.
+/// Returns the fields that an option applies to; `None` if it applies to all.
 fn needed_field(option: &str) -> Option<&'static [FieldName]> {
     use FieldName::{Bvp, Bvp2, Harmonic, Khatib, Local, Oriented};
     match option {
@@ -294,21 +300,21 @@ fn needed_field(option: &str) -> Option<&'static [FieldName]> {
     }
 }
 
-/// `oriented, bvp or bvp2`.
+/// Lists names of fields, such as `oriented, bvp or bvp2`.
 fn names(fields: &[FieldName]) -> String {
     let values: Vec<_> = fields.iter().filter_map(ValueEnum::to_possible_value).collect();
     listed(&values.iter().map(PossibleValue::get_name).collect::<Vec<_>>(), " or ")
 }
 
-/// Numbers that commas separate.
+/// Parses numbers separated by commas; NaN for text that is not a number.
 fn numbers(text: &str) -> Vec<f64> {
     text.split(',').map(|part| part.trim().parse().unwrap_or(f64::NAN)).collect()
 }
 
-/// A direction in joint space.
+/// Parses a direction in joint space.
 ///
 /// # Errors
-/// Not two numbers, or both 0.
+/// If the text is not two numbers, or both are 0.
 pub fn direction(text: &str) -> Result<Direction, String> {
     let vector = match numbers(text)[..] {
         [a, b] => Direction::of([a, b]),
@@ -317,7 +323,7 @@ pub fn direction(text: &str) -> Result<Direction, String> {
     vector.ok_or_else(|| "must be two numbers that are not both 0, such as 0,-1".into())
 }
 
-/// A law's name and its constants, all positive.
+/// Splits a law into its name and its constants, which must be positive.
 fn law(text: &str) -> Option<(&str, Vec<f64>)> {
     let (name, constants) = text.split_once(':')?;
     let constants = numbers(constants);

@@ -1,4 +1,4 @@
-//! What planners and motions can be told, in words: one grammar for the command line, `compare --with` and the live page.
+//! Options of planners and motions: one grammar for the command line, `compare --with` and the live page.
 
 mod field;
 mod motion;

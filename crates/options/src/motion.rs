@@ -1,50 +1,52 @@
-//! How to drive along a path.
+//! Options for the motion along a path.
 
 use super::names::word;
 use super::number::{number_in, seconds};
 use clap::Args;
 use cplan_motion::{Drive, Objective};
 
-/// How to drive along a path.
+/// Options for the motion along a path.
 #[derive(Debug, Args)]
+#[command(next_help_heading = "Motion limits")]
 pub struct MotionArgs {
-    /// What is to be the least: the length of the path, or the time of the motion, for which the path is given another shape.
+    /// Quantity to minimise: the length of the path, or the time of the motion, which reshapes the path.
     #[arg(long, value_parser = word::<Objective>(), value_name = "WHAT", default_value = "length")]
     pub optimize: Objective,
     /// Time between two samples of the trajectory, seconds.
     #[arg(long, value_name = "SECONDS", default_value_t = 0.01, value_parser = seconds, allow_hyphen_values = true)]
     pub period: f64,
-    /// Greatest distance from a corner at which the motion may leave the path to round it, in joint space (radians and
-    /// metres as they come): "none" stops at every corner, "auto" lets the clearance and the path decide.
+    /// Greatest distance from a corner at which the motion may leave the path to round it, in joint space (a radian counts
+    /// like a metre). "none" stops at every corner; "auto" derives the distance from the clearance and the path.
     #[arg(long, value_name = "RADIUS", default_value = "auto", value_parser = radius, allow_hyphen_values = true)]
     pub blend: f64,
-    /// Greatest speed of the tip, metres a second; without it the joints alone have limits.
+    /// Greatest speed of the tip, metres per second [default: only the joints' speeds are limited].
     #[arg(long, value_name = "M_PER_S", value_parser = tip_speed, allow_hyphen_values = true)]
     pub tip_speed: Option<f64>,
-    /// Keep the joints' torques within the efforts that the URDF or the world gives, by the links' and objects' masses.
+    /// Keep the joints' torques within the effort limits of the URDF or the world. Torques follow from the masses of links
+    /// and objects.
     #[arg(long)]
     pub torque: bool,
-    /// Greatest jerk of each joint instead of the world's, such as 200,none: rad/s3 or m/s3, "none" for a joint without.
+    /// Greatest jerk of each joint instead of the world's, such as 200,none: rad/s3 or m/s3, or "none" for no limit.
     #[arg(long, value_name = "j1,j2", value_parser = jerk, allow_hyphen_values = true)]
     pub jerk: Option<Jerk>,
 }
 
-/// Greatest jerk of each joint that has one.
+/// Greatest jerk of each joint; `None` for a joint without a limit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Jerk(pub [Option<f64>; 2]);
 
-/// As [`Drive::blend`] has it.
+/// Parses the radius of blends, as in [`Drive::blend`].
 fn radius(text: &str) -> Result<f64, String> {
     match (text, text.parse::<f64>()) {
         ("none", _) => Ok(0.0),
         ("auto", _) => Ok(f64::INFINITY),
         (_, Ok(radius)) if radius.is_finite() && radius > 0.0 => Ok(radius),
-        _ => Err("must be none, auto, or a number of more than 0 (radians or metres of joint space)".into()),
+        _ => Err("must be none, auto, or a number greater than 0 (radians or metres of joint space)".into()),
     }
 }
 
 fn tip_speed(text: &str) -> Result<f64, String> {
-    number_in(text, |x| x.is_finite() && x > 0.0, "of more than 0 (metres a second)")
+    number_in(text, |x| x.is_finite() && x > 0.0, "greater than 0 (metres per second)")
 }
 
 fn jerk(text: &str) -> Result<Jerk, String> {
@@ -55,17 +57,17 @@ fn jerk(text: &str) -> Result<Jerk, String> {
     };
     match text.split(',').map(one).collect::<Vec<_>>()[..] {
         [Some(first), Some(second)] => Ok(Jerk([first, second])),
-        _ => Err("must be two numbers of more than 0 (rad/s3 or m/s3), or none, such as 200,none".into()),
+        _ => Err("must be two values, each a number greater than 0 (rad/s3 or m/s3) or none, such as 200,none".into()),
     }
 }
 
 impl MotionArgs {
-    /// Jerks in place of the joints' own, if any are given.
+    /// Returns the jerk limits that replace the world's, if given.
     pub fn jerk(&self) -> Option<[Option<f64>; 2]> {
         self.jerk.map(|Jerk(jerk)| jerk)
     }
 
-    /// The same for the trajectory.
+    /// Returns the options in the form of the motion layer.
     pub fn drive(&self) -> Drive {
         let Self { period, blend, tip_speed, torque, .. } = *self;
         Drive { optimize: self.optimize, period, blend, tip_speed, torque }

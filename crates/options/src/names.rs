@@ -1,4 +1,4 @@
-//! The words for planners, paths, searches and other choices, so that help and shells can list them.
+//! Names of planners, paths, searches and other choices, so that help and shells can list them.
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use cplan_core::planner::{GridSearch, PathKind, VisibilityGraph};
@@ -87,10 +87,10 @@ impl Named for PathKind {
 
     fn help(self) -> &'static str {
         match self {
-            PathKind::Own => "As the planner's method has it",
-            PathKind::Taut => "Pulled taut: shorter, nearer to obstacles",
+            PathKind::Own => "The path of the planner's method",
+            PathKind::Taut => "The same path pulled taut: shorter, nearer to obstacles",
             PathKind::Middles => {
-                "Of trapezoid: through the middles of doors alone, and a cell's centre only between doors on one vertical"
+                "For trapezoid: through the portals' middles alone; through a cell's centre only between portals on one vertical"
             }
         }
     }
@@ -105,9 +105,9 @@ impl Named for VisibilityGraph {
 
     fn help(self) -> &'static str {
         match self {
-            VisibilityGraph::Reduced => "Arcs that a shortest path can take: tangent to the obstacle at either end",
+            VisibilityGraph::Reduced => "Only arcs that a shortest path can use: tangent to the obstacle at either end",
             VisibilityGraph::Full => {
-                "By definition: an arc between any two corners that see each other, and every side"
+                "The textbook definition: an arc between any two corners that see each other, and every side"
             }
         }
     }
@@ -122,16 +122,14 @@ impl Named for GridSearch {
 
     fn help(self) -> &'static str {
         match self {
-            GridSearch::Wave => "Of grids: labels all cells from the goal: fewest moves",
-            GridSearch::BreadthFirst => "Breadth first, until the other end is met: fewest moves or edges",
-            GridSearch::DepthFirst => "Depth first, until the other end is met: some path",
-            GridSearch::Dijkstra => {
-                "Least cost first: lengths, or on grids moves, where a diagonal one counts for 1.414"
-            }
-            GridSearch::AStar => "The same cost, led by the distance to the other end",
-            GridSearch::Greedy => "Nearest to the other end first: some path, found soon",
+            GridSearch::Wave => "For grids: labels all cells, beginning at the goal; fewest moves",
+            GridSearch::BreadthFirst => "Breadth first, until the other end is met; fewest moves or edges",
+            GridSearch::DepthFirst => "Depth first, until the other end is met; any path",
+            GridSearch::Dijkstra => "Least cost first: length, or on grids moves, where a diagonal move costs 1.414",
+            GridSearch::AStar => "The same cost, guided by the distance to the other end",
+            GridSearch::Greedy => "Nearest to the other end first; any path, found quickly",
             GridSearch::IterativeDeepening => {
-                "Of grids: depth first within a limit of moves, which grows by one each round: fewest moves"
+                "For grids: depth first within a limit of moves, which grows by one each round; fewest moves"
             }
         }
     }
@@ -146,14 +144,14 @@ impl Named for GridSpace {
 
     fn help(self) -> &'static str {
         match self {
-            GridSpace::Rows => "By exact slices: cells that are wholly free first, then cells whose centres are",
-            GridSpace::Centers => "By exact slices: cells whose centres are free, in every attempt",
+            GridSpace::Rows => "By exact slices: first only wholly free cells, then also cells with a free centre",
+            GridSpace::Centers => "By exact slices: cells with a free centre, in every attempt",
             GridSpace::Sampled => "By parry2d's collision checks at the cells' centres",
         }
     }
 }
 
-/// Names of the variants of types that have no others, second names after a bar, and help that may be empty.
+/// Implements [`Named`] for a type: for each variant its name, an alias after a bar, and its help, which may be empty.
 macro_rules! named {
     (@alias) => {
         None
@@ -186,23 +184,25 @@ macro_rules! named {
     };
 }
 
-named!(Difference: Central "central" "Monotone for an epsilon of less than 2 only", Upwind "upwind" "Monotone for every epsilon");
+named!(Difference: Central "central" "Central differences: monotone only for an epsilon below 2",
+    Upwind "upwind" "Upwind differences: monotone for every epsilon");
 
-named!(Device: Cpu "cpu" "In double precision",
-    Gpu "gpu" "In single precision, cells red-black or all at once; needs a program with the feature gpu");
+named!(Device: Cpu "cpu" "Double precision",
+    Gpu "gpu" "Single precision, cells red-black or all at once; needs a program built with the feature gpu");
 
-named!(Stencil: Square "square" "All four neighbours weigh the same",
-    Anisotropic "anisotropic" "Those along joint 2 weigh beta^2 as much, beta the width of a cell along joint 1 over that along joint 2");
+named!(Stencil: Square "square" "All four neighbours have the same weight",
+    Anisotropic "anisotropic" "Neighbours along joint 2 have the weight beta^2, where beta is a cell's width along joint 1 over that along joint 2");
 
-named!(Limits: High "high" "Obstacles", Reflecting "reflecting" "Mirrors: they neither attract nor repel");
+named!(Limits: High "high" "Limits repel, like obstacles",
+    Reflecting "reflecting" "Limits neither attract nor repel");
 
-named!(Measure: GreatestRelativeChange "relative" "Greatest change as a part of the value", GreatestChange "greatest" "Greatest change",
-    SumOfChange "absolute" | "sum" "Sum of changes, also called sum", SumOfSquares "squares" "Sum of squared changes",
-    DifferenceOfSums "sums" "Difference between the sum of changes and that of the sweep before");
+named!(Measure: GreatestRelativeChange "relative" "Greatest change relative to the cell's value", GreatestChange "greatest" "Greatest change",
+    SumOfChange "absolute" | "sum" "Sum of changes; alias: sum", SumOfSquares "squares" "Sum of squared changes",
+    DifferenceOfSums "sums" "Difference between the sums of changes of this and the previous sweep");
 
-named!(Ties: Farthest "farthest" "The cell that has come farther, and of equals the last one: goes straight ahead",
-    First "first" "The cell that came first: all equally promising cells in rounds, one step at a time");
+named!(Ties: Farthest "farthest" "The cell farthest from the beginning of the search, of equals the latest: the search goes straight ahead",
+    First "first" "The earliest cell: the search advances along all equally good routes together");
 
-named!(NamedJoints: All "all" "Every movable joint of the robot", Planned "planned" "The two that are planned for");
+named!(NamedJoints: All "all" "Every movable joint of the robot", Planned "planned" "The two joints of the plan");
 
 named!(Objective: Length "length" "The length of the path", Time "time" "The time of the motion");

@@ -1,11 +1,11 @@
-//! Numbers of options.
+//! Parsers of numbers.
 
 use cplan_motion::SHORTEST_INTERVAL;
 
-/// A number that is allowed.
+/// Parses an allowed number.
 ///
 /// # Errors
-/// Any other text; `range` says what is allowed.
+/// Any other text. `range` describes the allowed numbers in the message.
 pub fn number_in(text: &str, allowed: impl Fn(f64) -> bool, range: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(value) if allowed(value) => Ok(value),
@@ -13,26 +13,26 @@ pub fn number_in(text: &str, allowed: impl Fn(f64) -> bool, range: &str) -> Resu
     }
 }
 
-/// Any number.
+/// Parses a finite number.
 ///
 /// # Errors
-/// Infinities, and what is no number.
+/// Infinities, and text that is not a number.
 pub fn finite(text: &str) -> Result<f64, String> {
     number_in(text, f64::is_finite, "that is finite")
 }
 
-/// A number of more than 0.
+/// Parses a number greater than 0.
 ///
 /// # Errors
-/// Any other.
+/// Any other text.
 pub fn positive(text: &str) -> Result<f64, String> {
-    number_in(text, |x| x.is_finite() && x > 0.0, "of more than 0")
+    number_in(text, |x| x.is_finite() && x > 0.0, "greater than 0")
 }
 
-/// Seconds between two samples.
+/// Parses the time between two samples, seconds.
 ///
 /// # Errors
-/// Less than controllers can tell apart.
+/// A time that is too short for controllers.
 pub fn seconds(text: &str) -> Result<f64, String> {
     let range = format!("of seconds, finite and at least {SHORTEST_INTERVAL}");
     number_in(text, |x| x.is_finite() && x >= SHORTEST_INTERVAL, &range)

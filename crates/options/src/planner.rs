@@ -15,32 +15,33 @@ use cplan_solver::{CellCounts, Criterion, GridSpace, LEVELS, MOST_MARGIN, Method
 use std::ops::RangeInclusive;
 use std::sync::LazyLock;
 
-/// How hard to try, for any planner.
+/// Options for the resolution of any planner.
 #[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "Resolution")]
 pub struct EffortArgs {
-    /// First number of grid cells along each axis, from 8 to 2048, or two such as 128x512, for the joints in turn. Up to 32 are kept as
-    /// they are unless --levels says more; more are doubled up to 2048 where needed [default: 256; of fields as many, but square in joint space, where a radian is as long as a metre].
+    /// Initial number of grid cells along each axis, from 8 to 2048, or one number per joint, such as 128x512. More than
+    /// 32 cells are doubled where needed, up to 2048; 32 or fewer only if --levels asks for it [default: 256; for planner
+    /// harmonic 65536 in total, square in joint space, where a radian counts like a metre].
     #[arg(long, value_name = "N|AxB", allow_hyphen_values = true)]
     pub cells: Option<CellCounts>,
-    /// First margin of the polygons, as a share of the arm's reach; quartered where needed. 0 is for gantries: files and pictures then
-    /// have the C-obstacles B - A exactly, and the planner has the first attempt among them. Its path counts if it touches none; else
-    /// the certified path is sought among polygons grown by a little, since touching is contact [default: 0.001].
+    /// Initial margin by which C-obstacles are grown, as a share of the arm's reach; quartered where needed. 0 is for
+    /// gantries: files and pictures then have the exact Minkowski differences, and the first attempt plans among them. If
+    /// its path touches one, the planner tries again with a small margin, because touching is contact [default: 0.001].
     #[arg(long, value_name = "SHARE", value_parser = margin, allow_hyphen_values = true)]
     pub margin: Option<f64>,
-    /// Attempts, each finer than the one before [default: 6].
+    /// Maximum number of attempts, each finer than the one before [default: 6].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(whole(&LEVELS)))]
     pub levels: Option<u8>,
 }
 
 impl EffortArgs {
-    /// A planner with what of these options is its.
+    /// Returns the planner with those of these options that it reads.
     pub fn put_into(&self, planner: Planner) -> Planner {
         let planner = self.margin.map_or(planner, |share| planner.with_margin(share));
         self.cells.map_or(planner, |counts| planner.with_cell_counts(counts))
     }
 
-    /// Attempts of a planner: few coarse cells that were asked for are not doubled.
+    /// Returns the number of attempts of a planner. Requested coarse cells are not doubled.
     pub fn levels(&self, planner: &Planner) -> usize {
         let is_coarse = |CellCounts(counts): CellCounts| counts.iter().all(|&n| n <= KEPT_CELLS);
         let usual = match planner.space().filter(|_| self.cells.is_some_and(is_coarse)) {
@@ -50,7 +51,23 @@ impl EffortArgs {
         self.levels.map_or(usual, usize::from)
     }
 
-    /// These options, and where they say nothing those of `base`.
+    /// Returns a warning for each given option that the planner does not read.
+    fn ignored(&self, planner: Method) -> Vec<String> {
+        let refined = [Setting::Margin, Setting::Cells];
+        let options: [(&str, bool, &[Setting]); 3] = [
+            ("--cells", self.cells.is_some(), &[Setting::Cells]),
+            ("--margin", self.margin.is_some(), &[Setting::Margin]),
+            ("--levels", self.levels.is_some(), &refined),
+        ];
+        let is_ignored = |settings: &[Setting]| !settings.iter().any(|&setting| planner.reads(setting));
+        let ignored = options.into_iter().filter(|(_, is_given, settings)| *is_given && is_ignored(settings));
+        let warning = |(option, _, settings): (&str, bool, &[Setting])| {
+            format!("{option} has no effect: planner {planner} does not read it, only {}", readers(settings, " and "))
+        };
+        ignored.map(warning).collect()
+    }
+
+    /// Returns these options; options that are not given come from `base`.
     pub fn over(&self, base: &Self) -> Self {
         Self {
             cells: self.cells.or(base.cells),
@@ -60,35 +77,35 @@ impl EffortArgs {
     }
 }
 
-/// Cells along an axis up to which as many are used as are asked for: those of pictures in which each has its number.
+/// Largest number of cells along an axis that is not doubled. Pictures show a number in each of so few cells.
 const KEPT_CELLS: usize = 32;
 
-/// What makes a path short.
+/// Measures of length.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum MetricName {
-    /// Square root of the sum of squares, radians and metres as they come.
+    /// Square root of the sum of squares; a radian counts like a metre.
     Euclidean,
     /// The same with the joints' values multiplied by --weights.
     Weighted,
-    /// Seconds at the joints' top speeds.
+    /// Time that the joints need at top speed, seconds.
     Time,
 }
 
 static OPTIMUM_HEADING: LazyLock<String> =
     LazyLock::new(|| format!("Shortest paths (planners {})", readers(&[Setting::Gap], " and ")));
 
-/// What to optimise, and how well.
+/// Options for the optimum: the measure and the gap.
 #[derive(Debug, Clone, Args)]
 #[command(next_help_heading = OPTIMUM_HEADING.as_str())]
 pub struct OptimumArgs {
-    /// What makes a path short.
+    /// Measure of length.
     #[arg(long, value_enum, value_name = "NAME", default_value_t = MetricName::Euclidean)]
     pub metric: MetricName,
     /// Weights of the joints, such as 1,0.5, for --metric weighted.
     #[arg(long, value_name = "w1,w2", value_parser = weights, required_if_eq("metric", "weighted"), allow_hyphen_values = true)]
     pub weights: Option<Weights>,
-    /// Refine until the path is proven to be longer than the optimum by no more than this share of it, such as 0.001; a larger
-    /// one leaves room in which motions are faster [default of shortest: 0.0001].
+    /// Refine until the path is proven to exceed the optimum by at most this share, such as 0.001. A larger gap permits
+    /// faster motions [default of shortest: 0.0001].
     #[arg(long, value_name = "SHARE", value_parser = gap, allow_hyphen_values = true)]
     pub gap: Option<f64>,
 }
@@ -97,28 +114,28 @@ pub struct OptimumArgs {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Weights(pub [f64; 2]);
 
-/// Which path, and how a grid is searched.
+/// Options for the kind of path and the search of a grid.
 #[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "Paths and grids")]
 pub struct PathArgs {
-    /// Which path.
+    /// Kind of path.
     #[arg(long, value_parser = word::<PathKind>(), value_name = "KIND", help = path_help())]
     pub path: Option<PathKind>,
-    /// How the grid or the roadmap is searched.
+    /// Search of the grid or the roadmap.
     #[arg(long, value_parser = word::<GridSearch>(), value_name = "NAME", help = search_help())]
     pub search: Option<GridSearch>,
-    /// Cells that a move can lead to: 4 share a side, 8 a corner too, though no move cuts the corner of a blocked cell
-    /// (planner wavefront). wave and bfs count moves; dijkstra and astar take a diagonal one for 1.414. [default: 4]
+    /// Neighbours of a cell (planner wavefront): 4 share a side with it, 8 a side or a corner. No move cuts the corner of
+    /// a blocked cell. wave and bfs count moves; for dijkstra and astar a diagonal move costs 1.414 [default: 4].
     #[arg(long, value_name = "N", value_parser = neighbors())]
     pub neighbors: Option<Neighborhood>,
-    /// Which of equally promising cells A* expands (planner wavefront). [default: farthest]
+    /// Cell that A* expands next if several are equally promising (planner wavefront) [default: farthest].
     #[arg(long, value_parser = word::<Ties>(), value_name = "NAME")]
     pub ties: Option<Ties>,
-    /// Search from the start to the goals, which planners with a roadmap do anyway; the wave cannot. Labels are then steps from
-    /// the start.
+    /// Search from the start to the goals. Planners with a roadmap do so by default; the search `wave` cannot. Labels of
+    /// cells then count steps from the start.
     #[arg(long, conflicts_with = "backward")]
     pub forward: bool,
-    /// How the grid's cells are decided.
+    /// Test of the grid's cells.
     #[arg(long, value_parser = word::<GridSpace>(), value_name = "NAME", help = space_help())]
     pub space: Option<GridSpace>,
 }
@@ -128,26 +145,26 @@ fn path_help() -> String {
     let mut own: Vec<&str> = Method::ALL.into_iter().filter(follows).map(Method::name).collect();
     own.sort_unstable();
     format!(
-        "Which path: the planner's own (the curve along a field's gradient, the wavefront's staircase, the middles of a \
-         decomposition's doors and cells, the arcs of the Voronoi diagram), that one pulled taut within the planner's cells, or \
-         middles [default: own for {}, taut for the others]",
+        "Kind of path: the planner's own (the curve along a field's gradient, the wavefront's staircase, the middles of \
+         a decomposition's portals and cells, the arcs of the Voronoi diagram), that path pulled taut within the \
+         planner's cells, or the portals' middles alone [default: own for {}, taut for the others]",
         listed(&own, " and ")
     )
 }
 
 fn search_help() -> String {
     format!(
-        "How the grid is searched, from the goal unless it is --forward (planner wavefront), or the roadmap, from the start unless \
-         it is --backward (planners {}), of which voronoi keeps the widest ways only. [default: wave of wavefront, astar of the \
-         others]",
+        "Search of the grid (planner wavefront; from the goal, or with --forward from the start) or of the roadmap \
+         (planners {}; from the start, or with --backward from the goals). voronoi searches only its widest routes \
+         [default: wave for wavefront, astar for the others]",
         readers(&[Setting::Search], ", ")
     )
 }
 
 fn space_help() -> String {
     format!(
-        "How the grid's cells are decided (planners {}): by exact slices, or by sampled collision checks, which prove nothing. \
-         Paths are certified either way. [default: rows]",
+        "Test of the grid's cells (planners {}): by exact slices, or by sampled collision checks, which prove nothing. \
+         Paths are certified in either case [default: rows]",
         readers(&[Setting::Space], ", ")
     )
 }
@@ -155,56 +172,56 @@ fn space_help() -> String {
 /// All options of planners.
 #[derive(Debug, Clone, Args)]
 pub struct PlannerArgs {
-    /// How hard to try.
+    /// Resolution and number of attempts.
     #[command(flatten)]
     pub effort: EffortArgs,
-    /// What to optimise.
+    /// Measure of length, and gap.
     #[command(flatten)]
     pub optimum: OptimumArgs,
-    /// Which path, and how a grid is searched.
+    /// Kind of path, and search of a grid.
     #[command(flatten)]
     pub path: PathArgs,
-    /// How a roadmap is made and searched.
+    /// Construction and search of a roadmap.
     #[command(flatten)]
     pub roadmap: RoadmapArgs,
-    /// Which field, and how it is relaxed.
+    /// Field, and its relaxation.
     #[command(flatten)]
     pub field: FieldArgs,
 }
 
-/// `PLANNER OPTIONS`, as `compare --with` has it.
+/// A planner with its options, as in `compare --with "PLANNER OPTIONS"`.
 #[derive(Debug, Clone, Parser)]
 #[command(no_binary_name = true, disable_help_flag = true)]
 pub struct PlannerWords {
-    /// Which planner.
+    /// Name of the planner.
     #[arg(value_parser = word::<Method>())]
     pub planner: Method,
-    /// Its options.
+    /// Options of the planner.
     #[command(flatten)]
     pub options: PlannerArgs,
 }
 
 impl PlannerArgs {
-    /// Attempts of a planner.
+    /// Returns the number of attempts of a planner.
     pub fn levels(&self, planner: &Planner) -> usize {
         self.effort.levels(planner)
     }
 
-    /// The planner of that name with these options.
+    /// Returns the planner with these options.
     ///
     /// # Errors
-    /// Options that it does not have or that contradict each other, in words.
+    /// The reason, if the planner lacks an option or options contradict each other.
     pub fn planner(&self, method: Method) -> Result<Planner, String> {
         let field = self.field.planner(method)?;
         self.optimum.check(method)?;
         self.path.check(method)?;
         if self.effort.margin == Some(0.0) {
-            require("--margin 0", &[Setting::Margin], method, "plans among no polygons")?;
+            require("--margin 0", &[Setting::Margin], method, "does not grow C-obstacles")?;
         }
         let search = self.roadmap.search(method, self.path.search)?;
         if self.optimum.gap.is_some() && !search.order.is_optimal() {
             return Err(format!(
-                "--gap needs a search for the shortest path: --search {} takes any",
+                "--gap needs a search for the shortest path, but --search {} finds any path; leave out one of the two",
                 search.order.name()
             ));
         }
@@ -227,7 +244,13 @@ impl PlannerArgs {
         self.path.path.map_or(planner, |kind| planner.with_path(kind))
     }
 
-    /// Why what the field is relaxed on cannot be had, if it cannot, with the cure.
+    /// Returns a warning for each given option that the planner ignores. Options that contradict it are errors of
+    /// [`PlannerArgs::planner`].
+    pub fn ignored(&self, planner: Method) -> Vec<String> {
+        self.effort.ignored(planner)
+    }
+
+    /// Returns the reason, with a hint, if the device for the field's relaxation is not available.
     pub fn missing(&self) -> Option<String> {
         self.field.missing()
     }
@@ -242,10 +265,10 @@ impl OptimumArgs {
         }
     }
 
-    /// Refuses what the planner cannot do.
+    /// Refuses options that the planner does not have.
     fn check(&self, planner: Method) -> Result<(), String> {
         if self.weights.is_some() && self.metric != MetricName::Weighted {
-            return Err("--weights are for --metric weighted".into());
+            return Err("--weights needs --metric weighted".into());
         }
         let asked = if self.gap.is_some() { "--gap" } else { "--metric" };
         let optimises = self.gap.is_some() || self.metric != MetricName::Euclidean;
@@ -257,21 +280,19 @@ impl OptimumArgs {
 }
 
 impl PathArgs {
-    /// Refuses what the planner cannot do.
+    /// Refuses options that the planner does not have.
     fn check(&self, planner: Method) -> Result<(), String> {
         if self.search.is_some() {
-            let why = "searches neither a grid from cell to cell nor a roadmap";
+            let why = "searches neither a grid nor a roadmap";
             require("--search", &[Setting::GridSearch, Setting::Search], planner, why)?;
         }
         if self.neighbors.is_some() {
-            let why = "searches no grid from cell to cell";
+            let why = "does not search a grid";
             require("--neighbors", &[Setting::Neighborhood], planner, why)?;
         }
         if self.ties.is_some() && (!planner.reads(Setting::Ties) || self.search != Some(GridSearch::AStar)) {
             let planners = readers(&[Setting::Ties], " or ");
-            return Err(format!(
-                "--ties needs --planner {planners} --search astar: only there are cells equally promising"
-            ));
+            return Err(format!("--ties needs --planner {planners} --search astar: other searches do not rank cells"));
         }
         if self.forward {
             self.check_forward(planner)?;
@@ -280,30 +301,28 @@ impl PathArgs {
             require("--space", &[Setting::Space], planner, "has no grid")?;
         }
         if self.path == Some(PathKind::Middles) && !planner.descriptor().paths.contains(&PathKind::Middles) {
-            return Err(format!("--path middles needs --planner trapezoid: {planner} has no doors on verticals"));
+            return Err(format!("--path middles needs --planner trapezoid: {planner} has no vertical portals"));
         }
         if self.path == Some(PathKind::Own) && !planner.has_own_path() {
-            return Err(format!("--path own is not for {planner}: its path is taut as it is"));
+            return Err(format!("--path own does not apply to planner {planner}: its only path is the taut one"));
         }
         Ok(())
     }
 
-    /// Refuses --forward where nothing is searched, or where the search has to begin at the goal.
+    /// Refuses --forward if the planner does not search, or if its search must begin at the goal.
     fn check_forward(&self, planner: Method) -> Result<(), String> {
         if planner.reads(Setting::Search) {
             return Ok(());
         }
         if !planner.reads(Setting::Forward) {
-            return Err(format!(
-                "--forward needs a planner that searches: {planner} has neither a grid's cells nor a roadmap"
-            ));
+            return Err(format!("--forward needs a planner that searches a grid or a roadmap: {planner} has neither"));
         }
         match self.search.unwrap_or_default() {
-            GridSearch::Wave => {
-                Err("--forward needs --search bfs, dfs, dijkstra, astar, greedy or deepening: the wave begins \
-                                     at the goal, so that its labels are steps to it"
-                    .into())
-            }
+            GridSearch::Wave => Err(
+                "--forward needs --search bfs, dfs, dijkstra, astar, greedy or deepening: the search `wave` labels \
+                     cells with their steps to the goal and begins there"
+                    .into(),
+            ),
             _ => Ok(()),
         }
     }
@@ -323,7 +342,7 @@ fn weights(text: &str) -> Result<Weights, String> {
 }
 
 fn gap(text: &str) -> Result<f64, String> {
-    number_in(text, |x| x.is_finite() && x > 0.0, "of more than 0, such as 0.001")
+    number_in(text, |x| x.is_finite() && x > 0.0, "greater than 0, such as 0.001")
 }
 
 fn margin(text: &str) -> Result<f64, String> {
@@ -331,7 +350,7 @@ fn margin(text: &str) -> Result<f64, String> {
     number_in(text, |x| (0.0..=MOST_MARGIN).contains(&x), &range)
 }
 
-/// A range for the parser of whole numbers.
+/// Returns a range for the parser of whole numbers.
 pub(super) fn whole(range: &RangeInclusive<usize>) -> RangeInclusive<i64> {
     *range.start() as i64..=*range.end() as i64
 }

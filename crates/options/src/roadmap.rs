@@ -1,4 +1,4 @@
-//! Words for roadmaps.
+//! Options for roadmaps.
 
 use super::names::word;
 use super::planner::whole;
@@ -11,32 +11,32 @@ use std::sync::LazyLock;
 static HEADING: LazyLock<String> =
     LazyLock::new(|| format!("Roadmaps (planners {})", readers(&[Setting::Search], ", ")));
 
-/// How roadmaps are made and searched; `--search` stands with the paths.
+/// Options for the construction and the search of roadmaps, except `--search`, which grids have, too.
 #[derive(Debug, Clone, Args)]
 #[command(next_help_heading = HEADING.as_str())]
 pub struct RoadmapArgs {
-    /// Search from the goals to the start, which planner wavefront does anyway.
+    /// Search from the goals to the start. Planner wavefront does so by default.
     #[arg(long)]
     pub backward: bool,
-    /// Which visibility graph (planner visibility) [default: reduced].
+    /// Kind of visibility graph (planner visibility) [default: reduced].
     #[arg(long, value_parser = word::<VisibilityGraph>(), value_name = "KIND")]
     pub graph: Option<VisibilityGraph>,
-    /// Random free configurations (planner prm), twice as many with each attempt [default: 500].
+    /// Number of random free configurations (planner prm); doubled with each attempt [default: 500].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(whole(&SAMPLES)))]
     pub samples: Option<u32>,
-    /// To how many of the nearest samples each is joined, if it sees them (planner prm) [default: 12].
+    /// Number of nearest samples to which each sample is joined if the segment is free (planner prm) [default: 12].
     #[arg(long, value_name = "K", value_parser = clap::value_parser!(u32).range(whole(&NEAREST)))]
     pub nearest: Option<u32>,
-    /// What samples follow from (planner prm): the same seed gives the same roadmap [default: 1].
+    /// Seed of the samples (planner prm): the same seed gives the same roadmap [default: 1].
     #[arg(long, value_name = "N")]
     pub seed: Option<u64>,
 }
 
 impl RoadmapArgs {
-    /// How a planner searches its roadmap; as usual, if it has none.
+    /// Returns the search of a planner's roadmap; the default search if it has no roadmap.
     ///
     /// # Errors
-    /// What the planner does not have, in words.
+    /// The reason, if the planner lacks an option.
     pub fn search(&self, planner: Method, search: Option<GridSearch>) -> Result<RoadmapSearch, String> {
         let given = [
             ("--samples", self.samples.is_some()),
@@ -57,10 +57,10 @@ impl RoadmapArgs {
         }
         let order = match search.unwrap_or(GridSearch::AStar) {
             GridSearch::Wave => {
-                return Err(format!("--search wave labels the cells of a grid: {planner} has a roadmap"));
+                return Err(format!("--search wave needs a planner with a grid: {planner} has a roadmap"));
             }
             GridSearch::IterativeDeepening => {
-                return Err(format!("--search deepening goes over the cells of a grid: {planner} has a roadmap"));
+                return Err(format!("--search deepening needs a planner with a grid: {planner} has a roadmap"));
             }
             GridSearch::BreadthFirst => SearchOrder::BreadthFirst,
             GridSearch::DepthFirst => SearchOrder::DepthFirst,
@@ -71,7 +71,7 @@ impl RoadmapArgs {
         Ok(RoadmapSearch { order, backward: self.backward })
     }
 
-    /// The planner with what of these options is its.
+    /// Returns the planner with those of these options that it reads.
     pub fn put_into(&self, planner: Planner) -> Planner {
         planner.with(Setting::Graph, |settings| settings.graph = self.graph.unwrap_or_default()).with(
             Setting::Samples,

@@ -5,8 +5,7 @@ use cplan_core::check::Cell;
 use cplan_core::check::StuckBox;
 use cplan_core::check::{Deviation, Posture};
 use cplan_core::model::{Contacts, on_axis};
-use cplan_geometry::merge_in_place;
-use nalgebra::Vector2;
+use cplan_geometry::{Vector, merge_in_place};
 
 /// Places in a band where a wall is searched, as shares of each pair's interval. Shapes usually overlap most in the middle.
 const PLACES: [f64; 5] = [0.5, 0.25, 0.75, 0.1, 0.9];
@@ -69,7 +68,7 @@ fn wall(contacts: &Contacts, clearance: f64, index: usize, [from, to]: [f64; 2])
     let (bottom, top) = scene.arm().joints[1].range.domain();
     PLACES.iter().find_map(|share| {
         let middle = from + (to - from) * share;
-        let posture = Posture::new(scene, Vector2::new(middle, (bottom + top) / 2.0));
+        let posture = Posture::new(scene, Vector::new(middle, (bottom + top) / 2.0));
         let depth = clearance - posture.greatest(pair, Deviation::Box([0.0, 0.0]));
         // Half of the width that the depth allows. The rest is a margin for rounding in the checker.
         let half = (depth / lever / 2.0).min(middle - from).min(to - middle);

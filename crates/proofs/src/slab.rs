@@ -256,7 +256,7 @@ mod tests {
             links: [link(vec![]), link(vec![part])],
             base: Point::new(0.1, -0.2),
             offset,
-            tip: Point::origin(),
+            tip: Point::zeros(),
             tip_name: "tip".into(),
             plane: Plane { u: Vector3::x(), v: Vector3::y(), normal: Vector3::z() },
             dynamics: None,

@@ -144,7 +144,7 @@ pub(super) fn along(mesh: &Mesh, own: Vec<Point>, kind: PathKind) -> Proposal {
         PathKind::Own | PathKind::Middles => own,
         PathKind::Taut => tightened(mesh, &own).unwrap_or(own),
     };
-    Proposal::Found(Path::new(waypoints.into_iter().map(|p| p.coords).collect()))
+    Proposal::Found(Path::new(waypoints))
 }
 
 /// Pulls a path taut through the triangles that it crosses. Returns `None` if it passes through a vertex or along a
@@ -167,5 +167,5 @@ fn tightened(mesh: &Mesh, path: &[Point]) -> Option<Vec<Point>> {
         Some(portals)
     };
     let portals = mesh.triangles_at(path[0]).find_map(crossed)?;
-    Some(taut(mesh, path[0], &Segment::point(path[path.len() - 1].coords), &portals))
+    Some(taut(mesh, path[0], &Segment::point(path[path.len() - 1]), &portals))
 }

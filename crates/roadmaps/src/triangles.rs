@@ -66,7 +66,7 @@ impl Planner for Triangles {
                             PathKind::Own | PathKind::Middles => own,
                             PathKind::Taut => taut(&map.mesh, terminals.start, &goals, &portals),
                         };
-                        let path = Path::new(waypoints.into_iter().map(|p| p.coords).collect());
+                        let path = Path::new(waypoints);
                         (
                             Proposal::Found(path),
                             channel.into_iter().map(|triangle| triangle as usize).collect(),
@@ -117,14 +117,14 @@ struct Way {
 impl TrianglesMap {
     fn new(mesh: Mesh) -> Self {
         let triangles = 0..mesh.triangles() as u32;
-        let corners_of = |triangle: u32| (0..3).map(|k| mesh.ends(3 * triangle + k)[0].coords).collect();
+        let corners_of = |triangle: u32| (0..3).map(|k| mesh.ends(3 * triangle + k)[0]).collect();
         let corners = triangles.clone().map(corners_of).collect();
         let mut roadmap = Roadmap::new(Measure::from(Metric::Euclidean));
         let (mut sides, mut middles) = (Vec::new(), vec![NONE; 3 * mesh.triangles()]);
         for side in 0..3 * mesh.triangles() as u32 {
             if let Some(twin) = mesh.twin(side).filter(|&twin| side < twin) {
                 let [right, left] = mesh.ends(side);
-                let node = roadmap.add(nalgebra::center(&right, &left)).index() as u32;
+                let node = roadmap.add((right + left) * 0.5).index() as u32;
                 (middles[side as usize], middles[twin as usize]) = (node, node);
                 sides.push(side);
             }
@@ -154,7 +154,7 @@ impl TrianglesMap {
         let mut goals: Vec<(NodeIndex, u32, Segment)> = Vec::new();
         for &(triangle, part) in &terminals.parts {
             let mut join = |from: NodeIndex| {
-                let goal = asked.goal(Point::from(part.nearest(euclid, asked.at(from).coords)));
+                let goal = asked.goal(part.nearest(euclid, asked.at(from)));
                 asked.join(from, goal);
                 goals.push((goal, triangle, part));
             };
@@ -189,7 +189,7 @@ impl TrianglesMap {
             let end = nodes[nodes.len() - 1];
             let part = goals.iter().find(|goal| goal.0 == end && Some(&goal.1) == channel.last()).map(|goal| goal.2);
             let own: Vec<Point> = nodes.iter().map(|&node| asked.at(node)).collect();
-            let goals = part.unwrap_or_else(|| Segment::point(own[own.len() - 1].coords));
+            let goals = part.unwrap_or_else(|| Segment::point(own[own.len() - 1]));
             Way { own, channel, portals, goals }
         });
         (way, expanded)

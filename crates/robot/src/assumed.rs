@@ -40,13 +40,13 @@ impl AssumedLimits {
 
 /// Returns the words for a missing top speed.
 fn assumed_speed_note(whose: &str, value: f64, unit: &str) -> String {
-    format!("{whose}: no top speed given; assumed {} {unit}/s, for the timing alone", short(value))
+    format!("{whose}: no top speed given; {} {unit}/s assumed, only for timing", short(value))
 }
 
 /// Returns the words for a missing acceleration limit.
 pub fn assumed_acceleration_note(whose: &str, value: f64, unit: &str) -> String {
     let value = short(value);
     format!(
-        "{whose}: no acceleration limit given; assumed {value} {unit}/s2, top speed in {TIME_TO_TOP_SPEED} s, for the timing alone"
+        "{whose}: no acceleration limit given; {value} {unit}/s2 assumed (top speed in {TIME_TO_TOP_SPEED} s), only for timing"
     )
 }

@@ -72,7 +72,7 @@ impl fmt::Display for Diagnostic {
             write!(f, "\n{excerpt}")?;
         }
         if let Some(help) = &self.help {
-            write!(f, "\n  cure: {}", plain(help))?;
+            write!(f, "\n  hint: {}", plain(help))?;
         }
         Ok(())
     }

@@ -60,5 +60,5 @@ fn diagnostic(error: cplan_xacro::Error) -> Diagnostic {
             Source::in_memory(file.path, &*file.text).diagnostic_at(place.range, error.message)
         }
     };
-    diagnostic.help(error.hint.unwrap_or_else(|| "correct it, or have ROS's own xacro expand the file".into()))
+    diagnostic.help(error.hint.unwrap_or_else(|| "correct it, or expand the file with ROS's own xacro".into()))
 }

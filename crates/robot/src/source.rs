@@ -107,9 +107,8 @@ const MILE: usize = 4096;
 /// # Errors
 /// I/O errors, and a file larger than 256 MiB.
 pub fn read_bytes(path: &Path) -> Result<Vec<u8>, InputError> {
-    read_bounded(path).map_err(|error| {
-        unreadable(path, &error, "it is larger than what it should be: look whether it is the right file").into()
-    })
+    read_bounded(path)
+        .map_err(|error| unreadable(path, &error, "it is too large: check that it is the right file").into())
 }
 
 /// Reads a recording, which may be larger than other files.
@@ -223,7 +222,11 @@ impl Source {
     /// # Errors
     /// The reason, for a text in memory.
     pub fn anchor(&self) -> Result<&Path, &'static str> {
-        if self.is_file { Ok(&self.path) } else { Err("this text is no file, so there are no files beside it") }
+        if self.is_file {
+            Ok(&self.path)
+        } else {
+            Err("this text is not a file, so no other files can be found beside it")
+        }
     }
 
     /// Returns the path for messages.

@@ -102,15 +102,18 @@ impl Options {
         if let Some(error) = self.planner.error() {
             Some(error)
         } else if !LEVELS.contains(&self.levels) {
-            Some(format!("levels: {} is not from {} to {}", self.levels, LEVELS.start(), LEVELS.end()))
+            Some(format!("levels: {} must be from {} to {}", self.levels, LEVELS.start(), LEVELS.end()))
         } else if !(period.is_finite() && period >= SHORTEST_INTERVAL) {
-            Some(format!("period: {period} s is not finite and at least {SHORTEST_INTERVAL} s"))
+            Some(format!("period: {period} s must be finite and at least {SHORTEST_INTERVAL} s"))
         } else if blend.is_nan() || blend < 0.0 {
             Some(format!("blend: {blend} is not a radius"))
         } else if let Some(wrong) = tip_speed.into_iter().chain(jerks).find(not_positive) {
-            Some(format!("speed and jerk: {wrong} is not finite and positive"))
+            Some(format!("speed and jerk: {wrong} must be finite and positive"))
         } else if has_steps && self.planner.gap().is_some() {
-            Some("--gap is for a single motion; what is proven of a sequence of steps is part of every answer".into())
+            Some(
+                "--gap is for single motions, not for worlds with steps, whose results always state the proven gap"
+                    .into(),
+            )
         } else {
             None
         }

@@ -34,7 +34,7 @@ impl Planner {
     /// Reports the first invalid setting, by name.
     pub(super) fn error(&self) -> Option<String> {
         if self.path_kind() == PathKind::Middles && !self.method().descriptor().paths.contains(&PathKind::Middles) {
-            return Some(format!("path: middles is for trapezoid, not for {}", self.method()));
+            return Some(format!("path: middles needs the planner trapezoid, not {}", self.method()));
         }
         self.method().descriptor().settings.iter().find_map(|&setting| self.setting_error(setting))
     }
@@ -48,14 +48,14 @@ impl Planner {
             },
             Setting::Gap => {
                 let gap = settings.gap?;
-                let blind = || "gap: a search that is not after the shortest path closes none".to_owned();
+                let blind = || "gap: only a search for the shortest path can close a gap".to_owned();
                 not_positive("gap", gap).or_else(|| (!self.optimises()).then(blind))
             }
             Setting::Margin => wrong_margin(settings.margin),
             Setting::Samples => wrong_number("samples", settings.samples, &SAMPLES),
             Setting::Nearest => wrong_number("nearest", settings.nearest, &NEAREST),
             Setting::Forward if settings.forward && settings.grid_search == GridSearch::Wave => {
-                Some("forward: the wave begins at the goals, so that its labels are steps to them".into())
+                Some("forward: the search `wave` labels cells with their steps to the goals and begins there".into())
             }
             Setting::Cells => settings.cells?.error(),
             _ => None,
@@ -64,15 +64,15 @@ impl Planner {
 }
 
 fn not_positive(name: &str, value: f64) -> Option<String> {
-    (!value.is_finite() || value <= 0.0).then(|| format!("{name}: {value} is not finite and positive"))
+    (!value.is_finite() || value <= 0.0).then(|| format!("{name}: {value} must be finite and positive"))
 }
 
 /// Reports a number that lies outside its range.
 pub(super) fn wrong_number(name: &str, n: usize, range: &RangeInclusive<usize>) -> Option<String> {
-    (!range.contains(&n)).then(|| format!("{name}: {n} is not from {} to {}", range.start(), range.end()))
+    (!range.contains(&n)).then(|| format!("{name}: {n} must be from {} to {}", range.start(), range.end()))
 }
 
 fn wrong_margin(margin: f64) -> Option<String> {
     (!(0.0..=MOST_MARGIN).contains(&margin))
-        .then(|| format!("margin: {margin} is not from 0 to {MOST_MARGIN} (of the arm's reach)"))
+        .then(|| format!("margin: {margin} must be from 0 to {MOST_MARGIN} (of the arm's reach)"))
 }

@@ -138,7 +138,7 @@ const OWN_AND_TAUT: &[PathKind] = &[PathKind::Own, PathKind::Taut];
 
 // In this order: the default, roadmap planners, field planners, planners that judge the scene itself.
 planners! {
-    Shortest: "The shortest path, from exact slices, with a proven bound on the optimum; or a proof that there is none" {
+    Shortest: "The shortest path, from exact slices, with a proven bound on the optimum; or a proof of infeasibility" {
         name: "shortest",
         family: Family::Exact,
         paths: TAUT,
@@ -170,7 +170,7 @@ planners! {
         defaults: Settings::default,
         solve: |request| on_polygons(request, |s, _| Triangles { path: s.path, search: s.search }),
     }
-    Voronoi: "Voronoi diagram: the way whose least distance from obstacles, in joint space, is the greatest" {
+    Voronoi: "Voronoi diagram: the path whose least distance from obstacles, in joint space, is greatest" {
         name: Voronoi::NAME,
         family: Family::Roadmap,
         paths: OWN_AND_TAUT,
@@ -216,7 +216,7 @@ planners! {
             Some(field) => on_zoned_cells(request, |s, _| FieldPlanner { path: s.path, ..field }),
         },
     }
-    Subdivision: "Subdivision into boxes: a path with room around it, or a proof that there is none" {
+    Subdivision: "Subdivision into boxes: a path with room around it, or a proof of infeasibility" {
         name: "subdivision",
         family: Family::Exact,
         paths: OWN_AND_TAUT,
@@ -224,7 +224,7 @@ planners! {
         defaults: Settings::default,
         solve: subdivision::solve,
     }
-    First: "The first certified path that is found, or a proof that there is none: the quickest answer" {
+    First: "The first certified path found, or a proof of infeasibility: the quickest answer" {
         name: "first",
         family: Family::Exact,
         paths: TAUT,

@@ -148,9 +148,9 @@ impl Phases {
         match &*answer.drawn() {
             Trace::Roadmap { edges, whole } => {
                 let caption = if *whole {
-                    "The reduced visibility graph: corner by corner, straight ways to what it sees"
+                    "The reduced visibility graph: from each corner, straight motions to visible corners"
                 } else {
-                    "The reduced visibility graph, as far as the search looked at it"
+                    "The part of the reduced visibility graph that the search examined"
                 };
                 self.add(edges.len(), caption, Shows::Edges);
             }
@@ -170,13 +170,13 @@ impl Phases {
                     };
                     self.add(edges.len(), format!("The {name}: {}", counted(edges.len(), "edge")), Shows::Edges);
                 }
-                self.add(expanded.len(), "The search: where it came, one after the other", Shows::Expanded);
+                self.add(expanded.len(), "The search: its configurations in order", Shows::Expanded);
             }
             Trace::Channel { kind, cells, channel, expanded, .. } => {
                 let caption = match kind {
                     CellKind::Triangles => format!("Free space in {}", counted(cells.len(), "triangle")),
                     CellKind::Trapezoids => {
-                        format!("A line sweeps free space and leaves {}", counted(cells.len(), "trapezoid"))
+                        format!("A sweep line divides free space into {}", counted(cells.len(), "trapezoid"))
                     }
                 };
                 let swept = *kind == CellKind::Trapezoids;
@@ -188,7 +188,7 @@ impl Phases {
             Trace::Slices { free } => {
                 self.of_slabs(problem);
                 let caption = format!(
-                    "The shortest way passes {}, where what is free is known exactly",
+                    "The shortest path passes {}, in which free space is known exactly",
                     counted(free.len(), "slice")
                 );
                 self.add(free.len(), caption, Shows::Slices);

@@ -122,10 +122,12 @@ fn judged(
             |rejection| Outcome::Unknown(format!("its path is not certified: {}", explain(problem.scene(), rejection))),
             Outcome::Found,
         ),
-        Connectivity::Disconnected(proof) => checked(problem, proof.of_pairs(in_truth))
-            .map_or_else(|| Outcome::Unknown("the proof that there is none does not hold".into()), Outcome::Infeasible),
+        Connectivity::Disconnected(proof) => checked(problem, proof.of_pairs(in_truth)).map_or_else(
+            || Outcome::Unknown("the proposed proof of infeasibility does not hold".into()),
+            Outcome::Infeasible,
+        ),
         Connectivity::Undecided { boxes, .. } => {
-            Outcome::Unknown(format!("{boxes} boxes do not tell whether there is a path"))
+            Outcome::Unknown(format!("{boxes} boxes do not decide whether a path exists"))
         }
     }
 }

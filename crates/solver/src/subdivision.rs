@@ -8,7 +8,6 @@ use cplan_core::check::{Rejection, certify};
 use cplan_core::model::{MotionProblem, Outcome};
 use cplan_core::planner::{PathKind, Proposal, Run, Size, Trace};
 use cplan_core::space::{Configuration, Path, Portal, funnel_path, nearest_end};
-use cplan_geometry::Point;
 use cplan_interrupt::Instant;
 use cplan_proofs::{Channel, Connectivity, Exploration, Occupancy, explore};
 
@@ -75,11 +74,11 @@ pub(super) fn certified(problem: &MotionProblem, channel: &Channel) -> Result<Ce
 
 /// Returns the channel's shortest path.
 pub(super) fn taut(channel: &Channel) -> Path {
-    let portal = |[left, right]: &[Configuration; 2]| Portal { left: Point::from(*left), right: Point::from(*right) };
+    let portal = |&[left, right]: &[Configuration; 2]| Portal { left, right };
     let portals: Vec<Portal> = channel.portals().iter().map(portal).collect();
-    let start = Point::from(channel.start());
+    let start = channel.start();
     let path = funnel_path(start, nearest_end(start, channel.goals(), &portals), &portals);
-    Path::new(path.into_iter().map(|p| p.coords).collect())
+    Path::new(path)
 }
 
 fn trace(exploration: &Exploration) -> Trace {

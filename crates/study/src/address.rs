@@ -134,7 +134,7 @@ fn descend<'a>(root: &'a DeTable<'a>, at: Range<usize>, steps: &[Step]) -> Resul
                 let mut named = array.iter().filter(|entry| is_named(entry.get_ref(), name));
                 let first = named.next();
                 if named.next().is_some() {
-                    return Err(format!("several are named \"{name}\": say which by its number, as in [0]"));
+                    return Err(format!("several are named \"{name}\": choose one by its number, as in [0]"));
                 }
                 first
             }
@@ -180,9 +180,9 @@ pub(super) fn in_world(text: &str, steps: &[Step]) -> Result<Found, String> {
         (DeRef::Value(DeValue::String(text)), at) if text.trim_end().ends_with("deg") => {
             Ok(Found { at, is_whole: false })
         }
-        (DeRef::Array(_), _) => Err("it is a list: say which entry, as in [0]".into()),
-        (DeRef::Table(_), _) => Err("it is a table: say which key".into()),
-        _ => Err("it is no number".into()),
+        (DeRef::Array(_), _) => Err("it is a list: name an entry, as in [0]".into()),
+        (DeRef::Table(_), _) => Err("it is a table: name a key".into()),
+        _ => Err("it is not a number".into()),
     }
 }
 
@@ -319,7 +319,7 @@ pub(super) fn in_urdf(text: &str, steps: &[Step]) -> Result<Found, String> {
             let words = entries(&text[range.clone()]);
             let at = words.get(number).ok_or_else(|| format!("{name} has {} entries", words.len()))?;
             let at = range.start + at.start..range.start + at.end;
-            text[at.clone()].parse::<f64>().map_err(|_| format!("{} is no number", &text[at.clone()]))?;
+            text[at.clone()].parse::<f64>().map_err(|_| format!("{} is not a number", &text[at.clone()]))?;
             return Ok(Found { at, is_whole: false });
         }
         let mut children = here.children().filter(|child| child.has_tag_name(name.as_str()));
@@ -332,7 +332,7 @@ pub(super) fn in_urdf(text: &str, steps: &[Step]) -> Result<Found, String> {
                 let first = children.next();
                 let others = children.count();
                 if others > 0 {
-                    return Err(format!("there are {} <{name}>: say which, as in {name}[0]", others + 1));
+                    return Err(format!("there are {} <{name}>: choose one, as in {name}[0]", others + 1));
                 }
                 first.map(|child| (child, false))
             }
@@ -349,7 +349,7 @@ pub(super) fn in_urdf(text: &str, steps: &[Step]) -> Result<Found, String> {
         }
         here = child;
     }
-    Err("it is an element: say which attribute".into())
+    Err("it is an element: name an attribute".into())
 }
 
 /// Returns the positions of the words of a text.
@@ -377,7 +377,7 @@ mod tests {
         assert_eq!(number("obstacle.\"a post\".circle.center[1]").as_deref(), Ok("2.5"));
         assert_eq!(number("obstacle[1].at[1]").as_deref(), Ok("4.0"));
         assert_eq!(number("obstacle.b.polyline[1][0]").as_deref(), Ok("1"));
-        assert_eq!(number("goal.joints"), Err("it is a list: say which entry, as in [0]".into()));
+        assert_eq!(number("goal.joints"), Err("it is a list: name an entry, as in [0]".into()));
         assert_eq!(number("obstacle.c.at[0]"), Err("there is no \"c\"; there is a post, b, or [0] to [1]".into()));
         assert_eq!(number("goal.tip[0]"), Err("there is no \"tip\"; there is joints".into()));
         let twins = WORLD.replace("\"b\"", "\"a post\"");
@@ -421,7 +421,7 @@ mod tests {
         assert_eq!(number("joint.j.origin.xyz[3]"), Err("xyz has 3 entries".into()));
         let several = "there are 2 <collision>: say which, as in collision[0]";
         assert_eq!(number("link.l.collision.geometry.box.size[2]"), Err(several.into()));
-        assert_eq!(number("joint.j"), Err("it is an element: say which attribute".into()));
+        assert_eq!(number("joint.j"), Err("it is an element: name an attribute".into()));
         assert_eq!(number("joint.j.name"), Err("j is no number".into()));
     }
 }

@@ -131,7 +131,7 @@ impl Reader<'_> {
                 Some(span) => self.source.diagnostic_at(span, message),
                 None => self.source.diagnostic(message),
             };
-            diagnostic.help("`cplan help study` shows a study; `cplan schema study` is what editors check by")
+            diagnostic.help("`cplan help study` shows a study; `cplan schema study` prints the schema for editors")
         })
     }
 
@@ -168,7 +168,7 @@ impl Reader<'_> {
         for (text, measure) in texts {
             if has_steps && [Measure::OverBound, Measure::LowerBound].contains(&measure) {
                 let message = format!("a world with steps has no {}", measure.name());
-                return Err(self.wrong(text.span(), message, "its duration is what is bounded: use that"));
+                return Err(self.wrong(text.span(), message, "use its duration, which is bounded"));
             }
         }
         let mut measures: Vec<Measure> = Vec::new();
@@ -187,7 +187,7 @@ impl Reader<'_> {
     /// What is wrong with the options, on a line.
     fn options(&self, words: &Spanned<Vec<String>>, why: &str) -> Diagnostic {
         let said: Vec<&str> = why.lines().map(str::trim).filter(|line| !line.is_empty()).collect();
-        let help = "options say how to plan (`cplan --help`); files are named to `cplan study` itself";
+        let help = "`options` are planning options (`cplan help plan`); give files to `cplan study` itself";
         self.wrong(words.span(), format!("options: {}", said.join("; ")), help)
     }
 
@@ -205,7 +205,7 @@ impl Reader<'_> {
 
     /// What a word stands for.
     fn word<T>(&self, text: &Text, read: fn(&str) -> Result<T, String>) -> Result<T, Diagnostic> {
-        let help = "conditions are as in \"clearance >= 0.01\", objectives as in \"least duration\"";
+        let help = "write conditions as in \"clearance >= 0.01\", and objectives as in \"least duration\"";
         read(text.get_ref()).map_err(|why| self.wrong(text.span(), why, help))
     }
 
@@ -221,7 +221,7 @@ impl Reader<'_> {
         if let Some(at) = table.degrees() {
             let sets = table.sets.get_ref();
             if let Some((address, ..)) = sets.all().into_iter().find(|(address, ..)| !is_angle(address)) {
-                let message = format!("{what}: {address} is no angle, so its values cannot be in degrees");
+                let message = format!("{what}: {address} is not an angle, so its values cannot be in degrees");
                 return Err(self.wrong(at, message, "write numbers, as in 0.1"));
             }
         }
@@ -232,14 +232,14 @@ impl Reader<'_> {
         let ends = match (&table.from, &table.to) {
             (Some(from), Some(to)) => Some((finite(from)?, finite(to)?)),
             (None, None) => None,
-            _ => return Err(self.wrong(at, format!("{what} has one of `from` and `to`"), "give it both")),
+            _ => return Err(self.wrong(at, format!("{what} has only one of `from` and `to`"), "give both")),
         };
         if let (Some((from, to)), Some(given)) = (ends, &table.from)
             && !(to - from).is_finite()
         {
             return Err(self.wrong(
                 given.span(),
-                format!("{what}: from {from} to {to} is too far"),
+                format!("{what}: the range from {from} to {to} is too wide"),
                 "write a smaller range",
             ));
         }
@@ -267,13 +267,13 @@ impl Reader<'_> {
             (None, Some((from, to)), Some(steps), None) => match *steps.get_ref() {
                 n @ 1..=1_000_000 if n > 1 || from == to => Values::Stepped { from, to, count: n as usize },
                 n => {
-                    let message = format!("{what}: {n} values from {from} to {to}");
-                    return Err(self.wrong(steps.span(), message, "give it 2 values or more, at most a million"));
+                    let message = format!("{what}: {n} values from {from} to {to} are too few or too many");
+                    return Err(self.wrong(steps.span(), message, "use 2 to a million steps"));
                 }
             },
             (None, Some((from, to)), None, Some(draw)) => match draw.get_ref().as_str() {
                 "uniform" | "latin" if from == to => {
-                    let message = format!("{what}: from {from} to {to} there is nothing to draw");
+                    let message = format!("{what}: the range from {from} to {to} has only one value to draw");
                     return Err(self.wrong(
                         draw.span(),
                         message,
@@ -288,7 +288,7 @@ impl Reader<'_> {
             },
             _ => {
                 let help = "values = [...]; or from, to and steps; or from, to and draw = \"uniform\" or \"latin\"";
-                return Err(self.wrong(at, format!("it is not clear which values {what} takes"), help));
+                return Err(self.wrong(at, format!("{what} does not define its values"), help));
             }
         };
         let unit = table.unit.clone().or_else(|| table.degrees().map(|_| "rad".into()));
@@ -303,14 +303,11 @@ impl Reader<'_> {
                 || Measure::named(name.get_ref()).is_ok();
             if taken || names().take(number).any(|other| other.get_ref() == name.get_ref()) {
                 let message = format!("there is another column \"{}\"", name.get_ref());
-                return Err(self.wrong(name.span(), message, "give each parameter a name of its own"));
+                return Err(self.wrong(name.span(), message, "give each parameter a unique name"));
             }
         }
         match tables {
-            [] => Err(self
-                .source
-                .diagnostic("a study without parameters has nothing to study")
-                .help("add a [[parameter]]")),
+            [] => Err(self.source.diagnostic("the study has no parameters").help("add a [[parameter]]")),
             _ => Ok(()),
         }
     }
@@ -365,7 +362,7 @@ impl Reader<'_> {
                 let message = format!("{address}: {why} (in {name})");
                 let near = file.nearest(&text, address);
                 let help = match near {
-                    Some(near) if near == *address => "leave it out here, or in the other \"sets\"".into(),
+                    Some(near) if near == *address => "remove it here, or from the other \"sets\"".into(),
                     Some(near) => format!("{near} is a number there"),
                     None => "name a number that the file has".into(),
                 };

@@ -16,13 +16,13 @@ const DELAY: Duration = Duration::from_millis(200);
 #[derive(Debug, Error)]
 pub enum JournalError {
     /// They are rows of something else.
-    #[error("{} has rows of another study, or of other files or another version of cplan: remove it, or begin anew (--fresh)", path.display())]
+    #[error("{} has rows of another study, of other files, or of another version of cplan: remove it, or begin again with --fresh", path.display())]
     Other {
         /// The journal.
         path: PathBuf,
     },
     /// Another run keeps its rows there.
-    #[error("{}: the study is at work elsewhere: wait for it, or give this one another first output", path.display())]
+    #[error("{}: another process is running this study: wait for it, or give this one another first output", path.display())]
     Busy {
         /// The journal.
         path: PathBuf,

@@ -170,7 +170,7 @@ impl Study {
             && let Some(why) = overlap(&self.base.world.workspace.obstacles, &scene.world.workspace.obstacles)
         {
             let source = self.world.source();
-            return Err(source.diagnostic(why).help("a study in which that may be says overlap = true").into());
+            return Err(source.diagnostic(why).help("if overlaps are allowed, set overlap = true in the study").into());
         }
         Problem::of_scene(scene, &self.overrides)
     }

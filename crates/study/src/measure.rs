@@ -52,7 +52,7 @@ impl Measure {
     pub fn named(name: &str) -> Result<Self, String> {
         let names = || Self::ALL.map(Self::name).join(", ");
         let found = Self::ALL.into_iter().find(|measure| measure.name() == name);
-        found.ok_or_else(|| format!("\"{name}\" is not measured; there is {}", names()))
+        found.ok_or_else(|| format!("\"{name}\" is not a measure; measures are {}", names()))
     }
 
     /// What a plan has of it.
@@ -106,8 +106,8 @@ impl Condition {
     pub fn parse(text: &str) -> Result<Self, String> {
         let parts = [(">=", true), ("<=", false)].into_iter();
         let split = parts.filter_map(|(sign, at_least)| Some((text.split_once(sign)?, at_least))).next();
-        let ((measure, bound), at_least) = split.ok_or_else(|| format!("\"{text}\" is no condition"))?;
-        let bound: f64 = bound.trim().parse().map_err(|_| format!("\"{}\" is no number", bound.trim()))?;
+        let ((measure, bound), at_least) = split.ok_or_else(|| format!("\"{text}\" is not a condition"))?;
+        let bound: f64 = bound.trim().parse().map_err(|_| format!("\"{}\" is not a number", bound.trim()))?;
         if !bound.is_finite() {
             return Err(format!("{bound} is not finite"));
         }
@@ -147,11 +147,11 @@ impl Objective {
         let most = match words.next() {
             Some("least") => false,
             Some("most") => true,
-            _ => return Err(format!("\"{text}\" is no objective")),
+            _ => return Err(format!("\"{text}\" is not an objective")),
         };
         match (words.next(), words.next()) {
             (Some(measure), None) => Ok(Self { measure: Measure::named(measure)?, most }),
-            _ => Err(format!("\"{text}\" is no objective")),
+            _ => Err(format!("\"{text}\" is not an objective")),
         }
     }
 

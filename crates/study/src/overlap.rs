@@ -18,7 +18,7 @@ pub(super) fn overlap(before: &[Obstacle], now: &[Obstacle]) -> Option<String> {
             let files = before.get(moved_one).zip(before.get(other));
             let is_new = || files.is_none_or(|(a, b)| !are_in_each_other(a, b));
             if meet(&around[moved_one], &around[other]) && are_in_each_other(&now[moved_one], &now[other]) && is_new() {
-                return Some(format!("\"{}\" stands in \"{}\"", now[moved_one].name, now[other].name));
+                return Some(format!("\"{}\" overlaps \"{}\"", now[moved_one].name, now[other].name));
             }
         }
     }

@@ -159,7 +159,7 @@ impl Study {
         if charts.is_empty() {
             return charts;
         }
-        let note = "<p class=\"sub\">Each dot is a layout that fits; large ones: none is better in both.</p>\n";
+        let note = "<p class=\"sub\">Each dot is a layout that fits. No layout is better than a large dot in both measures.</p>\n";
         section("Trade-offs", &format!("{note}<div class=\"charts\">\n{charts}</div>\n"))
     }
 }
@@ -174,7 +174,7 @@ const NOTHING: &str = "#9aa1a9";
 /// Meaning of the colours of a map, other than those of the objective.
 const LEGEND: [(&str, &str); 3] = [
     (UNFIT, "a motion, but not one that meets the conditions"),
-    (BARRED, "a proof that there is no motion, in all of them"),
+    (BARRED, "proven infeasible, in all layouts"),
     (NOTHING, "nothing to plan, or unknown"),
 ];
 

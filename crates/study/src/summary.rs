@@ -129,7 +129,7 @@ impl<'a> Summary<'a> {
             };
             // The digits of tables, without zeros.
             let value = shown(*value).parse().unwrap_or(*value);
-            Some(format!("{} = {value} {which}: a wider range may do better", parameter.name))
+            Some(format!("{} = {value} {which}: a wider range may give a better layout", parameter.name))
         };
         self.study.parameters.iter().zip(&best.values).filter_map(edge).collect()
     }
@@ -156,10 +156,10 @@ impl<'a> Summary<'a> {
         if self.rows.len() > self.designed {
             let [found, infeasible, ..] = self.searched();
             let tried = counted(self.rows.len() - self.designed, "layout");
-            text += &format!("  the search tried {tried}: {found} with a motion, {infeasible} proven to have none\n");
+            text += &format!("  the search tried {tried}: {found} with a motion, {infeasible} proven infeasible\n");
         }
         if study.searched > 0 && self.rows.len() == study.count() {
-            text += "  the search found no layout to try that has no row yet\n";
+            text += "  the search found no new layout to try\n";
         }
         let reasons = self.reasons();
         if !reasons.is_empty() {
@@ -170,7 +170,7 @@ impl<'a> Summary<'a> {
             let others: usize = reasons.iter().skip(REASONS).map(|(.., count)| count).sum();
             if others > 0 {
                 let kinds = counted(reasons.len() - REASONS, "other cause");
-                text += &format!("  {others:>8}  for {kinds}: the table has each\n");
+                text += &format!("  {others:>8}  for {kinds}; see the table\n");
             }
         }
         if let (Some(objective), Some(_)) = (study.objective, self.best()) {

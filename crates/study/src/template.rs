@@ -56,7 +56,7 @@ pub(super) fn place(address: &str) -> Result<(Place, Vec<Step>), String> {
     match steps.split_first() {
         Some((Step::Name(file), rest)) if file == "world" && !rest.is_empty() => Ok((Place::World, rest.to_vec())),
         Some((Step::Name(file), rest)) if file == "urdf" && !rest.is_empty() => Ok((Place::Urdf, rest.to_vec())),
-        _ => Err(format!("{address}: an address begins with world. or urdf.")),
+        _ => Err(format!("{address}: an address must begin with world. or urdf.")),
     }
 }
 

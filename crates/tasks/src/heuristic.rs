@@ -8,7 +8,7 @@ use cplan_core::model::Arm;
 use cplan_core::space::Configuration;
 use cplan_geometry::{Point, Pose};
 use cplan_handling::{Action, Holding, Item, Object, Step, Task};
-use nalgebra::{Isometry2, Rotation2};
+use nalgebra::Rotation2;
 
 /// A target of a step, where the arm stops.
 #[derive(Debug, Clone)]
@@ -203,17 +203,17 @@ struct Lies {
 impl Lies {
     /// Returns the position of a point of the object, if it is known.
     fn place_of(&self, point: Point) -> Option<Point> {
-        if point == Point::origin() {
+        if point == Point::zeros() {
             return Some(self.at);
         }
-        self.angle.map(|angle| self.at + Rotation2::new(angle) * point.coords)
+        self.angle.map(|angle| self.at + Rotation2::new(angle) * point)
     }
 }
 
 impl From<&Object> for Lies {
     fn from(object: &Object) -> Self {
         let pose: &Pose = &object.at;
-        Self { at: Point::from(pose.translation.vector), angle: Some(pose.rotation.angle()) }
+        Self { at: pose.translation, angle: Some(pose.rotation.angle()) }
     }
 }
 
@@ -273,7 +273,7 @@ fn targets(
                 Holding::Rigid => None,
             };
             // This must be the same expression as in the state, so that the values are equal.
-            let exact = turned.map(|angle| Isometry2::new(at.coords, angle) * grasp);
+            let exact = turned.map(|angle| Pose::new(*at, angle).point(grasp));
             let placed = Lies { at: *at, angle: turned };
             lies[object] = Some(placed);
             tip_to(exact.or_else(|| placed.place_of(grasp)))
@@ -304,7 +304,7 @@ mod tests {
             name: "arm".into(),
             joints: [joint("a"), joint("b")],
             links: [link("a"), link("b")],
-            base: Point::origin(),
+            base: Point::zeros(),
             offset: Vector::new(1.0, 0.0),
             tip: Point::new(0.7, 0.0),
             tip_name: "tip".into(),

@@ -38,7 +38,7 @@ pub(super) fn goal_ik_solutions(arm: &Arm, goal: &Goal, preferred: Configuration
         Goal::Tip(tip) => ik_solutions(arm, arm.tip, *tip, preferred),
         Goal::Area([low, high]) => {
             // A task that has been checked contains no areas.
-            let middle = ik_solutions(arm, arm.tip, nalgebra::center(low, high), preferred);
+            let middle = ik_solutions(arm, arm.tip, (low + high) * 0.5, preferred);
             IkSolutions { all: false, ..middle }
         }
     }

@@ -49,8 +49,10 @@ impl Refusal {
     /// Creates a refusal by a proof that there is no path.
     fn barred(proof: CheckedProof) -> Self {
         let stuck = proof.stuck();
-        let reason =
-            format!("there is no way: colliding configurations bar it (proven, {})", counted(stuck.len(), "box"));
+        let reason = format!(
+            "there is no path: colliding configurations separate start and goal (proven, {})",
+            counted(stuck.len(), "box")
+        );
         let blockers = Blockers::OnTheWay(distinct(stuck.iter().map(|stuck| stuck.pair.obstacle)));
         Self { proof: Some(proof), blockers, ..Self::new(reason, true) }
     }
@@ -256,13 +258,13 @@ impl Legs {
         let left = from.left(task, candidate, candidate.to);
         let with = if left.held.is_some() { &left } else { from };
         let Some(held @ Payload { grip: Grip::Level { point, .. }, .. }) = &with.held else {
-            return Err(unproven("nothing is held that could be turned"));
+            return Err(unproven("the tool holds no object to turn"));
         };
         let Some(wrist) = task.wrist else {
             return Err(unproven("the arm has no wrist that could turn the object"));
         };
         let found = wrist_turn(task, &task.obstacles(&with.poses), held, *point, candidate.to, turn);
-        let way = found.ok_or_else(|| unproven("the object cannot be turned there, neither way round"))?;
+        let way = found.ok_or_else(|| unproven("the object cannot be turned there, in either direction"))?;
         let turning = single((way.to - way.from).abs(), wrist.velocity, wrist.acceleration);
         Ok((way, turning.last().map_or(0.0, |[seconds, ..]| *seconds)))
     }

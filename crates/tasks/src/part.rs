@@ -49,9 +49,7 @@ pub(super) fn impossible(
         let mut found = Found::of(&mut search, ending, true);
         let Outcome::Infeasible(failed) = &mut found.outcome else { return None };
         let names: Vec<String> = part.iter().map(|&pair| name(task, item, pair)).collect();
-        failed
-            .reasons
-            .push(format!("this holds in any order, even with no other objects than {}", names.join(" and ")));
+        failed.reasons.push(format!("this holds in any order, even if {} are the only objects", names.join(" and ")));
         // These steps were done in a world with fewer objects.
         found.legs.clear();
         Some(found)

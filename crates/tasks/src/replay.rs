@@ -52,12 +52,12 @@ impl MotionReplay {
                 let mut replay = Replay::new(&problem, options, &answer);
                 let gone = problem.scene() != &*leg.scene;
                 if let (true, Some(first)) = (gone, replay.phases.first_mut()) {
-                    first.caption.push_str("; objects that are not in the way are left out");
+                    first.caption.push_str("; objects out of the path are ignored");
                 }
                 Self { replay, trace: Some(answer.drawn().into_owned()) }
             }
             None => {
-                let caption = "The straight way: certified, and none is shorter".to_owned();
+                let caption = "The straight path: certified, and no path is shorter".to_owned();
                 let phase = Phase { caption, shows: Shows::Path, events: path.waypoints().len() };
                 Self { replay: Replay { phases: vec![phase] }, trace: None }
             }

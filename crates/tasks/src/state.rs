@@ -4,9 +4,8 @@ use super::answer::Event;
 use super::ik_solutions::{goal_ik_solutions, ik_solutions};
 use cplan_core::model::{Grip, Scene};
 use cplan_core::space::Configuration;
-use cplan_geometry::{Point, Pose};
+use cplan_geometry::Pose;
 use cplan_handling::{Action, Holding, Item, Object, Payload, Step, Task};
-use nalgebra::Isometry2;
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
@@ -155,7 +154,7 @@ impl State {
             }
             (Action::Pick { object, grasp, .. }, None) => {
                 let Some(lies) = self.poses[*object] else { return Candidates { step, ways, all: false } };
-                let reach = ik_solutions(arm, arm.tip, lies * grasp, self.q);
+                let reach = ik_solutions(arm, arm.tip, lies.point(*grasp), self.q);
                 let wanted = place.and_then(|place| match place.action {
                     Action::Place { angle, .. } => angle,
                     _ => None,
@@ -180,20 +179,19 @@ impl State {
                 let object = held.object;
                 match held.grip {
                     Grip::Rigid(in_link) => {
-                        let origin = Point::from(in_link.translation.vector);
-                        let reach = ik_solutions(arm, origin, *at, self.q);
+                        let reach = ik_solutions(arm, in_link.translation, *at, self.q);
                         for &to in &reach.configurations {
                             let turned = (arm.pose(1, to) * in_link).rotation.angle();
                             let turned = (turned / FINEST_TURN).round() * FINEST_TURN;
-                            let pose = Isometry2::new(at.coords, turned);
+                            let pose = Pose::new(*at, turned);
                             add(to, None, Some(Event::Release { object, pose }), None);
                         }
                         reach
                     }
                     Grip::Level { angle: carried, point } => {
                         let wanted = angle.unwrap_or(carried);
-                        let pose = Isometry2::new(at.coords, wanted);
-                        let reach = ik_solutions(arm, arm.tip, pose * point, self.q);
+                        let pose = Pose::new(*at, wanted);
+                        let reach = ik_solutions(arm, arm.tip, pose.point(point), self.q);
                         let turn = (!same_angle(carried, wanted)).then_some([carried, wanted]);
                         let event = Some(Event::Release { object, pose });
                         reach.configurations.iter().for_each(|&to| add(to, turn, event, None));

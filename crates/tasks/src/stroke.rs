@@ -42,7 +42,7 @@ pub(super) fn stroke(task: &Task, from: &State, candidate: &Candidate) -> Result
     unobstructed(&scene, candidate.to, when)?;
     let there = Path::new(vec![candidate.to, candidate.to]);
     let certified = certify(&scene, there, scene.workspace().clearance);
-    let certified = certified.map_err(|_| Refusal::new(format!("it cannot be shown to be free {when}"), false))?;
+    let certified = certified.map_err(|_| Refusal::new(format!("no proof that it is free {when} was found"), false))?;
     let Some(stroke) = &task.stroke else { return Ok(None) };
     let depth = stroke.depth(&task.objects[event.object()]);
     let way = single(depth.abs(), stroke.velocity, stroke.acceleration);

@@ -19,7 +19,7 @@ pub fn exploration_page(title: &str, scene: &Scene, sensor: &Sensor, done: &Expl
 
 fn data(title: &str, scene: &Scene, sensor: &Sensor, done: &Exploration, timed: bool) -> Value {
     let (arm, map) = (scene.arm(), done.survey.map());
-    let origin = map.pose.translation.vector;
+    let origin = map.pose.translation;
     let obstacles = scene.workspace().obstacles.iter().flat_map(|obstacle| &obstacle.pieces).map(outline);
     let frames = done.readings.iter().map(|reading| {
         let poses = arm.poses(reading.at);

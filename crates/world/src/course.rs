@@ -2,7 +2,7 @@
 
 use super::reader::Reader;
 use super::schema::NotNegative;
-use cplan_geometry::{Point, Pose, Vector};
+use cplan_geometry::{Pose, Vector};
 use cplan_handling::{Course, CourseError, Stop};
 use cplan_robot::{AngleOrLength, Diagnostic, Number, Numbers, Two, Written};
 use schemars::JsonSchema;
@@ -49,12 +49,12 @@ impl CourseTable {
     pub fn read(&self, reader: &Reader, what: &str, place: Option<&Pose>, at: Span) -> Result<Course, Diagnostic> {
         let what = format!("{what}, motion");
         if self.stops.is_none() && self.velocity.is_none() {
-            let message = format!("{what} says neither stops nor a velocity");
+            let message = format!("{what} has neither `stops` nor `velocity`");
             return Err(reader.source.diagnostic_at(at, message).help(HELP));
         }
         let given = |time: f64| {
-            let origin = place.map_or_else(Vector::zeros, |place| place.translation.vector);
-            Stop { time, at: Point::from(origin), angle: place.map_or(0.0, |place| place.rotation.angle()) }
+            let origin = place.map_or_else(Vector::zeros, |place| place.translation);
+            Stop { time, at: origin, angle: place.map_or(0.0, |place| place.rotation.angle()) }
         };
         let tables = self.stops.iter().flat_map(|stops| stops.get_ref());
         let stops = tables.clone().zip(1..).map(|(stop, number)| {
@@ -74,9 +74,12 @@ impl CourseTable {
         Course::new(stops, velocity.map_or_else(Vector::zeros, Vector::from)).map_err(|error| {
             let (message, at, help) = match error {
                 CourseError::Time { stop, time } => (
-                    format!("{what}, stop {}: the time {time} s does not come after the one before", stop + 1),
+                    format!(
+                        "{what}, stop {}: the time {time} s is not later than the time of the previous stop",
+                        stop + 1
+                    ),
                     tables.clone().nth(stop).map_or(at, |stop| stop.get_ref().time.span()),
-                    "times increase from stop to stop",
+                    "sort the stops by time; times must increase",
                 ),
                 CourseError::Empty | CourseError::Place { .. } => {
                     (format!("{what}: {error}"), self.stops.as_ref().map_or(at, Spanned::span), HELP)

@@ -39,7 +39,7 @@ const FORMS: [(&str, &str); 30] = [
 ];
 
 /// The hint if there is no more specific one.
-const ANY: &str = "`cplan init` writes a world with every key explained, `cplan schema` what editors check by";
+const ANY: &str = "`cplan init` writes a world with every key explained; `cplan schema` prints the schema for editors";
 
 /// Returns the hint for an error at a byte of a world file: the form of the key at that place.
 pub(super) fn help(text: &str, at: usize) -> &'static str {

@@ -130,8 +130,8 @@ pub fn scene_of(arm: Arm, world: Source) -> Result<LoadedScene, InputError> {
     let world = world::read(world)?;
     let refused = |message: String, help: &str| Diagnostic::new(world.source.name(), message).help(help);
     if world.robot.unplaced() != RobotTable::default() {
-        let message = "[robot] says how a URDF is read, and this arm is made in code".into();
-        return Err(refused(message, "leave the table out, but for `at` and `angle`").into());
+        let message = "[robot] interprets a URDF, but this arm was made in code".into();
+        return Err(refused(message, "keep only `at` and `angle` in this table").into());
     }
     for pair in &world.in_degrees {
         pair.check(&world.source, &arm.joints)?;
@@ -141,7 +141,7 @@ pub fn scene_of(arm: Arm, world: Source) -> Result<LoadedScene, InputError> {
     let courses = at_first.courses();
     let scene = at_first
         .scene(standing(&arm, &world))
-        .map_err(|error| refused(error.to_string(), "make the arm of numbers that are finite, and sizes above 0"))?;
+        .map_err(|error| refused(error.to_string(), "use finite numbers and sizes above 0"))?;
     Ok(LoadedScene { scene, courses, world, arm, robot: RobotReport { joints, ..RobotReport::default() } })
 }
 

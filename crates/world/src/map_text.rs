@@ -52,7 +52,7 @@ impl MapText {
         self.line().ok_or_else(|| {
             let end = self.source.text().trim_end().len();
             let message = format!("the file ends where {what} should come");
-            self.source.diagnostic_at(end..end, message).help("write what is missing, or export the map again")
+            self.source.diagnostic_at(end..end, message).help("add the missing part, or export the map again")
         })
     }
 
@@ -88,7 +88,7 @@ impl MapText {
     pub fn count(&mut self, key: &str) -> Result<(usize, Range<usize>), Diagnostic> {
         let Numbers { values: [value], at } = self.keyed::<1>(key)?;
         if value < 0.0 || value.fract() != 0.0 || value > MOST_COUNTED {
-            let message = format!("{key}: {value} is no number of lines");
+            let message = format!("{key}: {value} is not a number of lines");
             return Err(self.source.diagnostic_at(at, message).help("count the lines that follow"));
         }
         Ok((value as usize, at))
@@ -130,10 +130,7 @@ impl MapText {
         }
         if count != list.len() {
             let message = format!("{key} says {count}, but {} follow", list.len());
-            return Err(self
-                .source
-                .diagnostic_at(at, message)
-                .help("correct the number, or the lines that are missing"));
+            return Err(self.source.diagnostic_at(at, message).help("correct the number, or add the missing lines"));
         }
         Ok(list)
     }
@@ -168,7 +165,7 @@ impl MapText {
         match self.line() {
             None => Ok(()),
             Some((_, at)) => {
-                let message = "the map has ended above, but something follows";
+                let message = "text follows the end of the map";
                 Err(self.source.diagnostic_at(at, message).help("remove it, or put it before the last word of the map"))
             }
         }
@@ -193,7 +190,7 @@ impl MapText {
         }
         if found != N {
             let message = format!("{what}: expected {}, found {found}", counted(N));
-            return Err(self.source.diagnostic_at(at, message).help("separate numbers by blanks, one item a line"));
+            return Err(self.source.diagnostic_at(at, message).help("separate numbers by blanks, one item per line"));
         }
         Ok(values)
     }

@@ -10,7 +10,6 @@ use cplan_core::model::Obstacle;
 use cplan_geometry::{Point, Pose};
 use cplan_handling::{Course, Holding, Mover, Object};
 use cplan_robot::{AngleOrLength, Diagnostic, HeldAs, Number, Numbers, Two, Written, quoted};
-use nalgebra::{Isometry2, Translation2};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -144,7 +143,7 @@ impl<'a> Names<'a> {
             if is_obstacle || is_object {
                 let other = if is_object { "a second object" } else { "an obstacle" };
                 let message = format!("{other} is named \"{}\"", if is_object { name.as_str() } else { family });
-                let help = "steps refer to objects by name: give each a name of its own";
+                let help = "steps refer to objects by name: give each a unique name";
                 return Err(reader.source.diagnostic_at(given.span(), message).help(help));
             }
         }
@@ -162,7 +161,7 @@ impl<'a> Names<'a> {
         }
         let message = format!("there is no object \"{wanted}\"");
         let help = match (self.obstacles.contains_key(wanted), self.families.get(wanted)) {
-            (true, _) => "that is an obstacle, which stays where it is: make it an [[object]]".to_owned(),
+            (true, _) => "that is an obstacle, which steps cannot move: make it an [[object]]".to_owned(),
             (_, Some(all)) => format!(
                 "there are {} on a pallet: name one, as \"{wanted} 1,1\"; transfer = {{ objects = \"{wanted}\", to = \"PALLET\" }} moves all",
                 all.len()
@@ -248,11 +247,11 @@ fn placed<'a>(
         let what = format!("object \"{name}\"");
         let angle =
             given.angle.as_ref().map(|a| reader.quantity(a, &format!("{what}, angle"))).transpose()?.unwrap_or(0.0);
-        let turned = Isometry2::rotation(angle);
+        let turned = Pose::rotation(angle);
         match (&given.at, &given.pallet) {
             (Some(at), None) => {
                 let at = reader.point(at, &format!("{what}, at"))?;
-                all.push(Placed { table, name: name.clone(), at: Translation2::from(at.coords) * turned });
+                all.push(Placed { table, name: name.clone(), at: turned.shifted(at) });
             }
             (None, Some(pallet)) => {
                 let places = pallets.named(reader, pallet)?.places();
@@ -264,7 +263,7 @@ fn placed<'a>(
             }
             (at, _) => {
                 let found = if at.is_some() { "both" } else { "neither" };
-                let message = format!("{what} needs either `at` or `pallet`, it has {found}");
+                let message = format!("{what} needs either `at` or `pallet`, but has {found}");
                 let help = "at = [x, y], or pallet = \"NAME\" for one on each of its places";
                 return Err(reader.source.diagnostic_at(table.span(), message).help(help));
             }
@@ -308,7 +307,7 @@ fn movable(
         (None, Some(disc)) => circle(reader, disc, &what)?,
         (polygon, _) => {
             let count = if polygon.is_some() { 2 } else { 0 };
-            let message = format!("{what} needs exactly one shape, it has {count}");
+            let message = format!("{what} needs exactly one shape, but has {count}");
             return Err(reader.source.diagnostic_at(table.span(), message).help("give it a polygon or a circle"));
         }
     };
@@ -336,7 +335,7 @@ fn movable(
         mass: mass.unwrap_or(0.0),
         course,
     };
-    Ok(Movable { object, grasp: grasp.unwrap_or_else(Point::origin), supports, is_renewed: given.renew })
+    Ok(Movable { object, grasp: grasp.unwrap_or_else(Point::zeros), supports, is_renewed: given.renew })
 }
 
 /// Returns the motion of an object. Stops without a position take this one.
@@ -351,10 +350,10 @@ fn course(
         Err(reader.source.diagnostic_at(motion.span(), format!("{what}, motion: {message}")).help(help))
     };
     if given.pallet.is_some() {
-        return refuse("what lies on a pallet does not move", "give each that moves an [[object]] with `at`");
+        return refuse("objects on a pallet cannot move", "make each moving one an [[object]] with `at`");
     }
     if given.renew {
-        return refuse("what moves is not renewed", "give each that comes an [[object]] of its own");
+        return refuse("a moving object cannot be renewed", "write a separate [[object]] for each one that arrives");
     }
     motion.get_ref().read(reader, what, Some(at), motion.span())
 }
@@ -372,7 +371,7 @@ pub(super) fn holding(reader: &Reader, word: &Spanned<String>) -> Result<Holding
         "level" => Ok(Holding::Level),
         other => {
             let message = format!("a payload is \"rigid\" or \"level\", not \"{other}\"");
-            let help = "rigid: it turns with link 2; level: a wrist keeps its orientation";
+            let help = "rigid: the object turns with link 2; level: a wrist keeps its orientation";
             Err(reader.source.diagnostic_at(word.span(), message).help(help))
         }
     }

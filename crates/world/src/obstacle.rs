@@ -109,9 +109,9 @@ impl ObstacleTable {
             (polygon, circle, polyline, image) => {
                 let given = [polygon.is_some(), circle.is_some(), polyline.is_some(), image.is_some()];
                 let count = given.iter().filter(|x| **x).count();
-                let message = format!("{what} needs exactly one shape, it has {count}");
+                let message = format!("{what} needs exactly one shape, but has {count}");
                 let help =
-                    "give it one of polygon, circle, polyline, image; a second shape is an [[obstacle]] of its own";
+                    "give it one of polygon, circle, polyline, image; put a second shape into another [[obstacle]]";
                 return Err(reader.source.diagnostic_at(table.span(), message).help(help).into());
             }
         };
@@ -155,7 +155,7 @@ fn image(
     };
     let path = reader.beside(image, what)?;
     if path.extension().is_some_and(|e| e != "yaml" && e != "yml") {
-        let message = format!("{what}: an image needs the YAML of ROS's map server, which says how large it is");
+        let message = format!("{what}: an image needs the YAML of ROS's map server, which states its size");
         let help = "name the YAML; it names the picture";
         return Err(reader.source.diagnostic_at(image.span(), message).help(help).into());
     }
@@ -163,7 +163,7 @@ fn image(
     reader.files.borrow_mut().extend(map.picture.clone());
     map.notes.iter().for_each(|note| reader.taken.note(what, note.clone()));
     let pieces = map.pieces(unknown_is_free, MOST_PIECES).ok_or_else(|| {
-        let message = format!("{what}: its pixels make more than {MOST_PIECES} rectangles");
+        let message = format!("{what}: its pixels form more than {MOST_PIECES} rectangles");
         let help = "remove single pixels from the picture, or make its pixels larger";
         reader.source.diagnostic_at(image.span(), message).help(help)
     })?;

@@ -3,7 +3,6 @@
 use super::reader::Reader;
 use cplan_geometry::{Point, Pose};
 use cplan_robot::{AngleOrLength, Diagnostic, Numbers, Two, Written, quoted};
-use nalgebra::{Isometry2, Point2, Translation2};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -62,10 +61,10 @@ impl Pallet {
     pub fn places(&self) -> impl Iterator<Item = (String, Pose)> + '_ {
         (0..self.rows).flat_map(move |row| {
             (0..self.columns).map(move |column| {
-                let offset = Point2::new(column as f64 * self.pitch[0], row as f64 * self.pitch[1]);
-                let largest = self.origin.translation.vector.amax().max(offset.coords.amax());
-                let at = (self.origin * offset).map(|x| rounded(x, largest));
-                let pose = Translation2::from(at) * self.origin.rotation;
+                let offset = Point::new(column as f64 * self.pitch[0], row as f64 * self.pitch[1]);
+                let largest = self.origin.translation.amax().max(offset.amax());
+                let at = self.origin.point(offset).map(|x| rounded(x, largest));
+                let pose = Pose { translation: at, ..self.origin };
                 (format!("{},{}", row + 1, column + 1), pose)
             })
         })
@@ -95,13 +94,12 @@ impl<'a> Pallets<'a> {
         for table in tables.iter().map(Spanned::get_ref) {
             let name = table.name.get_ref().as_str();
             let pallet = table.pallet(reader)?;
-            let places =
-                pallet.places().map(|(place, pose)| (format!("{name} {place}"), pose.translation.vector.into()));
+            let places = pallet.places().map(|(place, pose)| (format!("{name} {place}"), pose.translation));
             pallets.places.extend(places);
             if pallets.by_name.insert(name, pallet).is_some() {
                 let diagnostic =
                     reader.source.diagnostic_at(table.name.span(), format!("a second pallet is named \"{name}\""));
-                return Err(diagnostic.help("objects and steps refer to pallets by name: give each a name of its own"));
+                return Err(diagnostic.help("objects and steps refer to pallets by name: give each a unique name"));
             }
         }
         Ok(pallets)
@@ -175,7 +173,7 @@ impl PalletTable {
         let at = reader.point(&self.at, &format!("{what}, at"))?;
         let angle =
             self.angle.as_ref().map(|a| reader.quantity(a, &format!("{what}, angle"))).transpose()?.unwrap_or(0.0);
-        Ok(Pallet { rows, columns, origin: Isometry2::new(at.coords, angle), pitch })
+        Ok(Pallet { rows, columns, origin: Pose::new(at, angle), pitch })
     }
 }
 
@@ -185,8 +183,8 @@ mod tests {
 
     /// Returns the last place of two rows and two columns.
     fn last(at: [f64; 2], pitch: [f64; 2], angle: f64) -> Point {
-        let pallet = Pallet { rows: 2, columns: 2, origin: Pose::new(Point::from(at).coords, angle), pitch };
-        pallet.places().last().unwrap().1.translation.vector.into()
+        let pallet = Pallet { rows: 2, columns: 2, origin: Pose::new(Point::from(at), angle), pitch };
+        pallet.places().last().unwrap().1.translation
     }
 
     #[test]

@@ -55,7 +55,7 @@ const CLOSED: &str = "the last point of a ring repeats the first; taken once";
 /// Note about repeated points.
 const REPEATED: &str = "points that repeat the one before them are taken once";
 /// Note about a polygon that is not simple but whose inside is well defined.
-const TOUCHING: &str = "the boundary touches itself in single points; what it surrounds is solid";
+const TOUCHING: &str = "the boundary touches itself in single points; the enclosed area is solid";
 
 impl Coordinates {
     fn list(&self) -> &[Spanned<Coordinates>] {
@@ -143,7 +143,7 @@ pub(super) fn polyline(
 
 fn moved(mut points: Vec<Point>, place: Option<&Pose>) -> Vec<Point> {
     if let Some(place) = place {
-        points.iter_mut().for_each(|point| *point = place * *point);
+        points.iter_mut().for_each(|point| *point = place.point(*point));
     }
     points
 }

@@ -67,8 +67,8 @@ fn direction(reader: &Reader, numbers: &Numbers, what: &str) -> Result<[f64; 2],
     let length = vector[0].hypot(vector[1]);
     // Below the square root of the least normal number its components would lose their digits.
     if length < 1e-150 {
-        let diagnostic = reader.source.diagnostic_at(numbers.span(), format!("{what}: the direction has no length"));
-        return Err(diagnostic.help("direction = [q1, q2], such as [1, 0]; leave it out where there is none"));
+        let diagnostic = reader.source.diagnostic_at(numbers.span(), format!("{what}: the direction is zero"));
+        return Err(diagnostic.help("direction = [q1, q2], such as [1, 0]; leave the key out for no direction"));
     }
     Ok(vector.map(|x| x / length))
 }
@@ -84,7 +84,7 @@ fn configurations(reader: &Reader, corners: &Ring, what: &str) -> Result<SimpleP
         return Err(reader
             .source
             .diagnostic_at(corners.span(), message)
-            .help("angles are radians; circles repeat themselves"));
+            .help("write angles in radians; continuous joints repeat after a whole turn"));
     }
     Ok(polygon)
 }

@@ -49,7 +49,7 @@ impl PreferenceMap {
         let bounds = text.bounds()?;
         let (count, at) = text.count("NumGoal")?;
         if count == 0 {
-            let diagnostic = text.source.diagnostic_at(at.clone(), "NumGoal is 0, but a plan has a goal");
+            let diagnostic = text.source.diagnostic_at(at.clone(), "NumGoal is 0, but a plan needs a goal");
             return Err(diagnostic.help("give a goal rectangle").into());
         }
         text.word("GOAL")?;

@@ -81,7 +81,7 @@ impl LoadedScene {
                 if let Goal::Area([low, high]) = goal
                     && low != high
                 {
-                    let arm = "of this arm, which does not slide along both axes,";
+                    let arm = "for an arm that does not slide along both axes,";
                     notes.push(format!("{arm} the middle of a goal area is the goal: ({}, {})", tip.x, tip.y));
                 }
                 self.ik_solutions(tip, start, place, notes)
@@ -109,7 +109,7 @@ impl LoadedScene {
         }
         if goals.is_empty() {
             let message = format!("the tip cannot enter {shown}, whose rim is blocked: {}", listed(&blocked));
-            return Err(place.diagnostic(message).help("move the area, or what is in its way"));
+            return Err(place.diagnostic(message).help("move the area or the obstacles"));
         }
         Ok(goals.into_iter().collect())
     }
@@ -118,7 +118,7 @@ impl LoadedScene {
     pub(super) fn goals(&self, overrides: &Overrides) -> Result<(Vec<Goal>, Place<'_>), InputError> {
         match (&overrides.goal, &overrides.goal_tip) {
             (Some(_), Some(_)) => {
-                let diagnostic = Diagnostic::new("--goal and --goal-tip", "both give a goal");
+                let diagnostic = Diagnostic::new("--goal and --goal-tip", "both options give a goal");
                 return Err(diagnostic.help("give one of them").into());
             }
             (Some(values), None) => {
@@ -146,7 +146,7 @@ impl LoadedScene {
             (None, Some(_)) => "--goal-tip",
             (None, None) => {
                 let at = self.world.steps.as_ref().map_or(0..0, |steps| steps.at.clone());
-                let help = "only `cplan ROBOT WORLD` plans steps; for other commands put a [goal] in their place";
+                let help = "only `cplan plan` plans steps; for other commands replace them by a [goal]";
                 return self.world.source.diagnostic_at(at, message).help(help);
             }
         };
@@ -183,8 +183,9 @@ impl LoadedScene {
     /// If an obstacle moves.
     pub fn require_standing(&self, what: &str) -> Result<(), InputError> {
         let Some(mover) = self.scene.loose().first() else { return Ok(()) };
-        let message = format!("{what}, and obstacle \"{}\" moves", mover.obstacle.name);
-        let help = "remove its motion; motions and tasks are planned, verified and checked among what moves";
+        let message = format!("{what}, but obstacle \"{}\" moves", mover.obstacle.name);
+        let help =
+            "remove its motion, or use `cplan plan`, `cplan verify` or `cplan check`, which allow moving obstacles";
         Err(self.world.source.diagnostic(message).help(help).into())
     }
 
@@ -200,7 +201,7 @@ impl LoadedScene {
             describe(&self.scene, start),
             listed(&hits)
         );
-        Err(place.diagnostic(message).help("let the motion of the obstacle begin elsewhere, or choose another start"))
+        Err(place.diagnostic(message).help("change the obstacle's initial position, or choose another start"))
     }
 
     /// Returns every IK solution for `tip` within the limits, except those proven not to be free.
@@ -244,7 +245,7 @@ fn freedom(scene: &Scene, at: &str, free: Freedom) -> String {
     let name = |joint: usize| &scene.arm().joints[joint].name;
     match free {
         Freedom::Joint(joint) => {
-            format!("the tip is at {at} whatever the value of joint \"{}\": any that is free will do", name(joint))
+            format!("the tip is at {at} for all values of joint \"{}\": any free value is accepted", name(joint))
         }
         Freedom::Share => format!(
             "joints \"{}\" and \"{}\" turn about one axis: the tip is at {at} however they share the angle, and any free \

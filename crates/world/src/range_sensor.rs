@@ -71,9 +71,9 @@ impl Sensor {
             Mount::Tip => {
                 let pose = arm.pose(1, q.into());
                 let x = Rotation2::new(self.turn) * Vector::x();
-                let ahead = if arm.tip == Point::origin() { x } else { arm.tip.coords };
-                let ahead = pose * ahead;
-                (pose * arm.tip, ahead.y.atan2(ahead.x))
+                let ahead = if arm.tip == Point::zeros() { x } else { arm.tip };
+                let ahead = pose.direction(ahead);
+                (pose.point(arm.tip), ahead.y.atan2(ahead.x))
             }
         }
     }

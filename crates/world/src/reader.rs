@@ -75,7 +75,7 @@ impl Reader<'_> {
         let at = at.map(|at| self.point(at, &format!("{what}, at"))).transpose()?;
         let angle = angle.map(|angle| self.quantity(angle, &format!("{what}, angle"))).transpose()?;
         let is_given = at.is_some() || angle.is_some();
-        let place = || Pose::new(at.map_or_else(Vector::zeros, |at| at.coords), angle.unwrap_or(0.0));
+        let place = || Pose::new(at.unwrap_or_else(Vector::zeros), angle.unwrap_or(0.0));
         Ok(is_given.then(place))
     }
 
@@ -86,7 +86,7 @@ impl Reader<'_> {
             return Ok((vec![goal], at));
         };
         if goal.joints.is_some() || goal.tip.is_some() {
-            let diagnostic = self.source.diagnostic_at(at, "the goal has `areas` beside another goal");
+            let diagnostic = self.source.diagnostic_at(at, "the goal has `areas` and another goal");
             return Err(diagnostic.help("keep one of `joints`, `tip` and `areas`"));
         }
         let area = |corners: &Spanned<Vec<Numbers>>| match corners.get_ref().as_slice() {
@@ -110,7 +110,7 @@ impl Reader<'_> {
     /// Returns joint values or a point for the tip, and their position in the file.
     pub fn goal(&self, goal: &GoalTable, at: Range<usize>, what: &str) -> Result<(Goal, Range<usize>), Diagnostic> {
         if let Some(areas) = &goal.areas {
-            let diagnostic = self.source.diagnostic_at(areas.span(), format!("{what}: a step has no areas"));
+            let diagnostic = self.source.diagnostic_at(areas.span(), format!("{what}: a step cannot have areas"));
             return Err(diagnostic.help("joints = [q1, q2], or tip = [x, y]"));
         }
         self.place(goal.joints.as_ref(), goal.tip.as_ref(), at, what)
@@ -136,7 +136,7 @@ impl Reader<'_> {
             (None, Some(tip)) => Ok((Goal::Tip(self.point(tip, &format!("{what} tip"))?), tip.span())),
             (joints, _) => {
                 let found = if joints.is_some() { "both" } else { "neither" };
-                let message = format!("the {what} needs either `joints` or `tip`, it has {found}");
+                let message = format!("the {what} needs either `joints` or `tip`, but has {found}");
                 Err(self.source.diagnostic_at(at, message).help("joints = [q1, q2], or tip = [x, y]"))
             }
         }

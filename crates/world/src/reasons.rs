@@ -68,7 +68,8 @@ pub(super) fn beyond_limits(scene: &Scene, q: Configuration) -> Vec<String> {
 }
 
 /// Hint for a configuration outside the limits.
-pub(super) const HELP_FOR_LIMITS: &str = "choose values within, or override [robot] limits in the world file";
+pub(super) const HELP_FOR_LIMITS: &str =
+    "choose values within the limits, or override [robot] limits in the world file";
 
 /// Hint for a tip position outside the limits.
 pub(super) const HELP_FOR_TIP: &str = "choose another point, or override [robot] limits in the world file";
@@ -92,7 +93,7 @@ pub(super) fn help_at(scene: &Scene, q: Configuration) -> &'static str {
 /// Returns the hint for a configuration in contact.
 pub(super) fn help_for_contact(scene: &Scene) -> &'static str {
     if scene.workspace().clearance > 0.0 {
-        "move it away from the obstacle, or ask for less clearance"
+        "move it away from the obstacle, or require less clearance"
     } else {
         "move it away from the obstacle (touching counts as contact)"
     }
@@ -113,14 +114,14 @@ pub(super) fn out_of_reach(scene: &Scene, what: &str, point: Point) -> String {
     let arm = scene.arm();
     let from_joint = (point - arm.base).norm();
     let [distance, reach] = if arm.only_turns() {
-        let (upper, lower) = (arm.offset.norm(), arm.tip.coords.norm());
+        let (upper, lower) = (arm.offset.norm(), arm.tip.norm());
         let [distance, least, most] = told_apart([from_joint, (upper - lower).abs(), upper + lower], 4);
         [distance, format!(", the tip reaches from {least} to {most} m")]
     } else {
         [fixed(from_joint, 4), String::new()]
     };
     format!(
-        "{what} ({}, {}) m is out of reach of the tip \"{}\", whatever the joint limits: it is {distance} m from joint \"{}\"{reach}",
+        "{what} ({}, {}) m is out of reach of the tip \"{}\" for all joint values: it is {distance} m from joint \"{}\"{reach}",
         point.x, point.y, arm.tip_name, arm.joints[0].name,
     )
 }
@@ -128,8 +129,8 @@ pub(super) fn out_of_reach(scene: &Scene, what: &str, point: Point) -> String {
 /// Returns the hint for a point out of reach.
 pub(super) fn help_for_reach(scene: &Scene, point: Point) -> String {
     let arm = scene.arm();
-    let (upper, lower) = (arm.offset.norm(), arm.tip.coords.norm());
+    let (upper, lower) = (arm.offset.norm(), arm.tip.norm());
     let is_inside = arm.only_turns() && (point - arm.base).norm() < (upper - lower).abs();
-    let place = if is_inside { "farther from joint 1" } else { "nearer by" };
+    let place = if is_inside { "farther from joint 1" } else { "nearer to joint 1" };
     format!("choose a point {place}; coordinates are metres in the arm's plane")
 }

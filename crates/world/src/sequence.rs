@@ -72,14 +72,14 @@ impl Lying {
     fn at_first(movable: &Movable) -> Self {
         let pose = &movable.object.at;
         let moves = movable.object.course.is_some();
-        Self { at: Point::from(pose.translation.vector), angle: Some(pose.rotation.angle()), tip: None, moves }
+        Self { at: pose.translation, angle: Some(pose.rotation.angle()), tip: None, moves }
     }
 
     /// Returns the position of a point of the object, if it is known.
     fn point(&self, own: Point) -> Option<Point> {
         match self.angle {
-            _ if own == Point::origin() => Some(self.at),
-            Some(angle) => Some(self.at + Rotation2::new(angle) * own.coords),
+            _ if own == Point::zeros() => Some(self.at),
+            Some(angle) => Some(self.at + Rotation2::new(angle) * own),
             None => None,
         }
     }
@@ -143,12 +143,12 @@ impl Writer<'_> {
                 self.in_words(at_first),
                 self.in_words(carried)
             );
-            let help = "let them end with what they begin with";
+            let help = "let them end with the same payload that they begin with";
             return Err(self.reader.source.diagnostic_at(group.at.clone(), message).help(help));
         }
         if let Some(object) = carried.filter(|object| group.renewed.contains(object)) {
             let name = self.in_words(Some(object));
-            let message = format!("object {name} is carried when it would be renewed");
+            let message = format!("object {name} is still carried when it is renewed");
             let help = "place it before the steps are repeated, or remove its `renew`";
             return Err(self.reader.source.diagnostic_at(group.at.clone(), message).help(help));
         }
@@ -213,15 +213,15 @@ impl Writer<'_> {
                 self.in_words(Some(carried.object))
             );
             let diagnostic = self.reader.source.diagnostic_at(leaf.at.clone(), message);
-            return Err(diagnostic.help("place what is carried first"));
+            return Err(diagnostic.help("place the payload first"));
         }
         self.rest(leaf, object, supports)?;
         let lying = self.lying[object];
         if let Some(when) = when.filter(|_| !lying.moves) {
             let name = self.in_words(Some(object));
-            let message = format!("step {}: {name} has been picked before, and lies where it was placed", leaf.number);
+            let message = format!("step {}: {name} was picked before and no longer moves", leaf.number);
             let diagnostic = self.reader.source.diagnostic_at(when.at.clone(), message);
-            return Err(diagnostic.help("only the first pick of what moves has `at` and `window`"));
+            return Err(diagnostic.help("only the first pick of a moving object has `at` and `window`"));
         }
         if lying.moves {
             self.lying[object].moves = false;
@@ -241,7 +241,7 @@ impl Writer<'_> {
         supports: Option<&Supports>,
     ) -> Result<Action, Diagnostic> {
         let Some(Carried { object, grasp }) = self.carried.take() else {
-            let message = format!("step {} places something, but nothing is carried", leaf.number);
+            let message = format!("step {} places an object, but the tool carries none", leaf.number);
             return Err(self.reader.source.diagnostic_at(leaf.at.clone(), message).help("pick an object first"));
         };
         let supports = supports.unwrap_or(&self.objects[object].supports);
@@ -277,7 +277,7 @@ impl Writer<'_> {
             return Ok(before);
         }
         if !self.has_wrist {
-            let message = format!("object {name} has to be turned from {before} to {angle} rad, and there is no wrist");
+            let message = format!("object {name} must be turned from {before} to {angle} rad, but there is no wrist");
             return refuse(message, "[robot] wrist = { velocity = 6.0 }, in rad/s, or leave the angle out");
         }
         Ok(angle)

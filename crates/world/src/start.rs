@@ -68,7 +68,7 @@ impl LoadedScene {
             }
             let (name, unit) = (&joints[i].name, joints[i].unit());
             notes.push(format!(
-                "{what} has joint \"{name}\" at {} {unit}, beyond its limit by rounding; taken as {nearest} {unit}",
+                "{what} has joint \"{name}\" at {} {unit}, beyond its limit by rounding; {nearest} {unit} is used",
                 q[i]
             ));
             nearest
@@ -89,7 +89,7 @@ impl LoadedScene {
             return Err(place.diagnostic(out_of_reach(scene, "the start", tip)).help(help_for_reach(scene, tip)));
         }
         if solved.free.is_some() {
-            let message = format!("the start puts the tip at {at}, which leaves a joint free: many IK solutions do");
+            let message = format!("the start puts the tip at {at}, which has infinitely many IK solutions");
             return Err(place.diagnostic(message).help("give the start's joint values: joints = [q1, q2]"));
         }
         let (allowed, outside) = within_limits(scene, &solved);
@@ -114,8 +114,7 @@ impl LoadedScene {
                 let listed: Vec<String> =
                     free.iter().take(LISTED).map(|q| format!("joints = [{}, {}]", q[0], q[1])).collect();
                 let more = if free.len() > LISTED { ", ..." } else { "" };
-                let message =
-                    format!("{} IK solutions put the tip at {at}, and which is meant is not said", free.len());
+                let message = format!("{} IK solutions put the tip at {at}; which one is the start?", free.len());
                 Err(place.diagnostic(message).help(format!("give joint values: {}{more}", listed.join(", or "))))
             }
         }

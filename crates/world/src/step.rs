@@ -192,8 +192,8 @@ impl<'a> StepReader<'a> {
         }
         let repeat = manner.repeat.map_or(Ok(1), |repeat| {
             usize::try_from(*repeat.get_ref()).ok().filter(|n| *n > 0).ok_or_else(|| {
-                let message = format!("steps can be repeated 1 time or more often, not {}", repeat.get_ref());
-                source.diagnostic_at(repeat.span(), message).help("remove the key for steps that are done once")
+                let message = format!("steps can be repeated once or more, not {} times", repeat.get_ref());
+                source.diagnostic_at(repeat.span(), message).help("remove the key for steps that are not repeated")
             })
         })?;
         let nodes = tables.iter().map(|table| self.nodes(table, pace)).collect::<Result<Vec<_>, _>>()?;
@@ -201,7 +201,7 @@ impl<'a> StepReader<'a> {
         let at = manner.repeat.map_or(at, Spanned::span);
         let length = nodes.iter().map(Node::length).fold(0, usize::saturating_add).saturating_mul(repeat);
         if length > MOST_STEPS {
-            let message = format!("written out these are {length} steps (at most {MOST_STEPS})");
+            let message = format!("the repetitions make {length} steps (at most {MOST_STEPS})");
             return Err(source.diagnostic_at(at, message).help("repeat them less often"));
         }
         let renewed = nodes.iter().flat_map(|node| self.renewed(node)).collect();
@@ -236,11 +236,11 @@ impl<'a> StepReader<'a> {
         while let Some(first) = nodes.next() {
             let pick = match first {
                 Node::Step(pick @ Leaf { action: LeafAction::Pick { .. }, .. }) => pick,
-                other => return Err(source.diagnostic_at(other.at(), "this step has to be a pick").help(help)),
+                other => return Err(source.diagnostic_at(other.at(), "this step must be a pick").help(help)),
             };
             let place = match nodes.next() {
                 Some(Node::Step(place @ Leaf { action: LeafAction::Place { .. }, .. })) => place,
-                Some(other) => return Err(source.diagnostic_at(other.at(), "this step has to be a place").help(help)),
+                Some(other) => return Err(source.diagnostic_at(other.at(), "this step must be a place").help(help)),
                 None => return Err(source.diagnostic_at(pick.at, "this pick has no place after it").help(help)),
             };
             if let LeafAction::Pick { object, .. } = pick.action
@@ -279,7 +279,7 @@ impl<'a> StepReader<'a> {
                 let given = [pick.is_some(), place.is_some(), goal.is_some(), transfer.is_some(), steps.is_some()];
                 let count = given.iter().filter(|x| **x).count();
                 let message = format!(
-                    "a step needs exactly one of `pick`, `place`, `move`, `transfer` and `steps`, this has {count}"
+                    "a step needs exactly one of `pick`, `place`, `move`, `transfer` and `steps`, but has {count}"
                 );
                 let help = "pick = \"NAME\", place = { at = [x, y] }, move = { joints = [q1, q2] }, \
                             transfer = { objects = \"NAME\", to = \"PALLET\" }, or [[step.steps]]";
@@ -308,12 +308,12 @@ impl<'a> StepReader<'a> {
             let at = step.at.as_ref().or(step.window.as_ref()).map(Spanned::span);
             refuse(
                 at,
-                "of all steps only a pick has `at` and `window`",
-                "remove the key; a place has its own: place = { at = [x, y] }",
+                "only a pick has `at` and `window`",
+                "remove the key; for a place write place = { at = [x, y] }",
             )?;
             let at = step.supports.as_ref().map(Spanned::span);
-            let help = "those of a place stand in it: place = { at = [x, y], supports = [\"NAME\"] }";
-            refuse(at, "of all steps only a pick has `supports`", help)?;
+            let help = "for a place write place = { at = [x, y], supports = [\"NAME\"] }";
+            refuse(at, "only a pick has `supports`", help)?;
         }
         if step.steps.is_none() {
             let help = "make it a group: [[step]] with these keys, then [[step.steps]] for each of its steps";
@@ -344,7 +344,7 @@ impl<'a> StepReader<'a> {
             Err(self.reader.source.diagnostic_at(at, message).help(help))
         };
         let Some(course) = &object.course else {
-            let message = format!("object \"{name}\" does not move: it is picked where it lies, at any time");
+            let message = format!("object \"{name}\" does not move, so its pick has no place and no time");
             return refuse(said, message, "remove `at` and `window`, or give the object a motion");
         };
         let mut times = vec![[0.0, LATEST]];
@@ -359,7 +359,7 @@ impl<'a> StepReader<'a> {
         if let Some(window) = &step.window {
             let [from, to] = self.reader.two(window, "window")?;
             if !(0.0 <= from && from <= to) {
-                let message = format!("window [{from}, {to}] is none");
+                let message = format!("window [{from}, {to}] is invalid");
                 return refuse(
                     window.span(),
                     message,
@@ -386,7 +386,7 @@ impl<'a> StepReader<'a> {
             (None, Some(name)) => (self.pallets.place(self.reader, name)?, name.span()),
             (point, _) => {
                 let found = if point.is_some() { "both" } else { "neither" };
-                let message = format!("a place needs either `at` or `on`, this has {found}");
+                let message = format!("a place needs either `at` or `on`, but has {found}");
                 let help = "place = { at = [x, y] }, or place = { on = \"PALLET 1,1\" }";
                 return Err(self.reader.source.diagnostic_at(at, message).help(help));
             }
@@ -408,7 +408,7 @@ impl<'a> StepReader<'a> {
         if family.len() != pallet.count() {
             let (count, places) = (family.len(), pallet.count());
             let message = format!(
-                "there are {count} objects \"{}\", and pallet \"{}\" has {places} places",
+                "there are {count} objects \"{}\", but pallet \"{}\" has {places} places",
                 objects.get_ref(),
                 to.get_ref()
             );
@@ -420,8 +420,7 @@ impl<'a> StepReader<'a> {
         let pair = |(object, (_, pose)): (usize, (String, Pose))| {
             let Movable { grasp, supports: resting, .. } = &self.objects[object];
             let pick = LeafAction::Pick { object, grasp: *grasp, supports: resting.clone(), when: None };
-            let at = pose.translation.vector.into();
-            let place = LeafAction::Place { at, angle: angle.clone(), supports: supports.clone() };
+            let place = LeafAction::Place { at: pose.translation, angle: angle.clone(), supports: supports.clone() };
             [(objects.span(), pick), (to.span(), place)]
         };
         Ok(family.zip(pallet.places()).flat_map(pair).collect())
@@ -432,7 +431,7 @@ impl<'a> StepReader<'a> {
         if let Some(number) = speed {
             pace.speed = self.reader.source.finite(number, "speed")?;
             if !(pace.speed > 0.0 && pace.speed <= 1.0) {
-                let message = format!("speed must be more than 0 and at most 1, is {}", pace.speed);
+                let message = format!("speed must be greater than 0 and at most 1, is {}", pace.speed);
                 let help = "it is a share of the joints' top speeds";
                 return Err(self.reader.source.diagnostic_at(number.span(), message).help(help));
             }

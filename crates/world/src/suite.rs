@@ -93,7 +93,7 @@ struct Pair {
 pub fn load_suite(place: &Path) -> Result<Suite, InputError> {
     let manifest = if place.is_dir() { place.join(MANIFEST) } else { place.to_owned() };
     if place.is_dir() && !manifest.is_file() {
-        let message = format!("this folder has no {MANIFEST}, which would say which robot goes with which world");
+        let message = format!("this folder has no {MANIFEST}, which assigns robots to worlds");
         let help = format!(
             "write one: a [[problem]] with robot = \"arm.urdf\" and world = \"world.toml\" for each; or give a robot for \
              all worlds: cplan compare URDF --suite {}",
@@ -160,7 +160,7 @@ pub fn load_folder(robot: impl Into<RobotFile>, folder: &Path) -> Result<Suite, 
     });
     worlds.sort();
     if worlds.is_empty() {
-        return Err(whole("there is no world in it".into()).help("give a folder with world files (.toml)").into());
+        return Err(whole("the folder contains no world".into()).help("give a folder with world files (.toml)").into());
     }
     let robot = robot.into();
     let pairs = worlds.into_iter().map(|world| Pair { name: None, robot: robot.clone(), world }).collect();
@@ -177,7 +177,9 @@ fn read(name: String, pairs: Vec<Pair>, mut refused: Vec<Refused>) -> Result<Sui
         files.extend(scene.iter().flat_map(LoadedScene::files));
         match scene {
             Ok(scene) if scene.has_steps() => left_out.push(LeftOut { world, why: "it has steps, not a goal" }),
-            Ok(scene) if scene.has_movers() => left_out.push(LeftOut { world, why: "something moves in it" }),
+            Ok(scene) if scene.has_movers() => {
+                left_out.push(LeftOut { world, why: "it has moving obstacles or objects" })
+            }
             Ok(scene) => {
                 let name = name.unwrap_or_else(|| stem(&world));
                 let name = distinct(&name, &stem(&robot.path), |name| members.iter().any(|member| member.name == name));
@@ -190,9 +192,9 @@ fn read(name: String, pairs: Vec<Pair>, mut refused: Vec<Refused>) -> Result<Sui
         all_of(&refused)?;
     }
     if let (true, Some(LeftOut { world, why })) = (members.is_empty(), left_out.first()) {
-        let message = format!("no world of the suite is left to compare on: this one is left out since {why}");
+        let message = format!("no world of the suite is left to compare: this one is left out because {why}");
         return Err(Diagnostic::new(world.display().to_string(), message)
-            .help("planners are compared on what stands and has a [goal]: put one in the place of steps, and remove motions")
+            .help("comparisons need worlds with static obstacles and a [goal]: replace steps by a goal, and remove motions")
             .into());
     }
     Ok(Suite { name, members, left_out, refused, files })

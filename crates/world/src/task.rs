@@ -77,7 +77,7 @@ impl LoadedScene {
         notes.extend(note.flatten());
         let task = Task { arm: scene.arm().clone(), workspace, objects: world.objects, start, items, wrist, stroke };
         if let Some((mover, why)) = task.unmoved() {
-            let help = "remove its motion, or what does not go with it";
+            let help = "remove its motion, or the feature that needs static obstacles";
             return Err(world.source.diagnostic(format!("\"{mover}\" moves, and {why}")).help(help).into());
         }
         Ok(LoadedTask { task, scene, robot, notes })
@@ -126,7 +126,7 @@ impl LoadedScene {
         }
         let by = Payload::penetration_allowance(arm);
         let message = format!(
-            "{step}: object \"{}\" is too thin to rest on anything: nothing of it lies {by:.2e} m deep, which is what it may press into its supports",
+            "{step}: object \"{}\" is too thin to rest on a support: it may press {by:.2e} m into its supports, and no part of it is that thick",
             object.name
         );
         Some((message, "make it thicker, or remove its supports".into()))

@@ -6,6 +6,7 @@ use cplan_core::space::Configuration;
 use cplan_dynamics::keep_efforts;
 use cplan_geometry::Point;
 use cplan_robot::{Diagnostic, InputError, LARGEST};
+use std::fmt;
 use std::str::FromStr;
 
 /// Values on the command line that override the world file.
@@ -44,7 +45,7 @@ impl LoadedScene {
         if self.scene.arm().dynamics.is_none() {
             let why = self.robot.no_dynamics.as_deref().unwrap_or("the arm has no masses");
             return Err(Diagnostic::new("--torque", why)
-                .help("`cplan inspect` tells what the robot's file has")
+                .help("`cplan inspect` reports the masses in the robot's file")
                 .into());
         }
         keep_efforts(self.scene.arm_mut());
@@ -91,6 +92,14 @@ impl JointValues {
             (number, false) => format!("{number:?}"),
         };
         format!("[{}, {}]", value(0), value(1))
+    }
+}
+
+/// Displays the values as in an option: `-0.9,20deg`.
+impl fmt::Display for JointValues {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [first, second] = [0, 1].map(|i| if self.degrees[i] { "deg" } else { "" });
+        write!(f, "{}{first},{}{second}", self.numbers[0], self.numbers[1])
     }
 }
 
@@ -172,6 +181,7 @@ mod tests {
         let q = "-0.9,4e-1".parse::<JointValues>().unwrap().resolve(&joints(), "--start").unwrap();
         assert_eq!(q, Configuration::new(-0.9, 0.4));
         assert_eq!("10 deg,1".parse::<JointValues>().unwrap().degrees, [true, false]);
+        assert_eq!("10 deg,-1.0".parse::<JointValues>().unwrap().to_string(), "10deg,-1");
     }
 
     #[test]

@@ -173,11 +173,7 @@ pub(super) fn read(source: Source) -> Result<World, InputError> {
     let file: WorldFile = toml::from_str(source.text()).map_err(|error| match error.span() {
         Some(span) => {
             let is_unknown = error.message().contains("unknown field");
-            let help = if is_unknown {
-                "use a key that is known, or remove this one"
-            } else {
-                help(source.text(), span.start)
-            };
+            let help = if is_unknown { "use a known key, or remove this one" } else { help(source.text(), span.start) };
             source.diagnostic_at(span, in_toml_words(error.message())).help(help)
         }
         None => source.diagnostic(in_toml_words(error.message())).help(help("", 0)),
@@ -217,7 +213,7 @@ pub(super) fn read(source: Source) -> Result<World, InputError> {
     let place = reader.pose(file.robot.at.as_ref(), file.robot.angle.as_ref(), "[robot]")?;
     let mut notes = reader.taken.lines();
     notes.extend(place.as_ref().map(|place| {
-        let (at, angle) = (place.translation.vector, place.rotation.angle());
+        let (at, angle) = (place.translation, place.rotation.angle());
         format!("robot: its root frame stands at ({}, {}) m in the world, turned by {angle} rad", at.x, at.y)
     }));
     Ok(World {
@@ -249,7 +245,7 @@ fn steps(
 ) -> Result<Option<Sequence>, Diagnostic> {
     if file.step.is_empty() {
         return file.task.as_ref().map_or(Ok(None), |task| {
-            let diagnostic = reader.source.diagnostic_at(task.span(), "[task] is about steps, and there are none");
+            let diagnostic = reader.source.diagnostic_at(task.span(), "[task] needs steps, but there are none");
             Err(diagnostic.help("give the world a [[step]], or remove [task]"))
         });
     }

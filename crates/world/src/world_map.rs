@@ -54,14 +54,14 @@ pub(super) fn read(reader: &Reader, table: &MapTable) -> Result<MapContent, Inpu
     let scale = table.scale.as_ref().map(|s| scale(reader, s)).transpose()?.unwrap_or(MILLIMETRE);
     let offset = table.offset.as_ref().map(|o| reader.two(o, "map offset")).transpose()?.unwrap_or_default();
     let heights = reader.heights(table.height.as_ref(), "map")?;
-    let place = |p: Point| Point::from(p.coords * scale + Vector::from(offset));
+    let place = |p: Point| p * scale + Vector::from(offset);
     let within = |bounds: [Point; 2], file: &Spanned<String>| {
-        let farthest = bounds.map(place).iter().map(|p| p.coords.amax()).fold(0.0, f64::max);
+        let farthest = bounds.map(place).iter().map(|p| p.amax()).fold(0.0, f64::max);
         if farthest <= LARGEST {
             return Ok(());
         }
-        let message = format!("with {scale} m a unit the map reaches {farthest:e} m (at most {LARGEST:e})");
-        Err(reader.source.diagnostic_at(file.span(), message).help("set `scale` in [map], metres a unit of the file"))
+        let message = format!("with {scale} m per unit the map extends to {farthest:e} m (at most {LARGEST:e})");
+        Err(reader.source.diagnostic_at(file.span(), message).help("set `scale` in [map], metres per unit of the file"))
     };
 
     let path = reader.beside(&table.file, "map")?;
@@ -69,7 +69,7 @@ pub(super) fn read(reader: &Reader, table: &MapTable) -> Result<MapContent, Inpu
     within(map.bounds, &table.file)?;
     if map.lines.len() > MOST_PIECES {
         let message = format!("{} lines are too many (at most {MOST_PIECES})", map.lines.len());
-        return Err(reader.source.diagnostic_at(table.file.span(), message).help("thin the map out").into());
+        return Err(reader.source.diagnostic_at(table.file.span(), message).help("simplify the map").into());
     }
     let name = stem(&path);
     let mut obstacles = Vec::new();
@@ -107,11 +107,11 @@ pub(super) fn read(reader: &Reader, table: &MapTable) -> Result<MapContent, Inpu
             let name = format!("{name}, rectangle {}", i + 1);
             let corners = [a, Point::new(b.x, a.y), b, Point::new(a.x, b.y)].map(place);
             let polygon = SimplePolygon::new(corners.to_vec()).map_err(|diagnostic| {
-                let message = format!("preference \"{name}\" is no rectangle with {scale} m a unit: {diagnostic}");
+                let message = format!("preference \"{name}\" is not a rectangle with {scale} m per unit: {diagnostic}");
                 reader
                     .source
                     .diagnostic_at(file.span(), message)
-                    .help("set `scale` in [map], metres a unit of the file")
+                    .help("set `scale` in [map], metres per unit of the file")
             })?;
             content.preferences.push(Preference { name, region: Region::Tip(polygon), epsilon, direction: None });
         }
@@ -134,6 +134,6 @@ fn scale(reader: &Reader, number: &Number) -> Result<f64, InputError> {
     Err(reader
         .source
         .diagnostic_at(number.span(), message)
-        .help("metres a unit of the file: 0.001 for millimetres")
+        .help("metres per unit of the file: 0.001 for millimetres")
         .into())
 }

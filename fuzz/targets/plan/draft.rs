@@ -53,7 +53,7 @@ fn vector((x, y): (i8, i8), scale: f64) -> Vector {
 impl ShapeDraft {
     fn shape(&self, scale: f64) -> Convex {
         let count = 1 + usize::from(self.count) % 5;
-        let points: Vec<Point> = self.corners[..count].iter().map(|&p| Point::from(vector(p, scale))).collect();
+        let points: Vec<Point> = self.corners[..count].iter().map(|&p| vector(p, scale)).collect();
         let radius = if self.radius < 128 { 0.0 } else { f64::from(self.radius - 128) / 512.0 };
         Convex::new(hull(&points), radius).expect("a hull is convex")
     }
@@ -104,7 +104,7 @@ impl Draft {
             name: "draft".into(),
             joints,
             links: [link(&self.links[0], "first"), link(&self.links[1], "second")],
-            base: Point::from(vector(self.base, 0.125)),
+            base: vector(self.base, 0.125),
             offset: vector(self.offset, 0.125),
             tip: Point::new(0.5, 0.0),
             tip_name: "tip".into(),

@@ -24,35 +24,47 @@ use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 use turns::Turns;
 
-/// Answer problems as JSON lines, a result a line: one process for thousands.
+/// Plan for many problems: JSON lines in, JSON lines out.
 #[derive(Debug, Args)]
 #[command(after_help = "\
-A line is an object: `urdf` (a path; of xacro with `xacro_args`, an object) or `urdf_text`; `world` (a path, or the keys of a world file as an object) or `world_text`
-(TOML); `options`, the words of the main job, as a list or by name; and `id`, anything, which comes back. Such as
-  {\"id\": 7, \"urdf\": \"arm.urdf\", \"world\": \"world.toml\", \"options\": [\"--planner=wavefront\", \"--cells=80\"]}
-  {\"urdf\": \"arm.urdf\", \"world\": \"world.toml\", \"options\": {\"goal\": [1.2, -0.3], \"clearance\": 0.01}}
-Each line is answered by one, in the same order, as soon as it and those before it are done: by the main job's result, or by an
-error. The same input gives the same output, whatever the --jobs. Robots that come again are read once; blank lines are skipped.
-With --time SECONDS a problem that takes longer is answered by `unknown` with that reason, and those after it do not wait for it.
+Each line of the input is a JSON object with these members:
+  urdf         path of the robot; for xacro with xacro_args, an object
+  urdf_text    text of the URDF, instead of urdf
+  world        path of the world file, or its content as an object
+  world_text   text of the world file (TOML), instead of world
+  options      options of `cplan plan`, as a list or as an object
+  id           any value; the result repeats it
+
+For example:
+  {\"id\": 7, \"urdf\": \"arm.urdf\", \"world\": \"world.toml\",
+   \"options\": [\"--planner=wavefront\", \"--cells=80\"]}
+  {\"urdf\": \"arm.urdf\", \"world\": \"world.toml\",
+   \"options\": {\"goal\": [1.2, -0.3], \"clearance\": 0.01}}
+(each on one line). Each line gives one line of output, in the same order: the
+result of `cplan plan`, or an error. Output does not depend on --jobs. A robot
+that occurs again is read once. Blank lines are skipped. With --time SECONDS, a
+problem that takes longer gets the status `unknown` with that reason.
 
 Examples:
   cplan batch problems.jsonl
-  cplan batch problems.jsonl --jobs 2 --fields status,length,clearance > rows.jsonl
+  cplan batch problems.jsonl --jobs 2 \\
+    --fields status,length,clearance > rows.jsonl
   cplan batch problems.jsonl --time 10
 
-Exit codes: 0 every line is answered, whatever the answers; 1 I/O, or no line is a JSON object; 2 wrong command line.")]
+Exit codes: 0 every line has its result, of any status; 1 I/O, or no line is a
+JSON object; 2 wrong command line.")]
 pub struct BatchArgs {
-    /// Problems, a JSON object a line; standard input, if none is named.
+    /// File with one problem per line, as a JSON object [default: standard input].
     #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub problems: Option<PathBuf>,
-    /// Problems that are worked on at the same time.
+    /// Number of problems planned at the same time.
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub jobs: u16,
-    /// Fields of results to write, such as status,length; all, if none is named.
+    /// Fields of the results to write, such as status,length [default: all].
     #[arg(long, value_name = "NAMES", value_delimiter = ',', hide_possible_values = true,
         value_parser = PossibleValuesParser::new(Plan::FIELDS))]
     pub fields: Vec<String>,
-    /// Time for each problem [default: as long as it takes].
+    /// Time limit for each problem, seconds [default: no limit].
     #[arg(long, value_name = "SECONDS", value_parser = time_limit, allow_hyphen_values = true)]
     pub time: Option<f64>,
 }
@@ -101,8 +113,8 @@ pub fn run(args: &BatchArgs) -> Result<u8, Failure> {
     warnings.iter().for_each(|warning| sinks::say(&format!("warning: {warning}")));
     let count = turns.end()?;
     if count.lines > 0 && count.objects == 0 {
-        let cure = r#"give each problem a line, such as {"urdf": "arm.urdf", "world": "world.toml"}"#;
-        return Err(Failure::Option(format!("{input}: no line is a JSON object\n  cure: {cure}")));
+        let cure = r#"write one problem per line, such as {"urdf": "arm.urdf", "world": "world.toml"}"#;
+        return Err(Failure::Option(format!("{input}: no line is a JSON object\n  hint: {cure}")));
     }
     Ok(DONE)
 }
@@ -110,12 +122,12 @@ pub fn run(args: &BatchArgs) -> Result<u8, Failure> {
 fn opened(args: &BatchArgs) -> Result<Box<dyn Read + Send>, Failure> {
     let Some(path) = &args.problems else { return Ok(Box::new(io::stdin())) };
     if path.is_dir() {
-        let cure = "name a file of JSON lines, or send the lines of several to stdin";
-        return Err(Failure::Option(format!("{}: cannot be read: it is a folder\n  cure: {cure}", path.display())));
+        let cure = "give a file of JSON lines, or send the lines of several files to stdin";
+        return Err(Failure::Option(format!("{}: cannot be read: it is a folder\n  hint: {cure}", path.display())));
     }
     let refused = |error| {
         let cure = "check the path and the file's permissions";
-        Failure::Option(format!("{}: cannot be read: {error}\n  cure: {cure}", path.display()))
+        Failure::Option(format!("{}: cannot be read: {error}\n  hint: {cure}", path.display()))
     };
     Ok(Box::new(File::open(path).map_err(refused)?))
 }

@@ -106,17 +106,19 @@ impl Reader {
             Ok(keys) => keys,
             Err(error) => {
                 let failure = match error.classify() {
-                    Category::Data => refused("this is no JSON object".into(), "give it `urdf` and `world`"),
-                    _ => refused(format!("this is no JSON: {}", said(error)), "give each problem a line of JSON"),
+                    Category::Data => refused("this is not a JSON object".into(), "give it `urdf` and `world`"),
+                    _ => {
+                        refused(format!("this is not JSON: {}", said(error)), "write each problem as one line of JSON")
+                    }
                 };
                 return Answer { id: None, is_object: false, plan: Err(failure) };
             }
         };
         let given = serde_json::from_slice(&line.text)
-            .map_err(|error| refused(said(error), "`cplan batch --help` tells what a line can say"));
+            .map_err(|error| refused(said(error), "`cplan batch --help` describes the members of a line"));
         // A failure of one problem does not affect the others, which are answered, too.
         let planned = given.and_then(|given| {
-            let help = "report it with this line; the others are answered";
+            let help = "please report it with this line; the other lines are answered";
             caught(|| self.in_time(given, &refused, limit)).unwrap_or_else(|why| Err(refused(why, help)))
         });
         Answer { id: keys.remove("id"), is_object: true, plan: planned }
@@ -136,8 +138,7 @@ impl Reader {
     }
 
     fn plan(&mut self, given: Given, refused: &dyn Fn(String, &str) -> Failure) -> Result<Planned, Failure> {
-        let one =
-            |what: &str| refused(format!("give `{what}` or `{what}_text`, one of them"), "see `cplan batch --help`");
+        let one = |what: &str| refused(format!("give either `{what}` or `{what}_text`"), "see `cplan batch --help`");
         let robot = match (given.urdf, given.urdf_text) {
             (Some(path), None) => Named::Robot(RobotFile { path, xacro_args: given.xacro_args.into_iter().collect() }),
             (None, Some(text)) => Named::Text(text),
@@ -146,7 +147,7 @@ impl Reader {
         let world = match (given.world, given.world_text) {
             (Some(World::Path(path)), None) => Named::File(path),
             (Some(World::Keys(keys)), None) => Named::Text(toml::to_string(&keys).map_err(|error| {
-                refused(format!("`world` cannot be written as TOML: {error}"), "leave out what is null")
+                refused(format!("`world` cannot be written as TOML: {error}"), "remove null values")
             })?),
             (None, Some(text)) => Named::Text(text),
             _ => return Err(one("world")),

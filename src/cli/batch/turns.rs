@@ -111,13 +111,13 @@ impl<R: BufRead, W: Write> Turns<R, W> {
             let place = || format!("{}: line {number}", input.name);
             match read {
                 Err(error) => {
-                    let cure = "look whether it is a file of text, and whole";
-                    return Err(Failure::Option(format!("{} cannot be read: {error}\n  cure: {cure}", place())));
+                    let cure = "check that it is a complete text file";
+                    return Err(Failure::Option(format!("{} cannot be read: {error}\n  hint: {cure}", place())));
                 }
                 Ok(0) => return Ok(None),
                 Ok(bytes) if bytes as u64 > LONGEST => {
                     let message = format!("{} is longer than {} MiB", place(), LONGEST >> 20);
-                    return Err(Failure::Option(format!("{message}\n  cure: give each problem a line of its own")));
+                    return Err(Failure::Option(format!("{message}\n  hint: write each problem on its own line")));
                 }
                 Ok(_) if text.trim_ascii().is_empty() => (),
                 Ok(_) => {

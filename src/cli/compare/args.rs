@@ -1,6 +1,7 @@
 //! Arguments of `compare`.
 
 use crate::cli::files::XacroArgs;
+use crate::cli::headings::{COMPARISON, OUTPUT};
 use crate::cli::query_args::QueryArgs;
 use crate::cli::variant::Variant;
 use crate::engine::Method;
@@ -11,88 +12,98 @@ use std::path::PathBuf;
 /// Greatest number of pairs: their results still fit into memory.
 const MOST_QUERIES: i64 = 100_000;
 
-/// Run every planner on the same problem, or on many, side by side.
+/// Run all planners on one problem or on many, side by side.
 #[derive(Debug, Args)]
 #[command(group = ArgGroup::new("format").args(["wide", "json", "csv", "markdown"]))]
 #[command(after_help = "\
 Examples:
-  cplan compare robots/planar_2r.urdf workspaces/shelf.toml --picture paths.svg
-  cplan compare robots/planar_2r.urdf workspaces/shelf.toml --queries 200 --output report.html
-  cplan compare --suite workspaces --output report.html --output runs.csv --output arena.log
-  cplan compare robots/scara.urdf --suite my_worlds --planner visibility --planner wavefront
+  cplan compare robots/planar_2r.urdf workspaces/shelf.toml \\
+    --picture paths.svg
+  cplan compare robots/planar_2r.urdf workspaces/shelf.toml --queries 200 \\
+    --output report.html
+  cplan compare --suite workspaces --output report.html --output runs.csv \\
+    --output arena.log
+  cplan compare robots/scara.urdf --suite my_worlds \\
+    --planner visibility --planner wavefront
 
-A suite is a folder with a suite.toml, which names a robot and a world for each problem:
+A suite is a folder with a suite.toml, which names a robot and a world for each
+problem:
   [[problem]]
   robot = \"../robots/scara.urdf\"   # relative to suite.toml
   world = \"tray.toml\"
-Worlds with steps are left out: only the main job plans tasks.
+Worlds with steps are left out: only `cplan plan` plans tasks.
 
-Each run is a whole one, from the problem to a certificate or a proof: maps are built anew for each query, and their time
-is told apart (build, query, certify). Length over the proven optimum is measured against a lower bound that no motion is
-below. Memory is what a run allocates at the same time, at the most.
+Each run is complete, from the problem to a certificate or a proof. A run builds
+its own maps; their time is reported separately (build, query, certify). The
+table compares each length with a proven lower bound on the length of all
+motions. Memory is the peak of a run's allocations.
 
-Exit codes: of one problem, that of the best answer (0 found, 3 proven that there is no path, 4 unknown); of several,
-0 if all ran; 1 bad input, planners that contradict each other, or (after all others ran, and are reported) problems of a suite
-that cannot be read or whose start or goal is blocked; 2 wrong command line.")]
+Exit codes for one problem: 0 found, 3 infeasible: proven that there is no path,
+4 unknown, by the best answer. For several: 0 all runs were made. For both: 1 bad
+input, contradicting planners, or, after all other runs, problems of a suite that
+cannot be read or whose start or goal is blocked; 2 wrong command line.")]
 pub struct CompareArgs {
-    /// The arm. With --suite: the arm for all worlds of the folder.
+    /// Robot: a URDF or xacro file. With --suite: the robot for all worlds of the folder.
     #[arg(value_name = "URDF", required_unless_present = "suite")]
     pub urdf: Option<PathBuf>,
-    /// The workspace, TOML.
+    /// World file (TOML).
     #[arg(value_name = "WORLD", required_unless_present = "suite", conflicts_with = "suite")]
     pub world: Option<PathBuf>,
     #[command(flatten)]
     pub xacro: XacroArgs,
-    /// Many problems: those that DIR/suite.toml lists; or, after an URDF, all worlds of DIR with that robot.
+    /// Folder with many problems: those of its suite.toml or, if a URDF is given, all its worlds with that robot.
     #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath, conflicts_with_all = ["start", "goal", "goal_tip"])]
+    #[arg(help_heading = COMPARISON)]
     pub suite: Option<PathBuf>,
-    /// Random start-goal pairs, so many in each world, in place of the world's own: independent, uniform over the free
-    /// configurations.
+    /// Number of random start-goal pairs in each world, instead of the world's own pair. The pairs are independent and
+    /// uniform over the free configurations.
     #[arg(long, value_name = "N", conflicts_with_all = ["start", "goal", "goal_tip"],
-          value_parser = clap::value_parser!(u32).range(1..=MOST_QUERIES))]
+          value_parser = clap::value_parser!(u32).range(1..=MOST_QUERIES), help_heading = COMPARISON)]
     pub queries: Option<u32>,
-    /// Number that the random pairs follow from: the same number gives the same pairs, in this and all later versions, and
-    /// fewer queries are the first of more.
-    #[arg(long, value_name = "S", default_value_t = 1, requires = "queries")]
+    /// Seed of the random pairs. The same seed gives the same pairs in this and all later versions; fewer queries are the
+    /// first ones of more.
+    #[arg(long, value_name = "S", default_value_t = 1, requires = "queries", help_heading = COMPARISON)]
     pub seed: u64,
-    /// Runs at the same time. More than one disturb each other's times, and their memory is not told apart.
+    /// Number of runs at the same time. Several runs disturb each other's times; memory is reported only with --jobs 1.
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=1024))]
+    #[arg(help_heading = COMPARISON)]
     pub jobs: u16,
+    /// Run only this planner; can be repeated. Each row is about the planner's default path. For planners with two kinds of
+    /// paths (see --path in `cplan help planners`), length and clearance of both are listed.
+    #[arg(long, value_parser = word::<Method>(), value_name = "NAME", help_heading = COMPARISON)]
+    pub planner: Vec<Method>,
+    /// Add a row for a planner with its own options, such as --with "harmonic --field oriented --epsilon 0.5
+    /// --direction 0,-1" or --with "trapezoid --path own"; can be repeated.
+    #[arg(long, value_name = "PLANNER OPTIONS", value_parser = Variant::parse, help_heading = COMPARISON)]
+    pub with: Vec<Variant>,
     #[command(flatten)]
     pub query: QueryArgs,
     #[command(flatten)]
     pub effort: EffortArgs,
     #[command(flatten)]
     pub motion: MotionArgs,
-    /// Only these planners; can be repeated. Each row is about the planner's usual path; of those that have two (see --path of
-    /// the main job) length and clearance of both are listed.
-    #[arg(long, value_parser = word::<Method>(), value_name = "NAME")]
-    pub planner: Vec<Method>,
-    /// One more row: a planner with options of its own, such as --with "harmonic --field oriented --epsilon 0.5
-    /// --direction 0,-1" or --with "trapezoid --path own"; can be repeated.
-    #[arg(long, value_name = "PLANNER OPTIONS", value_parser = Variant::parse)]
-    pub with: Vec<Variant>,
-    /// Print tables with all there is, however wide: also the size of what was searched, the time of each stage, both paths.
-    #[arg(long)]
+    /// Print tables with all columns, wider than 80 characters: also the size of the searched space, the time of each
+    /// stage, and both paths.
+    #[arg(long, help_heading = OUTPUT)]
     pub wide: bool,
-    /// Print the results as JSON: of several problems all runs, distributions and the summary.
-    #[arg(long)]
+    /// Print the results as JSON. For several problems: all runs, distributions and the summary.
+    #[arg(long, help_heading = OUTPUT)]
     pub json: bool,
-    /// Print the results as CSV, a line a run.
-    #[arg(long)]
+    /// Print the results as CSV, one line per run.
+    #[arg(long, help_heading = OUTPUT)]
     pub csv: bool,
     /// Print the tables as Markdown.
-    #[arg(long)]
+    #[arg(long, help_heading = OUTPUT)]
     pub markdown: bool,
     /// Write the results: .md, .csv or .json as above, .html (one page with charts and paths), .log (for OMPL's Planner
     /// Arena). Can be repeated.
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", help_heading = OUTPUT)]
     pub output: Vec<PathBuf>,
-    /// Draw all paths in one picture: .svg or .png; of one problem only. Can be repeated.
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["suite", "queries"])]
+    /// Draw all paths in one picture: .svg or .png. Only for one problem. Can be repeated.
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["suite", "queries"], help_heading = OUTPUT)]
     pub picture: Vec<PathBuf>,
-    /// No progress.
-    #[arg(long)]
+    /// Print no progress.
+    #[arg(long, help_heading = OUTPUT)]
     pub quiet: bool,
 }
 

@@ -86,7 +86,7 @@ impl Cases {
 
     fn of_suite(suite: Suite, args: &CompareArgs) -> Result<Self, Failure> {
         let left_out = |LeftOut { world, why }: &LeftOut| {
-            format!("{} is left out: {why}, and only `cplan ROBOT WORLD` plans that", world.display())
+            format!("{} is left out: {why}; only `cplan plan` plans such worlds", world.display())
         };
         let left_out = suite.left_out.iter().map(left_out).collect();
         let mut warnings: Vec<String> = Vec::new();
@@ -96,7 +96,7 @@ impl Cases {
             }
         }
         for member in &suite.members {
-            member.scene.require_standing("planners are compared among what stands")?;
+            member.scene.require_standing("comparisons are for worlds without moving obstacles")?;
         }
         let (mut name, files) = (suite.name.clone(), suite.files.clone());
         let overrides = args.query.overrides();
@@ -128,7 +128,7 @@ impl Cases {
         }
         let title = match sampling {
             Some(Sampling { queries, seed }) if args.suite.is_some() => {
-                format!("{name}: {queries} random queries a world, seed {seed}")
+                format!("{name}: {queries} random queries per world, seed {seed}")
             }
             Some(Sampling { queries, seed }) => format!("{name}: {queries} random queries, seed {seed}"),
             None => name,

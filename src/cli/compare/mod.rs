@@ -21,7 +21,7 @@ use super::memory::MemoryMeter;
 use super::program::Program;
 use super::progress::Progress;
 use super::sinks::{self, Sink};
-use super::words::told;
+use super::words::message;
 use crate::engine::{Method, Options, Planner};
 use crate::input::LoadedScene;
 use crate::motion::write_whole_set;
@@ -45,7 +45,7 @@ pub fn run(args: &CompareArgs, program: &Program) -> Result<u8, Failure> {
     sinks::spare_inputs(files(), &cases.files)?;
     cases.warnings.iter().for_each(|w| sinks::say(&format!("warning: {w}")));
     for Refusal { problem, reason, .. } in &cases.refused {
-        sinks::say(&format!("warning: {problem} is not run: {reason}"));
+        sinks::say(&format!("warning: {problem} is skipped: {reason}"));
     }
     if !args.quiet {
         cases.left_out.iter().for_each(|line| sinks::say(&format!("note: {line}")));
@@ -82,9 +82,10 @@ pub fn run(args: &CompareArgs, program: &Program) -> Result<u8, Failure> {
 /// Words that make no sense, and defects of start and goal.
 pub fn compare_in(scene: LoadedScene, words: &[String]) -> Result<Study, Failure> {
     let words = ["URDF", "WORLD", "--quiet"].into_iter().chain(words.iter().map(String::as_str));
-    let CompareWords { args } = CompareWords::try_parse_from(words).map_err(|error| Failure::Usage(told(&error)))?;
+    let CompareWords { args } = CompareWords::try_parse_from(words).map_err(|error| Failure::Usage(message(&error)))?;
     if args.json || args.csv || args.markdown || !args.output.is_empty() || !args.picture.is_empty() {
-        let message = "what is printed, written and drawn is for the program to say, not for callers of the library";
+        let message =
+            "options for printed output, files and pictures are for the program, not for callers of the library";
         return Err(Failure::Usage(message.into()));
     }
     Ok(measured(&args, &Cases::of_scene(scene, &args)?, None)?.0)

@@ -184,7 +184,9 @@ pub fn length_unit(problem: &MotionProblem) -> String {
 /// Prints the reason if memory cannot be measured.
 pub fn meter(meter: Option<MemoryMeter>, jobs: usize, quiet: bool) -> Option<MemoryMeter> {
     if jobs > 1 && meter.is_some() && !quiet {
-        sinks::say("note: memory is told for --jobs 1 only: what several runs allocate at a time cannot be told apart");
+        sinks::say(
+            "note: memory is reported only with --jobs 1: the allocations of simultaneous runs cannot be separated",
+        );
     }
     meter.filter(|_| jobs == 1)
 }

@@ -19,12 +19,12 @@ pub(super) fn note(taken: &[Taken], notes: &mut Notes) {
         let option = word(Path::new(name));
         if border == Some(i) {
             let message = format!(
-                "\"{name}\" is solid and lies around all else: --walls {option} makes a wall of it, --without {option} leaves it out"
+                "\"{name}\" is solid and encloses everything else: --walls {option} makes it a wall, --without {option} leaves it out"
             );
             notes.add(message, shape.line);
         } else if holds(shape, [0.0, 0.0]) {
             let message = format!(
-                "\"{name}\" lies over (0, 0), where the arm's base is: --without {option} leaves it out, --move says where the drawing lies"
+                "\"{name}\" covers (0, 0), the arm's base: --without {option} leaves it out, --move shifts the drawing"
             );
             notes.add(message, shape.line);
         }
@@ -35,7 +35,7 @@ pub(super) fn note(taken: &[Taken], notes: &mut Notes) {
     let width = all.map(|(low, high)| high - low).into_iter().fold(0.0, f64::max);
     if !taken.is_empty() && !(USUAL[0]..=USUAL[1]).contains(&width) {
         let width = if width < 1.0 { format!("{:.3} mm", width * 1e3) } else { format!("{width:.0} m") };
-        notes.add(format!("all of it is {width} wide: if that is not meant, say the drawing's --unit"), None);
+        notes.add(format!("the whole drawing is {width} wide; if that is wrong, give its --unit"), None);
     }
 }
 

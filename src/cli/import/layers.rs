@@ -26,7 +26,7 @@ impl FromStr for LayerHeight {
         let height = [low, high].map(|number| number.trim().parse::<f64>().ok().filter(|x| x.abs() <= LARGEST));
         match height {
             [Some(low), Some(high)] if low <= high => Ok(Self { name: name.to_owned(), height: [low, high] }),
-            [Some(_), Some(_)] => Err("the lower end comes first".into()),
+            [Some(_), Some(_)] => Err("write the lower end first".into()),
             _ => Err(FORM.into()),
         }
     }
@@ -68,11 +68,11 @@ impl Layers<'_> {
         let more = known.len().saturating_sub(SHOWN);
         let known: Vec<String> = known.into_iter().take(SHOWN).map(|name| format!("\"{name}\"")).collect();
         let known = match (known.is_empty(), more) {
-            (true, _) => "nothing that is taken of the drawing has a name or a layer".to_owned(),
-            (false, 0) => format!("the drawing has {}, and the names that the world gives", known.join(", ")),
+            (true, _) => "no imported part of the drawing has a name or a layer".to_owned(),
+            (false, 0) => format!("the drawing has {}, and the world's own names", known.join(", ")),
             (false, more) => format!("the drawing has {} and {more} more", known.join(", ")),
         };
-        Err(Failure::Option(format!("{option}: the drawing has nothing called \"{name}\"\n  cure: {known}")))
+        Err(Failure::Option(format!("{option}: the drawing has no layer or part \"{name}\"\n  hint: {known}")))
     }
 
     /// Returns true if the options include an obstacle with these names.
@@ -100,7 +100,7 @@ impl Layers<'_> {
                     .any(is_asked_for)
             };
             if let Some(layer) = shape.hidden_by.as_ref().filter(|_| !is_taken()) {
-                let message = format!("layer \"{layer}\" is switched off: left out, --layer takes it");
+                let message = format!("layer \"{layer}\" is switched off and left out; --layer imports it");
                 notes.add_of(shape.called(), message, shape.line);
                 continue;
             }

@@ -96,11 +96,11 @@ pub fn run(args: &ImportArgs) -> Result<u8, Failure> {
     let notes: Vec<String> = notes.of(is_told).iter().map(Note::to_string).collect();
     if taken.is_empty() {
         let cure = match args.without.is_empty() {
-            true => "draw outlines as closed polylines, lines, arcs or circles, or say by --layer which layers to take",
-            false => "leave less out (--without)",
+            true => "draw outlines as closed polylines, lines, arcs or circles, or choose layers with --layer",
+            false => "use fewer --without options",
         };
         let why: Vec<String> = notes.iter().map(|note| format!("; {note}")).collect();
-        let message = format!("nothing of this drawing is an obstacle{}", why.concat());
+        let message = format!("this drawing contains no obstacle{}", why.concat());
         return Err(refused(args, Diagnostic::new("", message).help(cure)));
     }
     let text = world_file::text(args, &taken, &notes);

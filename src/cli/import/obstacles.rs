@@ -15,7 +15,7 @@ pub(super) struct Taken {
 }
 
 /// Note for shapes that are too small for the file.
-const NO_EXTENT: &str = "what has no extent: left out";
+const NO_EXTENT: &str = "parts without extent: left out";
 
 /// The placement of a drawing: turned, then moved.
 pub(super) struct Placement {
@@ -103,11 +103,7 @@ fn untangled(outer: Ring, holes: Vec<Ring>, shape: &Shape, notes: &mut Notes) ->
     let rings: Vec<Ring> = [outer].into_iter().chain(holes).collect();
     let parts = filled(&rings, rule);
     if !parts.is_empty() && parts.iter().all(|(outer, holes)| is_sound(outer, holes)) {
-        notes.add_of(
-            shape.called(),
-            "outlines that cross or touch themselves: what they go round is solid",
-            shape.line,
-        );
+        notes.add_of(shape.called(), "outlines that cross or touch themselves: the enclosed area is solid", shape.line);
         return parts.into_iter().map(|(outer, holes)| Geometry::Polygon { outer, holes }).collect();
     }
     let closed = |mut ring: Ring| {
@@ -116,7 +112,7 @@ fn untangled(outer: Ring, holes: Vec<Ring>, shape: &Shape, notes: &mut Notes) ->
     };
     let walls: Vec<_> =
         rings.into_iter().filter(|ring| ring.len() > 1).map(|ring| Geometry::Polyline(closed(ring))).collect();
-    let what = if walls.is_empty() { NO_EXTENT } else { "outlines that surround nothing: taken as thin walls" };
+    let what = if walls.is_empty() { NO_EXTENT } else { "outlines that enclose no area: imported as thin walls" };
     notes.add_of(shape.called(), what, shape.line);
     walls
 }
@@ -135,7 +131,7 @@ pub(super) fn within_reach(taken: &[Taken], shift: [f64; 2]) -> Result<(), Diagn
         let (what, value, help) = if farthest > LARGEST {
             ("a coordinate", farthest, far_off(taken, shift))
         } else {
-            ("a height", highest, "say where it is by --height, or the drawing's --unit".into())
+            ("a height", highest, "give its extent with --height, or the drawing's --unit".into())
         };
         if value <= LARGEST {
             return Ok(());
@@ -159,8 +155,8 @@ fn far_off(taken: &[Taken], shift: [f64; 2]) -> String {
         (shift[k] - low.midpoint(high)).round()
     });
     match [0, 1].iter().all(|&k| (ends(k)[1] - ends(k)[0]) / 2.0 + 1.0 <= LARGEST) {
-        true => format!("bring the drawing to the arm by --move {x},{y} or so, or say its --unit"),
-        false => "say the drawing's --unit, or --scale it: it is larger than that altogether".into(),
+        true => format!("move the drawing to the arm, such as with --move {x},{y}, or give its --unit"),
+        false => "give the drawing's --unit, or --scale it: the whole drawing is too large".into(),
     }
 }
 

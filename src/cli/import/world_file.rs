@@ -14,7 +14,7 @@ pub(super) fn text(args: &ImportArgs, taken: &[Taken], notes: &[String]) -> Stri
     let file = args.drawing.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
     let mut text = format!("# {}, by `cplan import`. Lengths in metres, angles in radians.\n", plain_line(&file));
     // Writing to a string cannot fail.
-    let _ = writeln!(text, "# Curves are chords, at most {} m away from them.", args.tolerance);
+    let _ = writeln!(text, "# Curves are replaced by chords, at most {} m away from them.", args.tolerance);
     for note in notes {
         let _ = writeln!(text, "# Note: {}", plain_line(note));
     }
@@ -27,7 +27,7 @@ pub(super) fn text(args: &ImportArgs, taken: &[Taken], notes: &[String]) -> Stri
         Some(start) => {
             let _ = writeln!(text, "\n[start]\njoints = {}", start.in_toml());
         }
-        None => text += "\n# Where the arm is at first:\n#[start]\n#joints = [0.0, 0.0]\n",
+        None => text += "\n# The arm's initial joint values:\n#[start]\n#joints = [0.0, 0.0]\n",
     }
     match (&query.goal, &query.goal_tip) {
         (Some(goal), _) => {
@@ -36,7 +36,7 @@ pub(super) fn text(args: &ImportArgs, taken: &[Taken], notes: &[String]) -> Stri
         (None, Some(tip)) => {
             let _ = writeln!(text, "\n[goal]\ntip = {:?}", [tip.0.x, tip.0.y]);
         }
-        (None, None) => text += "\n# Where it is to go; or joints = [q1, q2]:\n#[goal]\n#tip = [0.3, 0.2]\n",
+        (None, None) => text += "\n# The goal; or joints = [q1, q2]:\n#[goal]\n#tip = [0.3, 0.2]\n",
     }
     taken.iter().for_each(|taken| text += &obstacle(taken));
     text

@@ -6,6 +6,7 @@ mod text;
 use super::exit::{DONE, REFUTED, UNKNOWN};
 use super::failure::Failure;
 use super::files::Files;
+use super::headings::OUTPUT;
 use super::print_args::PrintArgs;
 use super::sinks::{self, Sink};
 use crate::draw::{Picture, View};
@@ -19,59 +20,72 @@ use crate::space::Recording;
 use clap::{Args, ValueHint};
 use std::path::PathBuf;
 
-/// Check a joint path or trajectory, whoever made it: the whole motion, not samples of it.
+/// Judge anyone's motion: the whole motion, not samples of it.
+///
+/// The motion is a joint path, a trajectory, or a recorded task.
 #[derive(Debug, Args)]
 #[command(after_help = "\
-Between samples the motion is what the reader of the format makes of it: of a ROS 2 JointTrajectory a quintic where
-accelerations are stated, of positions and velocities a cubic, of positions alone straight lines in joint space; cplan's JSON
-says it itself. It has to lead from the world's start to its goal, and what a result of cplan's says of it has to be true. CSV
-columns are named after the joints (elbow, elbow_velocity, ...; time in seconds), the values are radians or metres. In a world with steps a result of cplan's for it (.json) is judged step by step: that the steps are the world's,
-each motion with what is carried and objects where they lie then, grasps, places, turns of the wrist and rests.
+The format of the file determines the motion between its samples:
+  positions, velocities, accelerations   quintic (ROS 2 JointTrajectory)
+  positions and velocities               cubic
+  positions alone                        straight lines in joint space
+  a result of cplan (.json)              the motion that the file states
+
+The motion must lead from the world's start to its goal. All values that a
+result of cplan states about the motion must be true. CSV columns are named
+after the joints: elbow, elbow_velocity and so on in radians or metres, and time
+in seconds.
+
+In a world with steps, the file is a result of cplan for that world (.json).
+Each step is judged: whether it is the world's step, its motion with the payload
+and the objects where they are then, grasps, places, wrist turns and rests.
 
 Examples:
   cplan verify robots/planar_2r.urdf workspaces/shelf.toml recorded.csv
-  cplan verify robots/planar_2r_continuous.urdf workspaces/wrap_around.toml turns.csv --unwrap --clearance 0.01
+  cplan verify robots/planar_2r_continuous.urdf workspaces/wrap_around.toml \\
+    turns.csv --unwrap --clearance 0.01
   cplan verify robots/scara.urdf workspaces/tasks/kitting_cell.toml kit.json
 
-Exit codes: 0 free and within all limits, 1 bad input, 2 wrong command line, 3 proven collision, limit broken, not from
-start to goal, not the task asked for, or something false in the file, 4 undecided.")]
+Exit codes: 0 free and within all limits, 1 bad input, 2 wrong command line, 3
+refuted: proven collision, broken limit, wrong start or goal, not the requested
+task, or a false statement in the file, 4 undecided.")]
 pub struct VerifyArgs {
     #[command(flatten)]
     pub files: Files,
-    /// The motion: .json (a result of cplan), .csv, .yaml (ROS 2 JointTrajectory) or .mcap (ROS 2 recording).
+    /// Motion: .json (a result of cplan), .csv, .yaml (ROS 2 JointTrajectory) or .mcap (ROS 2 recording).
     #[arg(value_name = "TRAJECTORY", value_hint = ValueHint::FilePath)]
     pub trajectory: PathBuf,
-    /// Topic of an .mcap recording that is judged, if several have both of the arm's joints.
+    /// Topic to judge in an .mcap recording, if several contain both joints of the arm.
     #[arg(long, value_name = "NAME")]
     pub topic: Option<String>,
     /// Least distance to keep from every obstacle, metres, instead of the world's.
     #[arg(long, value_name = "METRES", allow_hyphen_values = true)]
     pub clearance: Option<f64>,
-    /// Where it is to begin instead of the world's start, such as 0.3,-1 or 20deg,-60deg.
+    /// Required start configuration instead of the world's, such as 0.3,-1 or 20deg,-60deg.
     #[arg(long, value_name = "q1,q2", allow_hyphen_values = true, conflicts_with = "anywhere")]
     pub start: Option<JointValues>,
-    /// Where it is to end instead of the world's goal.
+    /// Required goal configuration instead of the world's.
     #[arg(long, value_name = "q1,q2", allow_hyphen_values = true, conflicts_with_all = ["goal_tip", "anywhere"])]
     pub goal: Option<JointValues>,
-    /// Where the tip is to end instead of the world's goal, metres.
+    /// Required final position of the tip instead of the world's goal, metres.
     #[arg(long, value_name = "x,y", allow_hyphen_values = true, conflicts_with = "anywhere")]
     pub goal_tip: Option<TipPoint>,
-    /// Let a motion begin and end anywhere, whatever the world's start and goal.
+    /// Ignore the world's start and goal: the motion may begin and end anywhere.
     #[arg(long)]
     pub anywhere: bool,
-    /// Let joints without limits go the short way from sample to sample: for angles recorded within one turn.
+    /// Take the shorter direction between samples of continuous joints. For angles recorded within one turn.
     #[arg(long)]
     pub unwrap: bool,
-    /// Hold the joints' torques to the efforts that the URDF or the world gives, though the world does not say so; what has torques in it is
-    /// held to them anyway.
+    /// Check the joints' torques against the effort limits of the URDF or the world, even if the world does not ask for it.
+    /// Files with torques are always checked.
     #[arg(long)]
     pub torque: bool,
     /// Draw workspace and configuration space with the motion: .svg, .png or .html. Can be repeated.
-    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, help_heading = OUTPUT)]
     pub picture: Vec<PathBuf>,
-    /// Write the evidence that an accepted motion is free, and of a task that it does all steps, which `cplan-check URDF WORLD FILE` checks in exact
-    /// arithmetic.
-    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    /// Write the evidence that an accepted motion is free, and that a task completes all steps. `cplan-check URDF WORLD
+    /// FILE` checks it in exact arithmetic.
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, help_heading = OUTPUT)]
     pub certificate: Option<PathBuf>,
     #[command(flatten)]
     pub print: PrintArgs,
@@ -101,11 +115,11 @@ pub fn run(args: &VerifyArgs) -> Result<u8, Failure> {
         recorded.recording = recorded.recording.unwrapped(&scene.arm().topology());
     }
     if recorded.steps.is_some() && !args.picture.is_empty() {
-        let message = "--picture shows one motion, not a task; the main job draws tasks";
+        let message = "--picture draws one motion, not a task; `cplan plan` draws tasks";
         return Err(Failure::Usage(message.into()));
     }
     if recorded.steps.is_some() && args.anywhere {
-        return Err(Failure::Usage("--anywhere is for motions; a task begins at its start".into()));
+        return Err(Failure::Usage("--anywhere is for motions: a task must begin at its start".into()));
     }
     let findings = verify(&loaded, &recorded, &overrides(args), args.anywhere)?;
     let recording = &recorded.recording;
@@ -114,7 +128,7 @@ pub fn run(args: &VerifyArgs) -> Result<u8, Failure> {
             Sink::Picture(format, path) => draw(loaded.timed(), recording, &findings, *format, path)?,
             Sink::Certificate(path) if !recorded.held.is_empty() => {
                 let joint = &recorded.held[0].joint.name;
-                let why = format!("joint \"{joint}\" moves, and certificates are about the arm's two joints");
+                let why = format!("joint \"{joint}\" moves, but certificates cover only the arm's two joints");
                 sinks::say(&format!("warning: {} is not written: {why}", path.display()));
             }
             Sink::Certificate(path) if matches!(findings.verdict, Judgement::Free) => {

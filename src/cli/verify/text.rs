@@ -19,12 +19,12 @@ pub(super) fn summary(arm: &Arm, recording: &Recording, findings: &MotionFinding
     lines.extend(findings.steps.iter().flatten().filter_map(turn));
     lines.extend(findings.limits_broken.iter().map(|limit| ("limit", broken(arm, limit))));
     let exceeds =
-        |limit| ("assumed", format!("{}; the files give no such limit, so it does not decide", broken(arm, limit)));
+        |limit| ("assumed", format!("{}; the files give no such limit, so this does not count", broken(arm, limit)));
     lines.extend(findings.assumed_exceeded.iter().map(exceeds));
     let of = if findings.steps.is_some() { "task" } else { "fault" };
     lines.extend(findings.faults.iter().map(|fault| (of, fault.clone())));
     if !findings.not_judged.is_empty() {
-        lines.push(("not judged", format!("what the file says of {}", findings.not_judged.join(", "))));
+        lines.push(("not judged", format!("the file's values of {}", findings.not_judged.join(", "))));
     }
     let duration = findings.duration.map_or("no times".into(), |d| format!("{d:.3} s"));
     lines.push(("motion", format!("{} samples, {duration}", findings.samples)));
@@ -68,7 +68,7 @@ fn way(arm: &Arm, way: &WayFinding, verdict: Judgement) -> Vec<Line> {
         }
         (Some(clearance), None) => lines.push(("clearance", format!("{} m proven", at_least(clearance, 6)))),
         (None, None) if verdict != Judgement::Collision && way.undecided.is_none() => {
-            lines.push(("clearance", "nothing can be hit".into()));
+            lines.push(("clearance", "no obstacle within reach".into()));
         }
         _ => {}
     }
@@ -82,7 +82,7 @@ fn way(arm: &Arm, way: &WayFinding, verdict: Judgement) -> Vec<Line> {
     lines.extend(way.deepest.iter().map(|deepest| ("deepest", format!("{}, {}", place(deepest), depth(deepest)))));
     lines.extend(way.undecided.iter().map(|nearest| {
         let distance = nonzero(-nearest.depth, 6);
-        ("undecided", format!("{}: {distance} m, too near to be told apart", place(nearest)))
+        ("undecided", format!("{}: {distance} m, too near to decide", place(nearest)))
     }));
     lines
 }
@@ -128,9 +128,9 @@ fn rows(steps: &[StepFinding]) -> Vec<String> {
         let turn = step.turn.as_ref().map_or(String::new(), |turn| format!(", turn in {:.3} s", turn.seconds));
         let found = match (step.verdict, step.clearance()) {
             (Judgement::Free, Some(clearance)) => format!("clearance {} m", nonzero(clearance, 4)),
-            (Judgement::Free, None) => "nothing can be hit".into(),
+            (Judgement::Free, None) => "no obstacle within reach".into(),
             (Judgement::Collision, _) => "collides".into(),
-            (Judgement::Task | Judgement::Ends | Judgement::Claims, _) => "not as asked for".into(),
+            (Judgement::Task | Judgement::Ends | Judgement::Claims, _) => "not as required".into(),
             (Judgement::Limits, _) => "breaks limits".into(),
             (Judgement::Undecided, _) => "undecided".into(),
         };
@@ -150,11 +150,11 @@ fn result(findings: &MotionFindings) -> String {
     };
     match findings.verdict {
         Judgement::Free => format!("free{kept}: {whole}proven"),
-        Judgement::Collision if required > 0.0 => "collision, or nearer than the clearance to keep: proven".into(),
+        Judgement::Collision if required > 0.0 => "collision, or nearer than the required clearance: proven".into(),
         Judgement::Collision => "collision: proven".into(),
-        Judgement::Task => "not the task that the world asks for".into(),
+        Judgement::Task => "not the task of the world".into(),
         Judgement::Ends => "does not lead from the start to the goal".into(),
-        Judgement::Claims => "free, but the file says of it what is false".into(),
+        Judgement::Claims => "free, but values stated in the file are wrong".into(),
         Judgement::Limits => "limits are broken".into(),
         Judgement::Undecided => "undecided".into(),
     }

@@ -147,7 +147,7 @@ fn a_line_without_length_is_a_point_and_solid() {
 #[test]
 fn malformed_maps_are_refused_with_their_line() {
     for (from, to, parts) in [
-        ("2D-Map", "3D-Map", &["line 1", "expected \"2D-Map\"", "cure"][..]),
+        ("2D-Map", "3D-Map", &["line 1", "expected \"2D-Map\"", "hint"][..]),
         (MAP, "", &["ends where \"2D-Map\" should come"]),
         ("LineMinPos: -2000 -1000\n", "", &["line 2", "expected \"LineMinPos:\" and 2 numbers"]),
         ("-2000 -1000", "-2000", &["line 2", "expected 2 numbers, found 1"]),
@@ -157,11 +157,11 @@ fn malformed_maps_are_refused_with_their_line() {
         ("-2000 -1000", "-2000 -1e999", &["line 2", "not a finite number"]),
         ("-2000 -1000", "2000 -1000", &["line 3", "not above LineMinPos", "lower left"]),
         ("-2000 -1000", "-2e300 -1000", &["world.toml: line 4", "scale"]),
-        ("NumLines: 3", "NumLines: 4", &["line 4", "NumLines says 4, but 3 follow", "cure"]),
+        ("NumLines: 3", "NumLines: 4", &["line 4", "NumLines says 4, but 3 follow", "hint"]),
         ("NumLines: 3", "NumLines: 2", &["line 4", "NumLines says 2, but 3 follow"]),
-        ("NumLines: 3", "NumLines: 2.5", &["line 4", "2.5 is no number of lines"]),
+        ("NumLines: 3", "NumLines: 2.5", &["line 4", "2.5 is not a number of lines"]),
         ("NumLines: 3", "NumLines: -1", &["line 4", "-1 is no number"]),
-        ("NumLines: 3", "NumLines: 1e30", &["line 4", "no number of lines"]),
+        ("NumLines: 3", "NumLines: 1e30", &["line 4", "not a number of lines"]),
         ("NumLines: 3", "NumLines 3", &["line 4", "expected \"NumLines:\""]),
         ("LINES\n", "", &["line 5", "expected \"LINES\""]),
         ("500 -500\n-1500", "500\n-1500", &["line 7", "expected 4 numbers, found 3"]),
@@ -170,7 +170,7 @@ fn malformed_maps_are_refused_with_their_line() {
         ("-1500 0", "-2500 0", &["line 8", "(-2500, 0) lies outside", "widen"]),
         ("DATA\n", "", &["the file ends where a line or \"DATA\" should come"]),
         ("DATA\n", "END\n", &["line 9", "\"END\""]),
-        ("DATA\n", "DATA\n1 2\n", &["line 10", "has ended above"]),
+        ("DATA\n", "DATA\n1 2\n", &["line 10", "follows the end of the map"]),
     ] {
         assert!(MAP.contains(from), "{from}");
         assert_refused(world_in(&files(&MAP.replacen(from, to, 1), PREFERENCES, WORLD)), parts);
@@ -192,7 +192,7 @@ fn malformed_preferences_are_refused_with_their_line() {
         ("+100 0.5", "+100 nan", &["line 9, column 15", "finite"]),
         ("+100 0.5", "0 0.5", &["line 9", "no area"]),
         ("END\n", "DATA\n", &["line 11", "\"END\""]),
-        ("END\n", "END\nEND\n", &["line 12", "has ended above"]),
+        ("END\n", "END\nEND\n", &["line 12", "follows the end of the map"]),
     ] {
         assert!(PREFERENCES.contains(from), "{from}");
         assert_refused(world_in(&files(MAP, &PREFERENCES.replacen(from, to, 1), WORLD)), parts);

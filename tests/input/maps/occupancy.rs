@@ -103,7 +103,7 @@ fn worlds_that_misuse_pictures_are_refused() {
         ("room.yaml", "attic.yaml", &["world.toml: line 3, column 9", "no file", "attic.yaml", "relative"][..]),
         ("\"room.yaml\"", "\"room.pgm\"", &["world.toml: line 3", "needs the YAML"]),
         ("\"room.yaml\"", "\"room.yaml\"\nunknown = \"maybe\"", &["line 4", "\"solid\" or \"free\", not \"maybe\""]),
-        ("\"room.yaml\"", "\"room.yaml\"\npolygon = []", &["exactly one shape, it has 2"]),
+        ("\"room.yaml\"", "\"room.yaml\"\npolygon = []", &["exactly one shape, but has 2"]),
         ("image = \"room.yaml\"", "polyline = [[0, 0], [1, 1]]\nunknown = \"free\"", &["line 4", "only an image"]),
     ] {
         let world = WORLD.replace(from, to);
@@ -115,10 +115,10 @@ fn worlds_that_misuse_pictures_are_refused() {
 #[test]
 fn descriptions_are_refused_with_their_line() {
     for (from, to, parts) in [
-        ("resolution: 0.5", "resolution: 0", &["room.yaml: line 2, column 13", "0 is no length", "cure"][..]),
+        ("resolution: 0.5", "resolution: 0", &["room.yaml: line 2, column 13", "0 is no length", "hint"][..]),
         ("resolution: 0.5", "resolution: -1", &["line 2", "-1"]),
         ("resolution: 0.5", "resolution: .nan", &["line 2", "NaN"]),
-        ("resolution: 0.5", "resolution: 9e5", &["3 x 2 pixels", "900000 m reaches farther"]),
+        ("resolution: 0.5", "resolution: 9e5", &["3 x 2 pixels", "900000 m extends beyond"]),
         ("resolution: 0.5\n", "", &["resolution", "needs image, resolution"]),
         ("resolution: 0.5", "resolution: fine", &["line 2"]),
         ("[-1.0, -2.0, 0.0]", "[-1.0, -2.0]", &["line 3", "three numbers, found 2", "[x, y, yaw]"]),
@@ -185,5 +185,5 @@ fn keys_of_other_programs_are_noted() {
     let yaml = format!("{YAML}map_type: occupancy\nsaved_by: [x, {{y: 1}}]\n");
     let files = [("room.pgm", PGM), ("room.yaml", yaml.as_bytes()), ("world.toml", WORLD.as_bytes())];
     let notes = world_in(&folder(&files)).unwrap().notes.join("\n");
-    assert!(notes.contains("keys that are not used: \"map_type\", \"saved_by\""), "{notes}");
+    assert!(notes.contains("unused keys: \"map_type\", \"saved_by\""), "{notes}");
 }

@@ -112,7 +112,7 @@ fn the_shipped_maps_are_the_printed_ones() {
             Region::Configurations(_) => panic!("{world}: {}", preference.name),
         };
         assert_eq!(workspace.preferences.iter().map(region).collect::<Vec<_>>(), expected, "{world}");
-        let goals = problem.goals().pieces().iter().flat_map(|piece| piece.ends()).map(|q| rounded(q.into()));
+        let goals = problem.goals().pieces().iter().flat_map(|piece| piece.ends()).map(rounded);
         let goals: Vec<[i64; 2]> = goals.collect();
         let hull = [0, 1].map(|k| {
             [0, 1].map(|end| {

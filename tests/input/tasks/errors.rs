@@ -49,12 +49,12 @@ fn objects_that_are_none() {
     let polygon = "polygon = [[-0.02, -0.02], [0.02, -0.02], [0.02, 0.02], [-0.02, 0.02]]";
     for (from, to, parts) in [
         ("name = \"part\"\n", "", &["line 9", "missing key `name`"][..]),
-        ("at = [1.0, 1.0]\n", "", &["line 9", "needs either `at` or `pallet`, it has neither", "cure: "]),
+        ("at = [1.0, 1.0]\n", "", &["line 9", "needs either `at` or `pallet`, it has neither", "hint: "]),
         ("at = [1.0, 1.0]", "at = [1.0]", &["line 12, column 6", "object \"part\", at: expected two numbers"]),
         ("at = [1.0, 1.0]", "at = [1.0, inf]", &["line 12, column 12", "not a finite number"]),
         ("angle = 0.5", "angle = nan", &["line 19", "object \"cup\", angle", "not a finite number"]),
         ("angle = 0.5", "angel = 0.5", &["line 19", "unknown key `angel`"]),
-        (polygon, "", &["line 9", "object \"part\" needs exactly one shape, it has 0", "cure: give it a polygon"]),
+        (polygon, "", &["line 9", "object \"part\" needs exactly one shape, but has 0", "hint: give it a polygon"]),
         (
             polygon,
             "polygon = [[0, 0], [1, 0], [1, 1]]\ncircle = { center = [0, 0], radius = 1 }",
@@ -63,22 +63,22 @@ fn objects_that_are_none() {
         (
             polygon,
             "polygon = [[0, 0], [1, 1], [1, 0], [0, 1]]",
-            &["line 11, column 11", "not a simple polygon", "cure: "],
+            &["line 11, column 11", "not a simple polygon", "hint: "],
         ),
         (polygon, "polyline = [[0, 0], [1, 1]]", &["line 11", "unknown key `polyline`"]),
         ("radius = 0.03", "radius = 0", &["line 17", "object \"cup\": the radius must be positive"]),
-        ("height = [0.0, 0.1]", "height = [0.1, 0.0]", &["line 20", "empty", "cure: write the lower end first"]),
+        ("height = [0.0, 0.1]", "height = [0.1, 0.0]", &["line 20", "empty", "hint: write the lower end first"]),
         ("lift = 0.05", "lift = -0.05", &["line 21", "object \"cup\": lift must not be negative"]),
-        ("payload = \"level\"", "payload = \"stiff\"", &["line 22", "\"rigid\" or \"level\", not \"stiff\"", "cure: "]),
+        ("payload = \"level\"", "payload = \"stiff\"", &["line 22", "\"rigid\" or \"level\", not \"stiff\"", "hint: "]),
         ("[robot]", "[robot]\npayload = \"up\"", &["line 3", "\"rigid\" or \"level\", not \"up\""]),
         ("grasp = [0.01, 0.0]", "grasp = 0.01", &["line 23, column 9"]),
         ("renew = true", "renew = \"yes\"", &["line 14", "boolean"]),
-        ("name = \"cup\"", "name = \"part\"", &["line 16, column 8", "a second object is named \"part\"", "cure: "]),
-        ("name = \"cup\"", "name = \"table\"", &["line 16, column 8", "an obstacle is named \"table\"", "cure: "]),
+        ("name = \"cup\"", "name = \"part\"", &["line 16, column 8", "a second object is named \"part\"", "hint: "]),
+        ("name = \"cup\"", "name = \"table\"", &["line 16, column 8", "an obstacle is named \"table\"", "hint: "]),
         (
             "[[object]]\n",
             "[[obstacle]]\nname = \"cup\"\ncircle = { center = [9, 9], radius = 0.1 }\nmotion = { velocity = [0.1, 0] }\n[[object]]\n",
-            &["line 20, column 8", "an obstacle is named \"cup\"", "cure: "],
+            &["line 20, column 8", "an obstacle is named \"cup\"", "hint: "],
         ),
         (
             "supports = [\"table\"]",
@@ -86,13 +86,13 @@ fn objects_that_are_none() {
             &[
                 "line 13, column 13",
                 "no obstacle and no object \"tabel\"",
-                "cure: there are \"table\", \"cup\", \"part\"",
+                "hint: there are \"table\", \"cup\", \"part\"",
             ],
         ),
         (
             "supports = [\"table\"]",
             "supports = [\"part\"]",
-            &["line 13, column 12", "\"part\" cannot rest on itself", "cure: remove it"],
+            &["line 13, column 12", "\"part\" cannot rest on itself", "hint: remove it"],
         ),
     ] {
         bad(from, to, parts);
@@ -101,7 +101,7 @@ fn objects_that_are_none() {
 
 #[test]
 fn wrists_that_are_none() {
-    bad("velocity = 6.0", "velocity = 0", &["line 3", "[robot] wrist: velocity must be positive, is 0", "cure: "]);
+    bad("velocity = 6.0", "velocity = 0", &["line 3", "[robot] wrist: velocity must be positive, is 0", "hint: "]);
     bad("acceleration = 60.0", "acceleration = -1", &["line 3", "acceleration must be positive"]);
     bad("acceleration = 60.0", "jerk = 60.0", &["line 3", "unknown key `jerk`"]);
     bad("velocity = 6.0, ", "", &["line 3", "missing key `velocity`"]);
@@ -114,40 +114,40 @@ fn steps_that_do_not_do_exactly_one_thing() {
         (
             pick,
             "",
-            &["line 24", "exactly one of `pick`, `place`, `move`, `transfer` and `steps`", "this has 0", "cure: "][..],
+            &["line 24", "exactly one of `pick`, `place`, `move`, `transfer` and `steps`", "but has 0", "hint: "][..],
         ),
-        (pick, "pick = \"part\"\nmove = { tip = [1, 1] }", &["line 24", "this has 2"]),
+        (pick, "pick = \"part\"\nmove = { tip = [1, 1] }", &["line 24", "but has 2"]),
         (pick, "grab = \"part\"", &["line 25, column 1", "unknown key `grab`"]),
         (pick, "pick = 1", &["line 25, column 8"]),
         (
             pick,
             "pick = \"prat\"",
-            &["line 25, column 8", "no object \"prat\"", "cure: the objects are \"cup\", \"part\""],
+            &["line 25, column 8", "no object \"prat\"", "hint: the objects are \"cup\", \"part\""],
         ),
-        (pick, "pick = \"table\"", &["line 25", "no object \"table\"", "cure: that is an obstacle", "[[object]]"]),
+        (pick, "pick = \"table\"", &["line 25", "no object \"table\"", "hint: that is an obstacle", "[[object]]"]),
         (pick, "pick = \"part\"\ngrasp = [0, 0, 0]", &["line 26, column 9", "expected two numbers, found 3"]),
         (place, "place = { at = [0.5, 1.5] }\ngrasp = [0, 0]", &["line 28, column 9", "only a pick has a `grasp`"]),
         (
             place,
             "place = { at = [0.5, 1.5] }\nsupports = []",
-            &["line 28", "of all steps only a pick", "cure: those of a place"],
+            &["line 28", "only a pick has `supports`", "hint: for a place"],
         ),
         (place, "place = [0.5, 1.5]", &["line 27, column 9", "sequence, expected a table: { key = value }"]),
         ("move = { joints = [0.1, 0.2] }", "move = [0.1, 0.2]", &["line 33, column 8", "expected a table"]),
         (place, "place = { angle = 1 }", &["line 26", "either `at` or `on`, this has neither"]),
         (place, "place = { at = [0.5, 1.5], speed = 1 }", &["line 27", "unknown key `speed`"]),
         ("move = { joints = [0.1, 0.2] }", "move = {}", &["line 33, column 8", "the move needs either", "neither"]),
-        (pick, "pick = \"part\"\nspeed = 0", &["line 26, column 9", "speed must be more than 0", "cure: "]),
+        (pick, "pick = \"part\"\nspeed = 0", &["line 26, column 9", "speed must be greater than 0", "hint: "]),
         (pick, "pick = \"part\"\nspeed = 1.5", &["line 26", "at most 1, is 1.5"]),
         (pick, "pick = \"part\"\nspeed = nan", &["line 26", "not a finite number"]),
         (pick, "pick = \"part\"\ndwell = -1", &["line 26, column 9", "dwell must not be negative"]),
         (
             pick,
             "pick = \"part\"\nrepeat = 2",
-            &["line 26, column 10", "only a group of steps can be repeated", "cure: "],
+            &["line 26, column 10", "only a group of steps can be repeated", "hint: "],
         ),
         (pick, "pick = \"part\"\norder = \"free\"", &["line 26, column 9", "only a group of steps has an `order`"]),
-        (pick, "steps = []", &["line 24", "no steps", "cure: "]),
+        (pick, "steps = []", &["line 24", "no steps", "hint: "]),
     ] {
         bad(from, to, parts);
     }
@@ -158,27 +158,27 @@ fn tasks_and_groups_that_are_none() {
     let with_task = |table: &str, parts: &[&str]| {
         bad("[[obstacle]]", &format!("[task]\n{table}\n[[obstacle]]"), parts);
     };
-    with_task("repeat = 0", &["line 7, column 10", "1 time or more often, not 0", "cure: "]);
+    with_task("repeat = 0", &["line 7, column 10", "once or more, not 0 times", "hint: "]);
     with_task("repeat = -3", &["line 7", "not -3"]);
     with_task("repeat = 1.5", &["line 7", "expected a whole number"]);
-    with_task("repeat = 20001", &["line 7, column 10", "these are 100005 steps (at most 100000)", "cure: "]);
+    with_task("repeat = 20001", &["line 7, column 10", "these are 100005 steps (at most 100000)", "hint: "]);
     with_task("repeat = 9223372036854775807", &["line 7", "at most 100000"]);
     with_task("order = \"any\"", &["line 7, column 9", "\"fixed\" or \"free\", not \"any\""]);
-    with_task("order = \"free\"", &["line 35", "this step has to be a pick", "cure: "]);
+    with_task("order = \"free\"", &["line 35", "this step must be a pick", "hint: "]);
     with_task("speed = 2", &["line 7", "speed must be"]);
     with_task("count = 2", &["line 7", "unknown key `count`"]);
     let single = format!("{CELL}[step]\npick = \"part\"\n");
     refused(&single, &Overrides::default(), &["line 24", "one table, expected a list of tables: [[...]]", "^"]);
-    refused(&format!("{CELL}[task]\nrepeat = 2\n"), &Overrides::default(), &["line 24", "there are none", "cure: "]);
+    refused(&format!("{CELL}[task]\nrepeat = 2\n"), &Overrides::default(), &["line 24", "there are none", "hint: "]);
 
     let free = |steps: &str, parts: &[&str]| {
         let world = format!("{CELL}[[step]]\norder = \"free\"\nsteps = [{steps}]\n");
-        refused(&world, &Overrides::default(), &[&["line 26, column", "cure: "], parts].concat());
+        refused(&world, &Overrides::default(), &[&["line 26, column", "hint: "], parts].concat());
     };
     let pair = "{ pick = \"part\" }, { place = { at = [0.5, 1.5] } }";
     free("{ pick = \"part\" }", &["this pick has no place"]);
-    free("{ pick = \"part\" }, { pick = \"cup\" }", &["column 38", "has to be a place"]);
-    free(&format!("{{ steps = [{pair}] }}"), &["has to be a pick"]);
+    free("{ pick = \"part\" }, { pick = \"cup\" }", &["column 38", "must be a place"]);
+    free(&format!("{{ steps = [{pair}] }}"), &["must be a pick"]);
     free(&format!("{pair}, {pair}"), &["object \"part\" is picked twice"]);
 
     let deep = format!("{CELL}[[step]]\n{}pick = \"part\"{}\n", "steps = [{ ".repeat(2000), " }]".repeat(2000));
@@ -191,22 +191,22 @@ fn tasks_and_groups_that_are_none() {
 #[test]
 fn sequences_that_cannot_be() {
     let (pick, place) = ("[[step]]\npick = \"part\"\n", "[[step]]\nplace = { at = [0.5, 1.5] }\n");
-    bad(place, "", &["line 27, column 8", "step 2 picks \"cup\" while \"part\" is carried", "cure: place"]);
-    bad(pick, "", &["line 25, column 16", "step 1 places something, but nothing is carried", "cure: pick"]);
+    bad(place, "", &["line 27, column 8", "step 2 picks \"cup\" while \"part\" is carried", "hint: place"]);
+    bad(pick, "", &["line 25, column 16", "step 1 places an object, but the tool carries none", "hint: pick"]);
     let repeated = |steps: &str, parts: &[&str]| {
         let world = format!("{CELL}{steps}[task]\nrepeat = 2\n");
-        refused(&world, &Overrides::default(), &[&["world.toml: line ", "cure: "], parts].concat());
+        refused(&world, &Overrides::default(), &[&["world.toml: line ", "hint: "], parts].concat());
     };
     repeated(pick, &["line 27, column 10", "they begin carrying nothing and end carrying \"part\""]);
     let inner = "[[step]]\nrepeat = 3\nsteps = [{ place = { at = [0.5, 1.5] } }, { pick = \"part\" }]\n";
     let carrying = format!("{CELL}{pick}{inner}");
-    refused(&carrying, &Overrides::default(), &["line 27, column 10", "\"part\" is carried when it would be renewed"]);
+    refused(&carrying, &Overrides::default(), &["line 27, column 10", "\"part\" is still carried when it is renewed"]);
     assert_eq!(steps_of(&carrying.replace("renew = true\n", ""), &Overrides::default()), 7);
 
     let (at, rigid) = ("place = { at = [0.5, 1.5] }", "place = { at = [0.5, 1.5], angle = 1.0 }");
-    bad(at, rigid, &["line 27, column 36", "\"part\" is held rigidly", "cure: payload = \"level\""]);
+    bad(at, rigid, &["line 27, column 36", "\"part\" is held rigidly", "hint: payload = \"level\""]);
     let wrist = "wrist = { velocity = 6.0, acceleration = 60.0 }";
-    bad(wrist, "", &["line 31", "\"cup\" has to be turned from 0.5 to 1.5 rad", "no wrist", "cure: [robot] wrist"]);
+    bad(wrist, "", &["line 31", "\"cup\" must be turned from 0.5 to 1.5 rad", "no wrist", "hint: [robot] wrist"]);
     let own = "place = { at = [0.5, 1.5], supports = [\"table\", \"part\"] }";
     bad(at, own, &["line 27, column 39", "\"part\" cannot rest on itself"]);
     bad(at, "place = { at = [0.5, 1.5], supports = [\"desk\"] }", &["line 27, column 40", "no object \"desk\""]);
@@ -230,15 +230,15 @@ fn what_the_arm_cannot_do() {
         (
             goal,
             "move = { joints = [0.1, 3.2] }",
-            &["line 33, column 19", "step 5 is outside the joint limits", "\"elbow\" at 3.2 rad", "cure: "][..],
+            &["line 33, column 19", "step 5 is outside the joint limits", "\"elbow\" at 3.2 rad", "hint: "][..],
         ),
         (
             goal,
             "move = { tip = [1.0, 1.6] }",
-            &["line 33, column 16", "step 5: (1, 1.6) m is out of reach", "from 0.2000 to 1.8000 m", "cure: "],
+            &["line 33, column 16", "step 5: (1, 1.6) m is out of reach", "from 0.2000 to 1.8000 m", "hint: "],
         ),
         (goal, "move = { tip = [0.0, 0.1] }", &["out of reach"]),
-        (goal, "move = { tip = [0.21, 0.0] }", &["no IK solution", "within the joint limits", "\"elbow\"", "cure: "]),
+        (goal, "move = { tip = [0.21, 0.0] }", &["no IK solution", "within the joint limits", "\"elbow\"", "hint: "]),
         ("at = [1.0, 1.0]", "at = [5.0, 1.0]", &["line 25, column 8", "step 1: (5, 1) m is out of reach"]),
         ("at = [0.5, 1.5]", "at = [2.5, 1.5]", &["line 27, column 16", "step 2: (2.5, 1.5) m is out of reach"]),
         // The cup's grasp is (0.01, 0), turned by 1.5 rad.
@@ -246,7 +246,7 @@ fn what_the_arm_cannot_do() {
         (
             "[[-0.02, -0.02], [0.02, -0.02], [0.02, 0.02], [-0.02, 0.02]]",
             "[[-0.02, 0], [0.02, 0], [0.02, 0.0003]]",
-            &["line 13, column 12", "step 1: object \"part\" is too thin to rest on anything", "1.8", "cure: "],
+            &["line 13, column 12", "step 1: object \"part\" is too thin to rest on anything", "1.8", "hint: "],
         ),
     ] {
         bad(from, to, parts);
@@ -274,7 +274,7 @@ fn what_the_arm_cannot_do() {
 fn starts_that_are_not_free() {
     bad("joints = [0.0, 0.5]\n", "joints = [0.0, 3.5]\n", &["line 5", "the start is outside the joint limits"]);
     let touching = "at = [1.0, 0.0]";
-    bad("at = [1.0, 1.0]", touching, &["line 5", "the start", "hits obstacle \"part\"", "cure: move it away"]);
+    bad("at = [1.0, 1.0]", touching, &["line 5", "the start", "hits obstacle \"part\"", "hint: move it away"]);
     refused(&healthy().replace("[start]\njoints = [0.0, 0.5]\n", ""), &Overrides::default(), &["there is no start"]);
 }
 
@@ -282,20 +282,20 @@ fn starts_that_are_not_free() {
 fn a_world_has_either_steps_or_a_goal() {
     let none = Overrides::default();
     let both = format!("{}[goal]\njoints = [1, 1]\n", healthy());
-    refused(&both, &none, &["line 34, column 1", "either a goal or steps", "cure: remove [goal]"]);
+    refused(&both, &none, &["line 34, column 1", "either a goal or steps", "hint: remove [goal]"]);
     let as_problem = |overrides: &Overrides, parts: &[&str]| {
         let error = with_world(&healthy(), |u, w| load(u, w, overrides)).unwrap_err().to_string();
         for part in parts {
             assert!(error.contains(part), "no \"{part}\" in:\n{error}");
         }
     };
-    as_problem(&none, &["line 24, column 1", "this world has steps, not a goal", "cure: "]);
+    as_problem(&none, &["line 24, column 1", "this world has steps, not a goal", "hint: "]);
     let goal = Overrides { goal: Some("0,0".parse().unwrap()), ..Overrides::default() };
-    as_problem(&goal, &["--goal: this world has steps, not a goal", "cure: leave the option out"]);
+    as_problem(&goal, &["--goal: this world has steps, not a goal", "hint: leave the option out"]);
     refused(&healthy(), &goal, &["--goal: this world has steps"]);
     let tip = Overrides { goal_tip: Some("1,1".parse().unwrap()), ..Overrides::default() };
     refused(&healthy(), &tip, &["--goal-tip: this world has steps"]);
-    refused(CELL, &none, &["world.toml: there are no steps", "cure: "]);
+    refused(CELL, &none, &["world.toml: there are no steps", "hint: "]);
 }
 
 #[test]

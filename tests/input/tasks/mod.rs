@@ -94,7 +94,7 @@ move = { tip = [1.0, 1.0] }
     assert_eq!((cup.name.as_str(), cup.holding, cup.lift), ("cup", Holding::Level, 0.05));
     assert_eq!((cup.heights.lower, cup.heights.upper), (0.0, 0.1));
     assert!((cup.at.rotation.angle() - 0.5).abs() < 1e-15);
-    assert_eq!(cup.at.translation.vector, nalgebra::Vector2::new(-0.5, 1.0));
+    assert_eq!(cup.at.translation, nalgebra::Vector2::new(-0.5, 1.0));
     assert_eq!(cup.shape, Shape::Circle { center: Point::new(0.01, 0.0), radius: 0.03 });
     assert_eq!(task.wrist.map(|w| (w.velocity, w.acceleration)), Some((6.0, 60.0)));
     assert_eq!(task.workspace.obstacles.len(), 1);
@@ -104,7 +104,7 @@ move = { tip = [1.0, 1.0] }
     assert_eq!(
         actions,
         [
-            &Action::Pick { object: 0, grasp: Point::origin(), supports: vec![0], when: Vec::new() },
+            &Action::Pick { object: 0, grasp: Point::zeros(), supports: vec![0], when: Vec::new() },
             &Action::Place { at: Point::new(0.5, 1.5), angle: None, supports: vec![0] },
             &Action::Pick { object: 1, grasp: Point::new(0.02, 0.0), supports: vec![1], when: Vec::new() },
             &Action::Place { at: Point::new(0.5, 1.0), angle: Some(1.5), supports: vec![0, 1] },

@@ -57,7 +57,7 @@ fn objects_lie_on_the_places_of_a_pallet() {
     assert_eq!(loaded.task.objects.len(), expected.len());
     for (object, (name, [x, y])) in loaded.task.objects.iter().zip(expected) {
         assert_eq!(object.name, name);
-        let at = object.at.translation.vector;
+        let at = object.at.translation;
         assert!((at.x - x).hypot(at.y - y) < 1e-12, "{name}: {at}");
         assert!((object.at.rotation.angle() - FRAC_PI_2 - 0.25).abs() < 1e-12, "{name}");
     }
@@ -116,28 +116,28 @@ fn pallets_that_are_none() {
         (
             "rows = 2",
             "rows = 0",
-            &["line 10, column 8", "pallet \"store\": rows must be 1 or more, is 0", "cure: "][..],
+            &["line 10, column 8", "pallet \"store\": rows must be 1 or more, is 0", "hint: "][..],
         ),
-        ("columns = 3", "columns = -3", &["line 11", "columns must be 1 or more, is -3", "cure: "]),
-        ("rows = 2", "rows = 20000", &["line 10", "has 60000 places (at most 10000)", "cure: "]),
+        ("columns = 3", "columns = -3", &["line 11", "columns must be 1 or more, is -3", "hint: "]),
+        ("rows = 2", "rows = 20000", &["line 10", "has 60000 places (at most 10000)", "hint: "]),
         ("rows = 2", "rows = 9223372036854775807", &["line 10", "places (at most 10000)"]),
         ("rows = 2", "rows = 2.5", &["line 10"]),
-        ("pitch = [0.1, 0.2]", "pitch = [0.1, 0.0]", &["line 12", "lie on each other, as a row is 0 m", "cure: "]),
+        ("pitch = [0.1, 0.2]", "pitch = [0.1, 0.0]", &["line 12", "lie on each other, as a row is 0 m", "hint: "]),
         ("pitch = [0.1, 0.2]", "pitch = [0.0, 0.2]", &["line 12", "lie on each other, as a column is 0 m"]),
         ("pitch = [0.1, 0.2]", "pitch = 0.1", &["line 12"]),
         ("pitch = [0.1, 0.2]", "pitch = [0.1, nan]", &["line 12", "not a finite number"]),
         ("pitch = [0.1, 0.2]\n", "", &["line 8", "missing key `pitch`"]),
         ("angle = 1.5", "angel = 1.5", &["line 14", "unknown key `angel`"]),
-        ("name = \"tray\"", "name = \"store\"", &["line 16, column 8", "a second pallet is named \"store\"", "cure: "]),
+        ("name = \"tray\"", "name = \"store\"", &["line 16, column 8", "a second pallet is named \"store\"", "hint: "]),
         (
             "pallet = \"store\"",
             "pallet = \"stor\"",
-            &["there is no pallet \"stor\"", "cure: the pallets are \"store\", \"tray\""],
+            &["there is no pallet \"stor\"", "hint: the pallets are \"store\", \"tray\""],
         ),
-        ("pallet = \"store\"", "pallet = \"store\"\nat = [1, 1]", &["either `at` or `pallet`, it has both", "cure: "]),
-        ("pallet = \"store\"\n", "", &["either `at` or `pallet`, it has neither", "cure: "]),
-        ("name = \"post\"", "name = \"part\"", &["an obstacle is named \"part\"", "cure: "]),
-        ("name = \"post\"", "name = \"part 2,3\"", &["an obstacle is named \"part", "cure: "]),
+        ("pallet = \"store\"", "pallet = \"store\"\nat = [1, 1]", &["either `at` or `pallet`, it has both", "hint: "]),
+        ("pallet = \"store\"\n", "", &["either `at` or `pallet`, it has neither", "hint: "]),
+        ("name = \"post\"", "name = \"part\"", &["an obstacle is named \"part\"", "hint: "]),
+        ("name = \"post\"", "name = \"part 2,3\"", &["an obstacle is named \"part", "hint: "]),
     ] {
         bad(&healthy, from, to, parts);
     }
@@ -157,23 +157,23 @@ fn transfers_and_places_that_are_none() {
     for (to, parts) in [
         (
             "transfer = { objects = \"pat\", to = \"tray\" }",
-            &["no objects \"pat\" on a pallet", "cure: the objects on pallets are \"part\""][..],
+            &["no objects \"pat\" on a pallet", "hint: the objects on pallets are \"part\""][..],
         ),
         (
             "transfer = { objects = \"part 1,1\", to = \"tray\" }",
-            &["no objects \"part 1,1\"", "cure: that is a single object"],
+            &["no objects \"part 1,1\"", "hint: that is a single object"],
         ),
-        ("transfer = { objects = \"part\", to = \"try\" }", &["no pallet \"try\"", "cure: the pallets are"]),
+        ("transfer = { objects = \"part\", to = \"try\" }", &["no pallet \"try\"", "hint: the pallets are"]),
         ("transfer = { objects = \"part\" }", &["missing key `to`"]),
         ("transfer = { objects = \"part\", to = \"tray\", at = [0, 0] }", &["unknown key `at`"]),
         ("transfer = \"part\"", &["a table"]),
         (
             "pick = \"part\"",
-            &["there is no object \"part\"", "cure: there are 6 on a pallet", "\"part 1,1\"", "transfer = "],
+            &["there is no object \"part\"", "hint: there are 6 on a pallet", "\"part 1,1\"", "transfer = "],
         ),
-        ("pick = \"part 9,1\"", &["no object \"part 9,1\"", "cure: the objects are \"part\""]),
-        ("pick = \"part 1,1\"\ntransfer = { objects = \"part\", to = \"tray\" }", &["exactly one of", "this has 2"]),
-        ("grasp = [0, 0]\ntransfer = { objects = \"part\", to = \"tray\" }", &["only a pick has a `grasp`", "cure: "]),
+        ("pick = \"part 9,1\"", &["no object \"part 9,1\"", "hint: the objects are \"part\""]),
+        ("pick = \"part 1,1\"\ntransfer = { objects = \"part\", to = \"tray\" }", &["exactly one of", "but has 2"]),
+        ("grasp = [0, 0]\ntransfer = { objects = \"part\", to = \"tray\" }", &["only a pick has a `grasp`", "hint: "]),
         (
             "pick = \"part 1,1\"\n[[step]]\nplace = { on = \"tray 4,1\" }",
             &["no place \"tray 4,1\"", "rows 1 to 3 and columns 1 to 2"],
@@ -184,18 +184,18 @@ fn transfers_and_places_that_are_none() {
         ),
         (
             "pick = \"part 1,1\"\n[[step]]\nplace = { on = \"desk 1,1\" }",
-            &["no place \"desk 1,1\"", "cure: the pallets are \"store\", \"tray\""],
+            &["no place \"desk 1,1\"", "hint: the pallets are \"store\", \"tray\""],
         ),
         (
             "pick = \"part 1,1\"\n[[step]]\nplace = { on = \"tray 1,1\", at = [0, 0] }",
-            &["either `at` or `on`, this has both", "cure: "],
+            &["either `at` or `on`, this has both", "hint: "],
         ),
         (
             "pick = \"part 1,1\"\n[[step]]\nplace = { angle = 1.0 }",
-            &["either `at` or `on`, this has neither", "cure: "],
+            &["either `at` or `on`, this has neither", "hint: "],
         ),
     ] {
         bad(&healthy, transfer, to, parts);
     }
-    bad(&healthy, "columns = 2\n", "columns = 3\n", &["6 objects \"part\"", "\"tray\" has 9 places", "cure: "]);
+    bad(&healthy, "columns = 2\n", "columns = 3\n", &["6 objects \"part\"", "\"tray\" has 9 places", "hint: "]);
 }

@@ -90,7 +90,7 @@ fn assert_sound(loaded: &LoadedTask) {
             }
             Action::Place { at, angle, .. } => {
                 assert!(carried.take().is_some());
-                assert!(at.coords.iter().chain(angle).all(|v| v.is_finite()));
+                assert!(at.iter().chain(angle).all(|v| v.is_finite()));
             }
             Action::Move(_) => {}
         }

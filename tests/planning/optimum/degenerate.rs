@@ -157,7 +157,7 @@ fn what_is_in_the_link_all_along_closes_nothing() {
     let capsule = |from: Point, to: Point| convex(vec![from, to], radius);
     for motion in [slide, turn] {
         let joints = [joint("first", motion, first), joint("second", turn, around)];
-        let second = link("second", vec![capsule(Point::origin(), Point::new(1.0, 0.0))]);
+        let second = link("second", vec![capsule(Point::zeros(), Point::new(1.0, 0.0))]);
         let arm = arm(joints, [link("first", Vec::new()), second], Vector::zeros(), Point::new(1.0, 0.0));
         let scene = scene(arm, vec![capsule(Point::new(-far, -half), Point::new(-far, half))]);
         let problem = asked(scene, q(-0.4, 0.0), q(0.4, 0.0));

@@ -15,8 +15,8 @@ pub fn gantry(angles: [f64; 2], pieces: Vec<Convex>, start: Configuration, goals
     let slide = |angle: f64| JointType::Prismatic { direction: Vector::new(angle.cos(), angle.sin()) };
     let axis = JointRange::Interval { lower: -REACH, upper: REACH };
     let joints = [joint("x", slide(angles[0]), axis), joint("y", slide(angles[1]), axis)];
-    let links = [link("beam", Vec::new()), link("tool", vec![disc(Point::origin(), 0.0)])];
-    let arm = arm(joints, links, Vector::zeros(), Point::origin());
+    let links = [link("beam", Vec::new()), link("tool", vec![disc(Point::zeros(), 0.0)])];
+    let arm = arm(joints, links, Vector::zeros(), Point::zeros());
     asked(scene(arm, pieces), start, goals.iter().copied().collect::<GoalSet>())
 }
 
@@ -81,10 +81,10 @@ fn through_two_slots() {
 fn around_a_disc() {
     let tangent = (1.5_f64 * 1.5 - 0.5 * 0.5).sqrt();
     let arc = 0.5 * (TAU / 2.0 - 2.0 * (0.5_f64 / 1.5).acos());
-    let round = disc(Point::origin(), 0.5);
+    let round = disc(Point::zeros(), 0.5);
     assert_is(&square(vec![round], q(-1.5, 0.0), q(1.5, 0.0)), 2.0 * tangent + arc);
     // The same for a point with a clearance.
-    let smaller = square(vec![disc(Point::origin(), 0.2)], q(-1.5, 0.0), q(1.5, 0.0));
+    let smaller = square(vec![disc(Point::zeros(), 0.2)], q(-1.5, 0.0), q(1.5, 0.0));
     let scene = smaller.scene().clone().with_clearance(0.3).unwrap();
     assert_is(&asked(scene, q(-1.5, 0.0), q(1.5, 0.0)), 2.0 * tangent + arc);
 }

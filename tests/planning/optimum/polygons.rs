@@ -3,7 +3,7 @@
 use super::gantry::{REACH, gantry};
 use super::{LIMITS, ROUNDING, bound, metrics};
 use crate::common::convex;
-use cplan::geometry::{Convex, Point, Vector};
+use cplan::geometry::{Convex, Vector};
 use cplan::space::{Configuration, Metric};
 use proptest::prelude::*;
 use std::f64::consts::TAU;
@@ -89,7 +89,7 @@ fn polygon() -> impl Strategy<Value = Vec<Configuration>> {
 /// Bounds are not above the optimum.
 fn agree(polygons: &[Vec<Configuration>], angles: [f64; 2], start: Configuration, goals: &[Configuration], gap: f64) {
     let directions = angles.map(|angle| Vector::new(angle.cos(), angle.sin()));
-    let place = |q: &Configuration| Point::from(directions[0] * q[0] + directions[1] * q[1]);
+    let place = |q: &Configuration| directions[0] * q[0] + directions[1] * q[1];
     let pieces: Vec<Convex> = polygons.iter().map(|corners| convex(corners.iter().map(place).collect(), 0.0)).collect();
     let problem = gantry(angles, pieces, start, goals);
     for metric in metrics() {

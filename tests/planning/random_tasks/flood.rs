@@ -8,9 +8,9 @@ use crate::common::dice::Dice;
 use crate::common::random::{seeds, times};
 use cplan::Outcome;
 use cplan::engine::{Method, Options, solve};
+use cplan::geometry::Point;
 use cplan::model::{Grip, Holding, Payload, Task};
 use cplan::space::Configuration;
-use nalgebra::Point2;
 
 /// Cells along each axis.
 const CELLS: usize = 150;
@@ -94,13 +94,13 @@ fn payloads_are_judged_like_a_flood_fill() {
         let supports: Vec<usize> = (0..task.workspace.obstacles.len()).filter(|_| dice.chance(0.2)).collect();
         let mut at = task.objects.clone();
         let tip = task.arm.tip_at(task.start);
-        at[object].at.translation.vector = tip.coords;
+        at[object].at.translation = tip;
         let task = Task { objects: at, ..task };
         let world = World::at_first(&task).carrying(object, [task.start[0], task.start[1]], supports.clone());
         let lies = task.objects[object].at;
         let grip = match task.objects[object].holding {
             Holding::Rigid => Grip::rigid(&task.arm, task.start, &lies),
-            Holding::Level => Grip::Level { angle: lies.rotation.angle(), point: Point2::origin() },
+            Holding::Level => Grip::Level { angle: lies.rotation.angle(), point: Point::zeros() },
         };
         let payload = Payload { object, grip, supports };
         let poses: Vec<_> = task.objects.iter().enumerate().map(|(i, o)| (i != object).then_some(o.at)).collect();

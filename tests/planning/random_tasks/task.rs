@@ -2,10 +2,9 @@
 
 use crate::common::dice::Dice;
 use crate::common::{all_kinds, clutter, convex, disc, obstacle, placed};
-use cplan::geometry::{Convex, Point, Vector, hull};
+use cplan::geometry::{Convex, Point, Pose, Vector, hull};
 use cplan::model::{Action, Goal, Heights, Holding, Item, Object, Shape, Step, Task, Workspace, Wrist};
 use cplan::space::Configuration;
-use nalgebra::Isometry2;
 use std::f64::consts::{PI, TAU};
 
 pub fn task(seed: u64) -> Task {
@@ -49,7 +48,7 @@ pub fn task(seed: u64) -> Task {
             // The object is carried at exactly the height at which others end.
             lift: if dice.chance(0.3) { 0.05 } else { 0.0 },
             holding,
-            at: Isometry2::new(at.coords, dice.within(-PI, PI)),
+            at: Pose::new(at, dice.within(-PI, PI)),
             course: None,
             mass: 0.0,
         });
@@ -88,7 +87,7 @@ pub fn task(seed: u64) -> Task {
     for object in 0..count {
         let mut supports = || (0..fixed).filter(|_| dice.chance(0.2)).collect::<Vec<usize>>();
         let (from, onto) = (supports(), supports());
-        let grasp = if dice.chance(0.3) { Point::new(dice.within(-0.05, 0.05), 0.02) } else { Point::origin() };
+        let grasp = if dice.chance(0.3) { Point::new(dice.within(-0.05, 0.05), 0.02) } else { Point::zeros() };
         let pick = step(Action::Pick { object, grasp, supports: from, when: Vec::new() }, &mut dice);
         let at = task.arm.tip_at(anywhere(&mut dice));
         let level = task.objects[object].holding == Holding::Level;
@@ -120,7 +119,7 @@ fn outline(dice: &mut Dice) -> (Shape, Vec<Convex>) {
         let center = Point::new(dice.within(-0.02, 0.02), 0.0);
         return (Shape::Circle { center, radius: size }, vec![disc(center, size)]);
     }
-    let spot = |dice: &mut Dice| Point::from(Vector::new(dice.within(-2.0, 2.0), dice.within(-1.0, 1.0)) * size);
+    let spot = |dice: &mut Dice| Vector::new(dice.within(-2.0, 2.0), dice.within(-1.0, 1.0)) * size;
     let corners = hull(&(0..5).map(|_| spot(dice)).collect::<Vec<_>>());
     (Shape::Polygon(corners.clone()), vec![convex(corners, 0.0)])
 }

@@ -56,7 +56,7 @@ fn square(map: &OccupancyMap, cell: usize) -> [Point; 4] {
     let [width, height] = map.size;
     let (x, y) = ((cell % width) as f64, (height - 1 - cell / width) as f64);
     [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]
-        .map(|[u, v]| map.pose * Point::new((x + u) * map.resolution, (y + v) * map.resolution))
+        .map(|[u, v]| map.pose.point(Point::new((x + u) * map.resolution, (y + v) * map.resolution)))
 }
 
 /// Checks that free cells hold nothing, and occupied ones something.
@@ -76,7 +76,7 @@ fn map_is_true(scene: &Scene, map: &OccupancyMap) {
 
 /// Returns an unknown cell that a ray would show, from all sides that it meets, in order.
 fn shown_by_ray(map: &OccupancyMap, from: Point, angle: f64, range: f64) -> Option<usize> {
-    let local = map.pose.inverse_transform_point(&from) / map.resolution;
+    let local = map.pose.inverse_point(from) / map.resolution;
     let (from, ahead, far) = ([local.x, local.y], [angle.cos(), angle.sin()], range / map.resolution);
     let mut sides = vec![0.0];
     for k in 0..2 {

@@ -63,7 +63,7 @@ fn arm(dice: &mut Dice, kind: &str) -> Arm {
     let length = dice.within(0.3, 1.0);
     let offset = Vector::new(length, if dice.chance(0.5) { 0.0 } else { dice.within(-0.2, 0.2) });
     let links = [link(dice, "first", length), link(dice, "second", length)];
-    let base = if dice.chance(0.5) { Point::origin() } else { Point::new(dice.within(-1.0, 1.0), 0.3) };
+    let base = if dice.chance(0.5) { Point::zeros() } else { Point::new(dice.within(-1.0, 1.0), 0.3) };
     Arm {
         name: "random".into(),
         joints,

@@ -79,7 +79,7 @@ fn preferred_regions_are_read_like_obstacles_and_verify_says_so() {
         let refused = place.plan(wish(shape), "");
         refused.refused(
             1,
-            &["preference \"wish\" is not a simple polygon", parts, "line 8", "cure: list the corners in order"],
+            &["preference \"wish\" is not a simple polygon", parts, "line 8", "hint: list the corners in order"],
         );
     }
 }
@@ -107,9 +107,9 @@ fn holes_are_free_and_enclosed() {
     let filled = plan(thin("0.05, 0.0", &format!("polygon = {outer}")), "");
     filled.refused(1, &["the start", "hits obstacle \"plate\""]);
     let outside = format!("polygon = {outer}\nholes = [[[5, 5], [6, 5], [6, 6]]]");
-    plan(thin("1.5, 0.0", &outside), "").refused(1, &["hole 1 does not lie inside", "line 8", "cure"]);
+    plan(thin("1.5, 0.0", &outside), "").refused(1, &["hole 1 does not lie inside", "line 8", "hint"]);
     let alone = "circle = { center = [1, 1], radius = 0.1 }\nholes = [[[5, 5], [6, 5], [6, 6]]]";
-    plan(thin("1.5, 0.0", alone), "").refused(1, &["only a polygon has holes", "cure"]);
+    plan(thin("1.5, 0.0", alone), "").refused(1, &["only a polygon has holes", "hint"]);
     // Pictures of all kinds show the obstacles.
     let shape = format!("polygon = {outer}\nholes = [{hole}]");
     plan(thin("0.05, 0.0", &shape), "--picture a.svg --picture a.html --quiet").found(&[]);
@@ -125,7 +125,7 @@ fn corners_that_touch_are_taken_and_crossings_are_not() {
     let pinched = "polygon = [[1.1, 0.2], [1.5, 0.2], [1.5, 0.4], [1.3, 0.2], [1.1, 0.4]]";
     place.plan(obstacle(pinched), "").found(&["touches itself in single points"]);
     let crossing = "polygon = [[1.1, 0.2], [1.3, 0.3], [1.5, 0.4], [1.5, 0.2], [1.3, 0.3], [1.1, 0.4]]";
-    place.plan(obstacle(crossing), "").refused(1, &["crosses itself at (1.3, 0.3)", "cure"]);
+    place.plan(obstacle(crossing), "").refused(1, &["crosses itself at (1.3, 0.3)", "hint"]);
 }
 
 /// Returns an arm whose joints have only these attributes in their `<limit>`.
@@ -169,7 +169,7 @@ fn speeds_that_nobody_gives_are_assumed_and_said() {
         assert_eq!(json["assumed"]["velocity"], serde_json::json!({ "j1": 1.0, "j2": 1.0 }), "{limit}");
         assert_eq!(json["assumed"]["acceleration"], serde_json::json!({ "j1": 4.0, "j2": 4.0 }), "{limit}");
         assert_eq!((&json["path"], &json["trajectory"]), (&given["path"], &given["trajectory"]), "{limit}");
-        run(arm(limit), "").found(&["joint \"j1\": no top speed given; assumed 1 rad/s"]);
+        run(arm(limit), "").found(&["joint \"j1\": no top speed given; 1 rad/s assumed"]);
     }
     let sliding = arm("lower=\"-1\" upper=\"1\"").replace("type=\"continuous\"", "type=\"prismatic\"");
     let sliding = sliding.replacen("xyz=\"0 0 1\"", "xyz=\"1 0 0\"", 1).replacen("xyz=\"0 0 1\"", "xyz=\"0 1 0\"", 1);
@@ -192,10 +192,10 @@ fn limits_that_are_none_make_a_joint_continuous() {
     let plain = path_of(&run(arm("velocity=\"1\""), "--json"));
     for limits in ["lower=\"-1e16\" upper=\"1e16\"", "lower=\"-inf\" upper=\"inf\"", "lower=\"-1e9\" upper=\"1e10\""] {
         assert_eq!(path_of(&run(turning(limits), "--json")), plain, "{limits}");
-        run(turning(limits), "").found(&["taken as continuous"]);
+        run(turning(limits), "").found(&["counts as continuous"]);
     }
     for limits in ["lower=\"-1\" upper=\"inf\"", "lower=\"-1\" upper=\"1e16\"", "lower=\"-2000\" upper=\"2000\""] {
-        run(turning(limits), "").refused(1, &["joint \"j1\"", "too long to plan in", "limits = { j1 = ", "cure"]);
+        run(turning(limits), "").refused(1, &["joint \"j1\"", "too long for planning", "limits = { j1 = ", "hint"]);
     }
     run(turning("lower=\"nan\" upper=\"1\""), "").refused(1, &["not finite"]);
     // Slides of any length.
@@ -265,7 +265,7 @@ fn the_only_planar_pair_is_taken() {
         joint("y", "revolute", across, "l1", "l2"),
         joint("z", "revolute", "1 0 0", "l2", "l3"),
     ];
-    run(&none, "").refused(1, &["none of the robot's 3 joints", "cure"]);
+    run(&none, "").refused(1, &["none of the robot's 3 joints", "hint"]);
     // The world names a pair that is not planar; the help names the planar one.
     place.write("world.toml", format!("[robot]\njoints = [\"a2\", \"quill\"]\n{TURN}"));
     run(&scara, "").refused(1, &["one common plane", "[robot] joints = [\"a1\", \"a2\"]"]);
@@ -293,9 +293,9 @@ fn starts_are_taken_by_the_tip_if_one_ik_solution_alone_reaches_it() {
     run(world, "").found(&["the start is the only IK solution with the tip at (1, 0.5)"]);
     let both = world.replace("[robot]\nlimits = { j2 = [0, 3] }\n", "");
     run(&both, "").refused(1, &["2 IK solutions put the tip at (1, 0.5)", "give joint values: joints = [", "line "]);
-    run(&world.replace("[1, 0.5]", "[5, 0]"), "").refused(1, &["the start (5, 0) m is out of reach", "cure"]);
-    run(&both.replace("[1, 0.5]", "[0, 0]"), "").refused(1, &["leaves a joint free", "cure"]);
-    run(&world.replace("tip", "joints = [0, 1]\ntip"), "").refused(1, &["either `joints` or `tip`", "cure"]);
+    run(&world.replace("[1, 0.5]", "[5, 0]"), "").refused(1, &["the start (5, 0) m is out of reach", "hint"]);
+    run(&both.replace("[1, 0.5]", "[0, 0]"), "").refused(1, &["leaves a joint free", "hint"]);
+    run(&world.replace("tip", "joints = [0, 1]\ntip"), "").refused(1, &["either `joints` or `tip`", "hint"]);
 }
 
 #[test]
@@ -308,7 +308,7 @@ fn values_beyond_a_limit_by_rounding_are_the_limit() {
         "the goal has joint \"elbow\"",
         "taken as -2.9 rad",
     ]);
-    place.plan(FREE.replace("-0.9", "-2.90000001"), "").refused(1, &["exceeds its limits", "cure"]);
+    place.plan(FREE.replace("-0.9", "-2.90000001"), "").refused(1, &["exceeds its limits", "hint"]);
 }
 
 #[test]
@@ -328,7 +328,7 @@ fn angles_may_be_in_degrees() {
     }
     place.write("world.toml", "[start]\njoints = [0.1, \"20deg\"]\n[goal]\njoints = [0.2, 0.2]\n");
     let rp = place.run(&[shipped("robots/polar.urdf"), "world.toml".into()], "");
-    rp.refused(1, &["slides: its value cannot be in degrees", "line 2", "cure"]);
+    rp.refused(1, &["slides: its value cannot be in degrees", "line 2", "hint"]);
 }
 
 #[test]
@@ -344,5 +344,5 @@ fn a_document_type_without_entities_is_harmless() {
     place.run(&["arm.urdf", "world.toml"], "--quiet").found(&[]);
     let bomb = "<!DOCTYPE robot [<!ENTITY a \"aaaa\"><!ENTITY b \"&a;&a;\">]>\n";
     place.write("arm.urdf", format!("{bomb}{}", arm("velocity=\"1\"")));
-    place.run(&["arm.urdf", "world.toml"], "").refused(1, &["arm.urdf", "line 1", "entit", "cure"]);
+    place.run(&["arm.urdf", "world.toml"], "").refused(1, &["arm.urdf", "line 1", "entit", "hint"]);
 }

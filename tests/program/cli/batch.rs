@@ -87,7 +87,7 @@ fn a_bad_line_is_a_row() {
     place.write("world.toml", format!("{FREE}clearanse = 1\n"));
     let bad: [(&str, &str, &[&str]); 11] = [
         ("{", "input", &["no JSON", "EOF"]),
-        ("[1, 2]", "input", &["no JSON object"]),
+        ("[1, 2]", "input", &["not a JSON object"]),
         ("\u{1b}", "input", &["no JSON"]),
         (r#"{"id": 1}"#, "input", &["give `urdf` or `urdf_text`"]),
         (r#"{"urdf": "U", "id": 2}"#, "input", &["give `world` or `world_text`"]),
@@ -126,10 +126,10 @@ fn a_bad_line_is_a_row() {
     place.write("problems.jsonl", "[start]\njoints = [1, 2]\n");
     let done = place.run(&["batch", "problems.jsonl"], "");
     assert_eq!((done.code, done.rows().len()), (1, 2));
-    assert!(done.stderr.contains("problems.jsonl: no line is a JSON object") && done.stderr.contains("cure:"));
+    assert!(done.stderr.contains("problems.jsonl: no line is a JSON object") && done.stderr.contains("hint:"));
     let done = place.run(&["batch"], "");
     assert_eq!((done.code, done.stdout, done.stderr), (0, String::new(), String::new()));
-    place.run(&["batch", "none.jsonl"], "").refused(1, &["none.jsonl", "cannot be read", "cure:"]);
+    place.run(&["batch", "none.jsonl"], "").refused(1, &["none.jsonl", "cannot be read", "hint:"]);
     place.run(&["batch"], "--fields lenght").refused(2, &["lenght", "length"]);
 }
 
@@ -154,7 +154,7 @@ fn an_id_comes_back_as_it_is_written() {
         );
         assert!(rows[7].starts_with("{\"id\":1,\"status\":\"error\"") && rows[7].contains("at column"), "{}", rows[7]);
     }
-    place.run(&["batch", "."], "").refused(1, &[".: cannot be read: it is a folder", "cure: name a file"]);
+    place.run(&["batch", "."], "").refused(1, &[".: cannot be read: it is a folder", "hint: give a file"]);
     place.write("bytes.jsonl", "\u{feff}\u{feff}{}\n");
     assert_eq!(place.run(&["batch", "bytes.jsonl"], "").code, 1);
 }

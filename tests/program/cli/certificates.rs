@@ -354,7 +354,7 @@ fn goal_areas_that_are_none_are_refused_and_those_of_arms_that_turn_are_their_mi
         ("areas = [[[1, 2]]]", &["goal area: expected two opposite corners, found 1"]),
         ("areas = [[[1, 2], [3]]]", &["goal area: expected two numbers, found 1"]),
         ("areas = [[[1, 2], [3, nan]]]", &["finite"]),
-        ("areas = [[[1, 2], [3, 4]]]\ntip = [1, 1]", &["`areas` beside another goal"]),
+        ("areas = [[[1, 2], [3, 4]]]\ntip = [1, 1]", &["`areas` and another goal"]),
     ] {
         place.write("world.toml", format!("[start]\njoints = [0, 0]\n[goal]\n{goal}\n"));
         let gantry = shipped("robots/room_gantry.urdf");

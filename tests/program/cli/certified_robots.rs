@@ -365,7 +365,7 @@ fn meshes_and_what_stands_in_for_them() {
         ("a mesh of several solids", &stl, ["", ""], ("two.stl", two.concat().as_bytes()), ""),
         ("a mesh with many corners", &obj, ["", ""], ("bar.obj", round.as_bytes()), ""),
         ("a mesh in Collada", &dae, ["", ""], ("bar.dae", COLLADA.as_bytes()), ""),
-        ("a bar for a mesh", &none, bar, ("none", b"".as_slice()), "a bar stands in for it"),
+        ("a bar for a mesh", &none, bar, ("none", b"".as_slice()), "a bar replaces it"),
         ("a bar for one of two", &both, bar, ("none", b""), "none.stl"),
         ("a bar for no shape", &String::new(), bar, ("none", b""), "read as"),
     ] {

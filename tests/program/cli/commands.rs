@@ -1,6 +1,6 @@
 //! The three commands and their options.
 
-use super::{FREE, Place, shelf, shipped};
+use super::{FREE, Place, help, shelf, shipped};
 use serde_json::Value;
 
 #[test]
@@ -17,18 +17,18 @@ fn wrong_command_lines_end_with_2() {
         ("--clearance -1", "not negative"),
         ("--clearance nan", "number of metres"),
         ("--margin -0.1", "from 0 to 0.1"),
-        ("--blend 0", "more than 0"),
-        ("--blend=-0.1", "more than 0"),
+        ("--blend 0", "greater than 0"),
+        ("--blend=-0.1", "greater than 0"),
         ("--blend inf", "none, auto"),
         ("--blend round", "none, auto"),
-        ("--tip-speed 0", "more than 0"),
-        ("--tip-speed nan", "more than 0"),
+        ("--tip-speed 0", "greater than 0"),
+        ("--tip-speed nan", "greater than 0"),
         ("--jerk 200", "two numbers"),
         ("--jerk 200,none,200", "two numbers"),
-        ("--jerk 200,0", "more than 0"),
-        ("--jerk=-1,200", "more than 0"),
-        ("--jerk nan,200", "more than 0"),
-        ("--jerk none,inf", "more than 0"),
+        ("--jerk 200,0", "greater than 0"),
+        ("--jerk=-1,200", "greater than 0"),
+        ("--jerk nan,200", "greater than 0"),
+        ("--jerk none,inf", "greater than 0"),
         ("--period 0", "at least"),
         ("--period -1", "at least"),
         ("--cells 3", "8..=2048"),
@@ -36,8 +36,8 @@ fn wrong_command_lines_end_with_2() {
         ("--output result.txt", ".json, .csv, .yaml"),
         ("--output .json", ".json, .csv, .yaml"),
         ("--picture drawing.pdf", ".svg, .png, .gif or .html"),
-        ("--gap 0", "more than 0"),
-        ("--gap nan", "more than 0"),
+        ("--gap 0", "greater than 0"),
+        ("--gap nan", "greater than 0"),
         ("--gap 0.1 --planner wavefront", "needs --planner shortest or visibility"),
         ("--metric time --planner harmonic", "needs --planner shortest or visibility"),
         ("--metric weighted", "--weights"),
@@ -74,6 +74,47 @@ fn help_names_files_that_exist_and_all_exit_codes() {
     }
     assert_eq!(place.run(&["check", "--help"], "").code, 0);
     assert_eq!(place.run(&["compare", "--help"], "").code, 0);
+}
+
+#[test]
+fn planning_is_also_a_command() {
+    let place = Place::new();
+    let [urdf, world] = shelf();
+    let [short, long] =
+        [&[urdf.as_str(), &world][..], &["plan", &urdf, &world]].map(|words| place.run(words, "--json"));
+    assert_eq!((short.code, &short.stdout, &short.stderr), (0, &long.stdout, &long.stderr));
+}
+
+/// The suggested command explains the same query.
+#[test]
+fn infeasible_results_and_blocked_ends_suggest_an_explanation() {
+    let place = Place::new();
+    let files = [shipped("robots/planar_2r.urdf"), shipped("workspaces/no_path.toml")];
+    for (options, code) in
+        [("", 3), ("--start 0.14,0", 1), ("--goal 8deg,0 --clearance 0.01", 1), ("--goal-tip 5,0", 1)]
+    {
+        let done = place.run(&files, options);
+        assert_eq!(done.code, code, "{options}: {}", done.stderr);
+        let said = if code == 1 { done.stderr } else { done.stdout };
+        let command = said.lines().find_map(|line| line.split("see the blockers: cplan ").nth(1)).expect("a command");
+        let explained = place.run(&help::words(command), "");
+        assert_eq!(explained.code, 3, "{command}: {}{}", explained.stdout, explained.stderr);
+    }
+    assert!(!place.run(&shelf(), "").stdout.contains("see the blockers"));
+}
+
+#[test]
+fn options_that_the_planner_ignores_are_noted() {
+    let place = Place::new();
+    let warned = |options: &str| {
+        let done = place.run(&shelf(), options);
+        assert_eq!(done.code, 0, "{}", done.stderr);
+        done.stderr.lines().filter(|line| line.contains("has no effect")).count()
+    };
+    assert_eq!(warned("--cells 64 --levels 2"), 1);
+    assert_eq!(warned("--planner first --margin 0.01 --levels 2"), 2);
+    assert_eq!(warned("--cells 64 --quiet"), 0);
+    assert_eq!(warned("--planner wavefront --cells 64 --levels 2"), 0);
 }
 
 #[test]
@@ -247,7 +288,7 @@ fn recheck_accepts_true_bounds_and_no_others() {
         assert_eq!((holds.code, holds.stdout.starts_with("the bound holds")), (0, true), "{world}: {}", holds.stderr);
         // One bound is too high, one belongs to no length, and one to another world.
         let lower = made["optimum"]["lower_bound"].as_f64().unwrap();
-        for (wrong, said) in [(lower * (1.0 + 2e-4), "are no bounds"), (lower * 1.01, "not confirmed")] {
+        for (wrong, said) in [(lower * (1.0 + 2e-4), "are not bounds"), (lower * 1.01, "not confirmed")] {
             made["optimum"]["lower_bound"] = wrong.into();
             place.write("wrong.json", made.to_string());
             place.run(&recheck, "--proof wrong.json").refused(1, &["wrong.json", said]);
@@ -303,5 +344,5 @@ fn gaps_below_the_rounding_of_doubles_end() {
 fn a_command_that_is_none_is_told() {
     let place = Place::new();
     let done = place.run(&["verfy", "no.urdf", "no.toml", "plan.csv"], "");
-    done.refused(2, &["there is no command or file \"verfy\""]);
+    done.refused(2, &["there is no command and no file \"verfy\""]);
 }

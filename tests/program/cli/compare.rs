@@ -92,7 +92,7 @@ fn what_is_wrong_with_a_suite_is_told_at_once() {
     refused("[[problem]]\nrobot = 3\n", &["suite.toml: line 2", "string", "robot = 3"]);
     refused("[[problem]]\nrobot = \"a\"\nwordl = \"b\"\n", &["line 3", "unknown key `wordl`", "`world`"]);
     refused("[[problem]]\nrobot = \"a\"\n", &["missing key `world`"]);
-    refused("name = \"x\"\n", &["lists no problem", "cure: add a [[problem]]"]);
+    refused("name = \"x\"\n", &["lists no problem", "hint: add a [[problem]]"]);
     refused(
         "[[problem]]\nrobot = \"absent.urdf\"\nworld = \"open.toml\"\n[[problem]]\nrobot = \"a.urdf\"\nworld = \"b.toml\"\n",
         &["line 2", "no file worlds/absent.urdf", "worlds/a.urdf", "worlds/b.toml", "relative to the manifest"],
@@ -103,14 +103,16 @@ fn what_is_wrong_with_a_suite_is_told_at_once() {
     let two = format!(
         "[[problem]]\nrobot = \"{robot}\"\nworld = \"open.toml\"\n[[problem]]\nrobot = \"{robot}\"\nworld = \"closed.toml\"\n"
     );
-    refused(&two, &["open.toml: line 2", "outside the joint limits", "closed.toml: there is no goal", "cure:"]);
+    refused(&two, &["open.toml: line 2", "outside the joint limits", "closed.toml: there is no goal", "hint:"]);
     place.write("worlds/closed.toml", "obstcle = 1\n");
     refused(&two, &["closed.toml: line 1", "unknown key `obstcle`"]);
     std::fs::remove_file(place.path("worlds/suite.toml")).unwrap();
     place.run(&["compare", "--suite", "worlds"], "").refused(1, &["has no suite.toml", "compare URDF --suite worlds"]);
     place.run(&["compare", "--suite", "absent"], "").refused(1, &["absent", "cannot be read"]);
     std::fs::create_dir(place.path("empty")).unwrap();
-    place.run(&["compare", &robot, "--suite", "empty"], "").refused(1, &["empty: there is no world in it", "cure:"]);
+    place
+        .run(&["compare", &robot, "--suite", "empty"], "")
+        .refused(1, &["empty: the folder contains no world", "hint:"]);
 }
 
 /// Worlds that cannot be run do not prevent the others: all tables and the exit code count them.
@@ -179,7 +181,7 @@ fn worlds_with_steps_are_left_out_and_said_to_be() {
     std::fs::remove_file(place.path("worlds/free.toml")).unwrap();
     place
         .run(&["compare", &robot, "--suite", "worlds"], "")
-        .refused(1, &["task.toml", "it has steps, not a goal", "cure:"]);
+        .refused(1, &["task.toml", "it has steps, not a goal", "hint:"]);
     place
         .run(&["compare", &robot, "worlds/task.toml"], "--queries 3")
         .refused(1, &["task.toml", "has steps, not a goal"]);
@@ -246,7 +248,7 @@ fn every_file_is_written_or_none() {
     well_formed(&place.read("r.html"));
     for (options, code, part) in [
         ("--output new.txt", 2, ".md, .csv, .json, .html or .log"),
-        ("--output new.md --output new.md", 1, "are one file"),
+        ("--output new.md --output new.md", 1, "are the same file"),
         ("--output new.md --output absent/new.md", 1, "no folder absent"),
         ("--markdown --csv", 2, "--csv"),
         ("--jobs 0", 2, "1..=1024"),
@@ -302,7 +304,7 @@ fn one_problem_is_told_in_all_formats() {
         assert!(row["time"]["total"].as_f64().unwrap() >= row["time"]["query"].as_f64().unwrap());
     }
     let parallel = place.run(&["compare", &urdf, &world], "--planner trapezoid --planner wavefront --jobs 2 --json");
-    assert!(parallel.stderr.contains("memory is told for --jobs 1 only"), "{}", parallel.stderr);
+    assert!(parallel.stderr.contains("memory is reported only with --jobs 1"), "{}", parallel.stderr);
     assert!(parallel.json()["planners"][0]["memory"].is_null());
 }
 

@@ -179,7 +179,7 @@ fn bad_input_gives_one_error() {
         ("--cells 1000", 2, ["8..=256", ""]),
         ("--direction 0,0", 2, ["not both 0", ""]),
         ("--epsilon nan", 2, ["finite", ""]),
-        ("--tolerance 0", 2, ["more than 0", ""]),
+        ("--tolerance 0", 2, ["greater than 0", ""]),
         ("--order spiral", 2, ["red-black", ""]),
         ("--measure norm", 2, ["squares", ""]),
         ("--output a.txt", 2, ["a.txt", ".csv or .json"]),
@@ -193,10 +193,10 @@ fn bad_input_gives_one_error() {
     }
     let urdf = shipped("robots/scara.urdf");
     let task = shipped("workspaces/tasks/kitting_cell.toml");
-    place.run(&["converge", &urdf, &task], "").refused(1, &["a world with steps", "cure: "]);
+    place.run(&["converge", &urdf, &task], "").refused(1, &["a world with steps", "hint: "]);
     place.run(&["converge", "no.urdf", "no.toml"], "").refused(1, &["no.toml: cannot be read"]);
     let coarse = place.run(&["converge", &urdf, &shipped("workspaces/scara_cell.toml")], "--cells 16 --quiet");
-    coarse.refused(1, &["16 x 16 cells", "cure: more --cells"]);
+    coarse.refused(1, &["16 x 16 cells", "hint: more --cells"]);
     // If one file cannot be written, the program writes none.
     let mut words = files();
     words.extend(["--output", "b.csv", "--picture", "nowhere/b.svg"].map(str::to_owned));

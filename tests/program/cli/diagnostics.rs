@@ -11,8 +11,7 @@ const MISSING: [&str; 6] =
     ["there is no ", "there are no ", "holds no ", "holds neither ", "is missing", "has no link"];
 
 /// Names of members in documents with nested members. Errors of syntax have lines there, errors of content do not.
-const MEMBERS: [&str; 7] =
-    ["points", "steps", "path", "trajectory", "joint_names", "\"joints\"", "too large to be meant"];
+const MEMBERS: [&str; 7] = ["points", "steps", "path", "trajectory", "joint_names", "\"joints\"", "is too large"];
 
 /// Checks that the program succeeds (0, 3, 4), or reports the error in one object with file, place, message and help.
 /// Returns true if it is an error.
@@ -120,5 +119,5 @@ fn a_json_list_is_no_motion() {
     }
     place.write("motion.json", "[]");
     let said = place.run(&["verify", &robot, "world.toml", "motion.json"], "");
-    said.refused(1, &["motion.json: line 1, column 1: is a list: an object { ... } is expected", "cure: "]);
+    said.refused(1, &["motion.json: line 1, column 1: is a list, but must be an object { ... }", "hint: "]);
 }

@@ -87,7 +87,7 @@ fn a_path_that_touches_exact_polygons_is_not_what_is_certified() {
         assert!(length > exact - 1e-4 && length < exact * (1.0 + 1e-3), "{length} {exact}");
     }
     let own = place.run(&maze(), "--margin 0 --planner trapezoid --path own");
-    assert!(own.stdout.contains("the path lies among the exact polygons and touches none"), "{}", own.stdout);
+    assert!(own.stdout.contains("the path was planned among the exact polygons and touches none"), "{}", own.stdout);
 }
 
 #[test]
@@ -95,10 +95,10 @@ fn margin_0_is_for_what_has_exact_polygons() {
     let place = Place::new();
     place
         .run(&shelf(), "--margin 0")
-        .refused(1, &["--margin 0 takes C-obstacles that are polygons", "(RR) turns", "--margin 1e-5"]);
+        .refused(1, &["--margin 0 needs C-obstacles that are polygons", "this arm is RR", "--margin 1e-5"]);
     place
         .run(&maze(), "--margin 0 --planner wavefront")
-        .refused(2, &["--margin 0 needs --planner shortest", "no polygons"]);
+        .refused(2, &["--margin 0 needs --planner shortest", "does not grow C-obstacles"]);
     place.run(&maze(), "--margin=-0.1").refused(2, &["from 0 to 0.1"]);
     place.run(&maze(), "--graph full").refused(2, &["--graph needs --planner visibility"]);
 }

@@ -18,8 +18,8 @@ fn walls_in_the_way_are_named_verdict_first() {
     let done = explain(&Place::new(), "planar_2r_continuous", "no_path", "");
     assert_eq!(done.code, 3, "{}", done.stderr);
     let second = done.stdout.lines().nth(1).unwrap_or_default();
-    assert!(second.starts_with("result     there is no motion: proven; blocked by obstacle"), "{}", done.stdout);
-    for words in ["\"front wall\"", "\"back wall\"", "opens a way (certified)", "does not (proven)"] {
+    assert!(second.starts_with("result     infeasible: proven; blocked by obstacle"), "{}", done.stdout);
+    for words in ["\"front wall\"", "\"back wall\"", "opens a path (certified)", "does not (proven)"] {
         assert!(done.stdout.contains(words), "{words}: {}", done.stdout);
     }
 }
@@ -85,7 +85,7 @@ fn pictures_show_where_it_gets_stuck() {
     let done = explain(&place, "planar_2r_continuous", "no_path", "--picture why.svg --picture why.html --quiet");
     assert_eq!((done.code, done.stdout.as_str()), (3, ""), "{}", done.stderr);
     assert!(place.read("why.svg").contains("where it gets stuck"));
-    assert!(place.read("why.html").contains("opens a way (certified)"));
+    assert!(place.read("why.html").contains("opens a path (certified)"));
 }
 
 #[test]
@@ -171,9 +171,9 @@ fn after_the_time_it_says_what_it_has() {
     let done = place.run(&["explain", "a.urdf", "w.toml"], "--time 0.000001");
     assert_eq!(done.code, 3, "{}", done.stderr);
     for words in [
-        "there is no motion: proven; blocked by",
-        "boxes of collisions prove it; not proven irreducible",
-        "stopped    after 0.000001 s, before all was looked at; --time 5 takes longer",
+        "infeasible: proven; blocked by",
+        "collision boxes prove it; not proven irreducible",
+        "stopped    after 0.000001 s, before the explanation was complete; --time 5 allows more time",
     ] {
         assert!(done.stdout.contains(words), "{words}: {}", done.stdout);
     }

@@ -85,7 +85,7 @@ fn a_known_map_is_taken_up() {
     assert!(text.contains(one));
     place.write("moved.toml", text.replace(one, "[0.65, -0.1], [0.7, -0.1], [0.7, 0.4], [0.65, 0.4]"));
     let moved = place.run(&["explore", &robot, "moved.toml"], &format!("{COARSE} --known rooms.yaml"));
-    moved.refused(1, &["rooms.yaml", "says that it is occupied about (0.6", "there is nothing", "cure"]);
+    moved.refused(1, &["rooms.yaml", "says that it is occupied about (0.6", "there is nothing", "hint"]);
     place.write("finer.toml", text.replace("cell = 0.025", "cell = 0.02"));
     let finer = place.run(&["explore", &robot, "finer.toml"], &format!("{COARSE} --known rooms.yaml"));
     finer.refused(1, &["rooms.yaml", "has other cells"]);
@@ -149,7 +149,7 @@ fn what_cannot_be_reached_is_proven() {
     assert_eq!(verified.code, 0, "{}{}", verified.stdout, verified.stderr);
     let stopped = explore(&place, &rooms(), "--decisions 1");
     assert_eq!(stopped.code, 4, "{}", stopped.stdout);
-    assert!(stopped.stdout.contains("unknown: not done after 1 decision"), "{}", stopped.stdout);
+    assert!(stopped.stdout.contains("unknown: not finished after 1 decision"), "{}", stopped.stdout);
     explore(&place, &rooms(), "--decisions 1 --output stopped.json");
     let [urdf, world] = rooms();
     let verified = place.run(&["verify", &urdf, &world, "stopped.json"], "--anywhere");

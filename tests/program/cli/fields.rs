@@ -14,27 +14,27 @@ fn u_trap() -> [String; 2] {
 fn options_that_do_not_go_together_end_with_2() {
     let place = Place::new();
     for (options, part) in [
-        ("--field oriented", "--field needs --planner harmonic: shortest follows no such field"),
+        ("--field oriented", "--field needs --planner harmonic: shortest does not follow a field"),
         ("--planner wavefront --tolerance 1e-3", "--tolerance needs --planner harmonic"),
         ("--planner harmonic --field laplace", "possible values: harmonic, oriented, local, bvp, bvp2, khatib"),
         ("--planner harmonic --field oriented", "needs --epsilon and --direction"),
         ("--planner harmonic --field oriented --epsilon 1", "needs --epsilon and --direction"),
         ("--planner harmonic --field oriented --epsilon x --direction 0,1", "finite"),
         ("--planner harmonic --field oriented --epsilon 1 --direction 0,0", "not both 0"),
-        ("--planner harmonic --epsilon 1", "--epsilon is for --field oriented, bvp or bvp2"),
-        ("--planner harmonic --field bvp --direction 0,1", "--direction is for --field oriented or local"),
-        ("--planner harmonic --field bvp2 --difference upwind", "--difference is for --field oriented, local or bvp"),
-        ("--planner harmonic --relaxation jacobi --order rows", "all cells go at once"),
-        ("--planner harmonic --relaxation jacobi --factor 0.5", "weighted-jacobi and sor"),
+        ("--planner harmonic --epsilon 1", "--epsilon needs --field oriented, bvp or bvp2"),
+        ("--planner harmonic --field bvp --direction 0,1", "--direction needs --field oriented or local"),
+        ("--planner harmonic --field bvp2 --difference upwind", "--difference needs --field oriented, local or bvp"),
+        ("--planner harmonic --relaxation jacobi --order rows", "update all cells at once"),
+        ("--planner harmonic --relaxation jacobi --factor 0.5", "weighted-jacobi or sor"),
         ("--planner harmonic --relaxation weighted-jacobi", "needs --factor"),
-        ("--planner harmonic --relaxation gauss-seidel --factor 1.5", "sor with 1"),
-        ("--planner harmonic --relaxation sor --factor 0", "more than 0"),
-        ("--planner harmonic --tolerance -1", "more than 0"),
+        ("--planner harmonic --relaxation gauss-seidel --factor 1.5", "sor with the factor 1"),
+        ("--planner harmonic --relaxation sor --factor 0", "greater than 0"),
+        ("--planner harmonic --tolerance -1", "greater than 0"),
         ("--planner harmonic --max-sweeps 0", "1.."),
-        ("--planner harmonic --field khatib --relaxation sor", "--relaxation is for --field harmonic"),
-        ("--planner harmonic --saturated", "--saturated is for --field khatib"),
-        ("--planner harmonic --escape wave", "--escape is for --field khatib"),
-        ("--planner harmonic --field khatib --escape wave --saturated", "the forces of --saturated have none"),
+        ("--planner harmonic --field khatib --relaxation sor", "--relaxation needs --field harmonic"),
+        ("--planner harmonic --saturated", "--saturated needs --field khatib"),
+        ("--planner harmonic --escape wave", "--escape needs --field khatib"),
+        ("--planner harmonic --field khatib --escape wave --saturated", "which the forces of --saturated lack"),
         ("--planner harmonic --field khatib --escape tunnel", "wave, walk or walk:SEED"),
         ("--planner harmonic --field khatib --attraction cubic:1", "constant:C or linear:K"),
         ("--planner harmonic --field khatib --attraction linear:-1", "positive"),
@@ -301,5 +301,5 @@ fn cells_that_are_not_square_are_told_and_change_the_path() {
     assert!((square.1 - anisotropic.1).abs() > 1e-3, "{} {}", square.1, anisotropic.1);
     place
         .run(&files, "--planner harmonic --field khatib --stencil square")
-        .refused(2, &["--stencil is for --field harmonic"]);
+        .refused(2, &["--stencil needs --field harmonic"]);
 }

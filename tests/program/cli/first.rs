@@ -195,13 +195,13 @@ fn every_wrong_kind_of_value_has_help() {
         ("[robot]\njoints = { a = 1 }\n", "joints = [\"first\", \"second\"]"),
         ("[[obstacle]]\npolygon = { a = 1 }\n", "polygon = [[x, y], [x, y], [x, y]]"),
         ("[[obstacle]]\npolygon = [1, 2]\n", "write a point as [x, y]"),
-        ("[[obstacle]]\ncircle = [1, 2, 3]\n", "cure"),
+        ("[[obstacle]]\ncircle = [1, 2, 3]\n", "hint"),
         ("[obstacle]\npolygon = []\n", "[[obstacle]]"),
         ("clearance = \"1 cm\"\n", "clearance = 0.01"),
         ("name = 3\n", "name = \"words\""),
         ("[[obstacle]]\ncircle = { center = [1e308, 0], radius = 1 }\n", "metres"),
     ] {
-        place.plan(world, "").refused(1, &["world.toml: line ", help, "cure: "]);
+        place.plan(world, "").refused(1, &["world.toml: line ", help, "hint: "]);
     }
     place.write("world.toml", FREE);
     let robot = std::fs::read_to_string(shipped("robots/planar_2r.urdf")).unwrap();
@@ -209,6 +209,6 @@ fn every_wrong_kind_of_value_has_help() {
         let at = robot.find("size=\"").unwrap() + 6;
         let end = at + robot[at..].find('"').unwrap();
         place.write("arm.urdf", format!("{}{size}{}", &robot[..at], &robot[end..]));
-        place.run(&["arm.urdf", "world.toml"], "").refused(1, &["arm.urdf: line ", "too large", "metres", "cure: "]);
+        place.run(&["arm.urdf", "world.toml"], "").refused(1, &["arm.urdf: line ", "too large", "metres", "hint: "]);
     }
 }

@@ -99,7 +99,7 @@ fn without_obstacles_only_the_joint_that_matters_moves() {
     }
     let words = run(&place, "");
     assert!(
-        words.stdout.contains("any from -2.5000 rad") && words.stdout.contains("whatever the value of joint \"elbow\"")
+        words.stdout.contains("any from -2.5000 rad") && words.stdout.contains("for all values of joint \"elbow\"")
     );
     assert!(words.stdout.contains("reached"), "{}", words.stdout);
 }

@@ -112,7 +112,7 @@ fn iterative_deepening_says_how_often_it_began() {
 fn what_cannot_be_searched_so_is_refused() {
     let place = Place::new();
     for (options, parts) in [
-        ("--planner wavefront --forward", ["--forward needs --search bfs", "the wave begins at the goal"]),
+        ("--planner wavefront --forward", ["--forward needs --search bfs", "the search `wave`"]),
         ("--planner shortest --forward", ["--forward needs a planner that searches", "shortest"]),
         ("--planner prm --forward --backward", ["--forward", "--backward"]),
         ("--planner wavefront --ties first", ["--ties needs", "--search astar"]),

@@ -68,7 +68,10 @@ fn robots_in_millimetres_are_noticed() {
     let place = Place::new();
     place.write("arm.urdf", arm(&slides).replacen("<axis xyz=\"1 0 0\"/>", "<axis xyz=\"0 1 0\"/>", 1));
     let inspected = place.run(&["inspect", "arm.urdf"], "").stdout;
-    assert!(inspected.contains("joint \"shoulder\" slides from 0 to 600 m: limits in millimetres"), "{inspected}");
+    assert!(
+        inspected.contains("joint \"shoulder\" slides from 0 to 600 m: divide limits in millimetres"),
+        "{inspected}"
+    );
 }
 
 #[test]
@@ -101,7 +104,7 @@ fn joints_without_an_axis_are_noticed() {
 
 /// Message about a missing acceleration limit.
 const ASSUMED: &str =
-    "joint \"elbow\": no acceleration limit given; assumed 12 rad/s2, top speed in 0.25 s, for the timing alone";
+    "joint \"elbow\": no acceleration limit given; 12 rad/s2 assumed (top speed in 0.25 s), only for timing";
 
 const FAST: &str = "time,shoulder,elbow,shoulder_velocity,elbow_velocity\n0,0,0.5,0,0\n0.2,0.4,0.9,0,0\n";
 
@@ -114,7 +117,7 @@ fn verify_judges_limits_that_are_given_and_reports_the_others() {
     let verify = |options: &str| place.run(&["verify", "arm.urdf", "world.toml", "motion.csv"], options);
     let said = verify("--anywhere");
     assert_eq!(said.code, 0, "{}", said.stdout);
-    for part in ["elbow: acceleration 60.000000 rad/s2, at most 12.000000", "so it does not decide", ASSUMED] {
+    for part in ["elbow: acceleration 60.000000 rad/s2, at most 12.000000", "so this does not count", ASSUMED] {
         assert!(said.stdout.contains(part), "{part:?} is not in: {}", said.stdout);
     }
     let json = verify("--anywhere --json").json();

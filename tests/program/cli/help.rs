@@ -9,7 +9,7 @@ const ONLY_READ: [&str; 3] = ["cplan serve", "--suite", "--queries"];
 /// Returns the commands that the help lists.
 pub fn commands(place: &Place) -> Vec<String> {
     let help = place.run(&["--help"], "").stdout;
-    let listed = help.split("Commands:\n").nth(1).expect("a list of commands").split("\n\n").next().unwrap();
+    let listed = help.split("\n\nStart:\n").nth(1).expect("a list of commands").split("\n\nArguments:").next().unwrap();
     let names: Vec<String> = listed
         .lines()
         .filter(|line| line.starts_with("  ") && !line.starts_with("   "))
@@ -17,7 +17,7 @@ pub fn commands(place: &Place) -> Vec<String> {
         .map(str::to_owned)
         .collect();
     assert!(names.len() > 8, "{names:?}");
-    names.into_iter().filter(|name| name != "help").collect()
+    names
 }
 
 /// Returns the words of a command line without quotes, and without redirections or pipes.
@@ -66,6 +66,7 @@ fn every_command_has_examples_and_they_run() {
     let mut ran = 0;
     for (name, help) in &helps {
         assert!(help.contains("Exit codes:"), "{name}: no exit codes");
+        let help = help.replace("\\\n", " ");
         let examples: Vec<&str> = help.lines().filter_map(|line| line.strip_prefix("  cplan ")).collect();
         assert!(!examples.is_empty(), "{name}: no examples");
         for example in examples {
@@ -115,6 +116,23 @@ fn completions_know_commands_options_and_values() {
     assert!(output.contains("compgen -f"), "{output}");
     let dir = bash.split("--dir)\n").nth(1).expect("values of --dir").split(";;").next().unwrap();
     assert!(dir.contains("compgen -d") || dir.contains("-o plusdirs"), "{dir}");
+}
+
+#[test]
+fn help_fits_80_columns_and_lists_planner_options_in_one_place() {
+    let place = Place::new();
+    for name in commands(&place).iter().map(String::as_str).chain([""]) {
+        let words: Vec<&str> = [name, "--help"].into_iter().filter(|word| !word.is_empty()).collect();
+        let help = place.run(&words, "").stdout;
+        let wide: Vec<&str> = help.lines().filter(|line| line.chars().count() > 80).collect();
+        assert!(wide.is_empty(), "{name}: {wide:?}");
+        assert_eq!(help.contains("--neighbors <N>"), name == "planners", "{name}");
+        let sections = help.lines().filter(|line| line.ends_with(':') && !line.starts_with(' ')).collect::<Vec<_>>();
+        assert_eq!(sections.contains(&"Resolution:"), ["planners", "compare"].contains(&name), "{name}: {sections:?}");
+    }
+    let compare = place.run(&["compare", "--help"], "").stdout;
+    let output = compare.split("\nOutput:\n").nth(1).expect("a section for output");
+    assert!(output.contains("--output <FILE>") && output.contains("--wide"), "{compare}");
 }
 
 /// Returns fish's completions of a command line; `None` if fish is not installed.

@@ -64,7 +64,7 @@ fn without_a_file_the_world_is_printed() {
     );
     toml::from_str::<toml::Table>(told["world"].as_str().unwrap()).unwrap();
     let notes: Vec<&str> = told["notes"].as_array().unwrap().iter().map(|note| note.as_str().unwrap()).collect();
-    assert!(notes.contains(&"layer \"old\" is switched off: left out, --layer takes it (line 3186)"), "{notes:?}");
+    assert!(notes.contains(&"layer \"old\" is switched off and left out; --layer imports it (line 3186)"), "{notes:?}");
 }
 
 #[test]
@@ -126,7 +126,7 @@ fn what_a_frozen_layer_brings_in_is_left_out_by_its_name() {
         assert_eq!(done.code, 0, "{}", done.stderr);
         (world(&place, "w.toml")["obstacle"].as_array().unwrap().len(), done.stdout)
     };
-    let told = ["off", "cold"].map(|layer| format!("layer \"{layer}\" is switched off: left out"));
+    let told = ["off", "cold"].map(|layer| format!("layer \"{layer}\" is switched off and left out"));
     for (options, count, is_told) in [
         ("", 1, [true, true]),
         ("--layer on", 1, [false, true]),
@@ -152,9 +152,9 @@ fn outlines_that_are_none_are_taken_as_what_they_surround() {
     assert_eq!(done.code, 0, "{}", done.stderr);
     assert_eq!(names(&world(&place, "w.toml")), ["tie 1", "tie 2", "loop", "room"]);
     for part in [
-        "outlines that cross or touch themselves: what they go round is solid (line 16)",
-        "outlines that surround nothing: taken as thin walls (line 38)",
-        "\"room\" is solid and lies around all else: --walls room makes a wall of it, --without room leaves it out (line 60)",
+        "outlines that cross or touch themselves: the enclosed area is solid (line 16)",
+        "outlines that enclose no area: imported as thin walls (line 38)",
+        "\"room\" is solid and encloses everything else: --walls room makes it a wall, --without room leaves it out (line 60)",
     ] {
         assert!(done.stdout.contains(part), "{part} is not in {}", done.stdout);
     }
@@ -203,7 +203,7 @@ fn options_take_the_names_that_the_world_gives() {
     assert_eq!(names(&made(&["--layer", "WALLS 3"])), ["WALLS 3"]);
     place
         .run(&["import", "hall.dxf", "--without", "WALLS 4"], "")
-        .refused(1, &["--without: the drawing has nothing called \"WALLS 4\""]);
+        .refused(1, &["--without: the drawing has no layer or part \"WALLS 4\""]);
 }
 
 #[test]
@@ -264,15 +264,15 @@ fn what_is_hardly_meant_is_told_with_its_cure() {
     let base = "0 LWPOLYLINE 8 robot 70 1 10 -50 20 -50 10 50 20 -50 10 50 20 50 10 -50 20 50 ";
     let post = "0 CIRCLE 8 post 10 500 20 0 40 20 ";
     let reach = "0 CIRCLE 8 reach 10 0 20 0 40 700 ";
-    let over = "\"robot\" lies over (0, 0), where the arm's base is: --without robot leaves it out, \
-                --move says where the drawing lies (line 16)";
+    let over = "\"robot\" covers (0, 0), the arm's base: --without robot leaves it out, \
+                --move shifts the drawing (line 16)";
     assert_eq!(told(&format!("{base}{post}"), ""), [over]);
     assert_eq!(told(&format!("{base}{post}"), "--without robot"), [""; 0]);
     assert_eq!(told(&format!("{base}{post}"), "--move 0.2,0"), [""; 0]);
-    let around = "\"reach\" is solid and lies around all else: --walls reach makes a wall of it, --without reach leaves it out (line 16)";
+    let around = "\"reach\" is solid and encloses everything else: --walls reach makes it a wall, --without reach leaves it out (line 16)";
     assert_eq!(told(&format!("{reach}{post}"), ""), [around]);
     assert_eq!(told(&format!("{post}0 CIRCLE 8 post 10 900 20 0 40 20 "), ""), [""; 0]);
-    let wide = |width: &str| format!("all of it is {width} wide: if that is not meant, say the drawing's --unit");
+    let wide = |width: &str| format!("the whole drawing is {width} wide; if that is wrong, give its --unit");
     let two = format!("{post}0 CIRCLE 8 post 10 900 20 0 40 20 ");
     assert_eq!(told(&two, "--unit m"), [wide("440 m")]);
     assert_eq!(told(&two, "--unit um"), [wide("0.440 mm")]);
@@ -334,10 +334,10 @@ fn what_is_wrong_is_said_with_its_place_and_cure() {
     refused(
         "text.dxf",
         "--output w.toml",
-        &["text.dxf: nothing of this drawing is an obstacle; TEXT: left out", "cure: draw outlines"],
+        &["text.dxf: this drawing contains no obstacle; TEXT: left out", "hint: draw outlines"],
     );
-    refused("one.dxf", "--without a", &["nothing of this drawing is an obstacle", "cure: leave less out (--without)"]);
-    refused("nan.dxf", "", &["nan.dxf: line 20, column 1: group 10 needs a number", "cure: "]);
+    refused("one.dxf", "--without a", &["this drawing contains no obstacle", "hint: use fewer --without options"]);
+    refused("nan.dxf", "", &["nan.dxf: line 20, column 1: group 10 needs a number", "hint: "]);
     refused(
         "far.dxf",
         "",
@@ -345,13 +345,17 @@ fn what_is_wrong_is_said_with_its_place_and_cure() {
     );
     refused("high.dxf", "", &["high.dxf: line 16, column 1: CIRCLE has a height of 1.00e297 m (at most 1e6)"]);
     let done = place.run(&["import", "tiny.geojson"], "");
-    done.refused(1, &["nothing of this drawing is an obstacle", "what has no extent: left out"]);
+    done.refused(1, &["this drawing contains no obstacle", "parts without extent: left out"]);
     assert!(!done.stderr.contains("taken as"), "{}", done.stderr);
     refused("cut.dxf", "", &["cut.dxf: line ", "ends in the middle"]);
-    refused("broken.svg", "", &["broken.svg: line 3", "no well-formed XML"]);
+    refused("broken.svg", "", &["broken.svg: line 3", "not well-formed XML"]);
     refused("broken.json", "", &["broken.json: line 2", "no JSON"]);
-    refused("none.dxf", "", &["none.dxf: cannot be read", "cure: "]);
-    refused("one.dxf", "--layer b", &["--layer: the drawing has nothing called \"b\"", "cure: the drawing has \"a\""]);
+    refused("none.dxf", "", &["none.dxf: cannot be read", "hint: "]);
+    refused(
+        "one.dxf",
+        "--layer b",
+        &["--layer: the drawing has no layer or part \"b\"", "hint: the drawing has \"a\""],
+    );
     refused("one.dxf", "--output no/w.toml", &["there is no folder"]);
     assert!(!place.path("w.toml").exists());
     for (file, options, part) in [
@@ -360,7 +364,7 @@ fn what_is_wrong_is_said_with_its_place_and_cure() {
         ("one.dxf", "--height a=1", "NAME=LOW:HIGH"),
         ("one.dxf", "--height a=1:0", "lower end"),
         ("one.dxf", "--height a=0:1e300", "NAME=LOW:HIGH"),
-        ("one.dxf", "--scale 0", "more than 0"),
+        ("one.dxf", "--scale 0", "greater than 0"),
         ("one.dxf", "--unit feet", "the units are mm, cm"),
     ] {
         place.run(&["import", file], options).refused(2, &[part]);

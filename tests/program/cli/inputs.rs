@@ -50,10 +50,10 @@ fn starts_and_goals_that_collide_name_link_obstacle_and_depth() {
     let place = Place::new();
     let world = format!("{FREE}[[obstacle]]\nname = \"post\"\ncircle = {{ center = [0.5, -0.6], radius = 0.1 }}\n");
     place.plan(&world, "").refused(1, &["world.toml: line 2", "link \"upper_arm\" hits obstacle \"post\"", " m deep"]);
-    place.plan(FREE, "--start 9,0").refused(1, &["--start", "exceeds its limits", "cure"]);
-    place.plan(FREE, "--goal-tip 9,9").refused(1, &["--goal-tip", "out of reach", "cure"]);
+    place.plan(FREE, "--start 9,0").refused(1, &["--start", "exceeds its limits", "hint"]);
+    place.plan(FREE, "--goal-tip 9,9").refused(1, &["--goal-tip", "out of reach", "hint"]);
     let far = format!("{FREE}[[obstacle]]\nname = \"far\"\ncircle = {{ center = [3, 0], radius = 0.1 }}\n");
-    place.plan(format!("clearance = 3\n{far}"), "").refused(1, &["nearer than the clearance of 3 m", "cure"]);
+    place.plan(format!("clearance = 3\n{far}"), "").refused(1, &["nearer than the clearance of 3 m", "hint"]);
     // A warning that the world may be in another unit comes first, because it may be the cause.
     let done = place.plan(&far, "--clearance 3");
     let is_said = |words: &str| done.stderr.contains(words);
@@ -72,9 +72,9 @@ fn files_that_are_no_urdf() {
     place.write("cut.urdf", "<robot name=\"r\">\n  <link name=\"a\"");
     std::fs::create_dir(place.path("folder.urdf")).unwrap();
     for (file, part) in [("missing.urdf", "cannot be read"), ("folder.urdf", "cannot be read"), ("text.urdf", "XML")] {
-        place.run(&[file, "world.toml"], "").refused(1, &[file, part, "cure"]);
+        place.run(&[file, "world.toml"], "").refused(1, &[file, part, "hint"]);
     }
-    place.run(&["cut.urdf", "world.toml"], "").refused(1, &["cut.urdf: line 1", "never closed", "cure"]);
+    place.run(&["cut.urdf", "world.toml"], "").refused(1, &["cut.urdf: line 1", "never closed", "hint"]);
     place.run(&["world.toml", &shipped("robots/planar_2r.urdf")], "").refused(1, &["URDF first"]);
 }
 

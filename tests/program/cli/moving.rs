@@ -110,24 +110,21 @@ fn where_no_timing_helps_that_is_proven_and_the_answer_is_unknown() {
     let told = done.json();
     assert_eq!((&told["status"], &told["trajectory"]), (&"unknown".into(), &Value::Null));
     let reason = told["reason"].as_str().unwrap();
-    assert!(
-        reason.contains("proven: along the one way that was tried no timing keeps clear of what moves"),
-        "{reason}"
-    );
+    assert!(reason.contains("along the one route tried, no timing avoids the moving obstacles (proven)"), "{reason}");
 }
 
 #[test]
 fn motions_that_are_none_are_refused_with_their_place() {
     let place = Place::new();
     for (motion, parts) in [
-        ("{ }", ["world.toml: line 8, column 10", "neither stops nor a velocity"]),
+        ("{ }", ["world.toml: line 8, column 10", "neither `stops` nor `velocity`"]),
         ("{ velocity = [0.1] }", ["world.toml: line 8", "two numbers"]),
         ("{ velocity = [inf, 0] }", ["world.toml: line 8", "not a finite number"]),
-        ("{ stops = [] }", ["world.toml: line 8", "a course needs a stop"]),
+        ("{ stops = [] }", ["world.toml: line 8", "a moving obstacle needs at least one stop"]),
         ("{ stops = [{ time = -1, at = [3, 3] }] }", ["world.toml: line 8", "must not be negative"]),
         (
             "{ stops = [{ time = 1, at = [3, 3] }, { time = 1, at = [4, 3] }] }",
-            ["world.toml: line 8", "does not come after"],
+            ["world.toml: line 8", "is not later than"],
         ),
         ("{ stops = [{ time = 1e9, at = [3, 3] }] }", ["world.toml: line 8", "too large (at most 1e6)"]),
         ("{ speed = 1 }", ["world.toml: line 8", "unknown key `speed`"]),
@@ -165,7 +162,7 @@ fn bottles_are_picked_from_a_belt() {
     let files = "--output m.json --output m.csv --output m.mcap --picture m.html --picture m.svg";
     let done = place.run(&moving("belt_pick"), files);
     assert_eq!(done.code, 0, "{}", done.stderr);
-    for part in ["done and certified: 6 steps", "3 objects, 3 moving", "moving     3 obstacles", "pick \"bottle 3\""] {
+    for part in ["found and certified: 6 steps", "3 objects, 3 moving", "moving     3 obstacles", "pick \"bottle 3\""] {
         assert!(done.stdout.contains(part), "no {part} in {}", done.stdout);
     }
     let result: Value = serde_json::from_str(&place.read("m.json")).unwrap();
@@ -220,7 +217,7 @@ fn a_falsified_recording_of_a_task_is_found_out() {
     place.write("narrow.toml", narrow);
     let judged = place.run(&["verify", &urdf, "narrow.toml", "as_it_is.json"], "");
     assert_eq!(judged.code, 3, "{}", judged.stdout);
-    assert!(judged.stdout.contains("outside the times that are asked for"), "{}", judged.stdout);
+    assert!(judged.stdout.contains("outside the required times"), "{}", judged.stdout);
 }
 
 #[test]
@@ -249,7 +246,7 @@ fn picks_that_make_no_sense_are_refused_with_their_place() {
     let moves = "at = [1.3, -0.9]\nmotion = { velocity = [0, 0.25] }";
     for (object, step, parts) in [
         (moves, "at = [1.2, 0.1]", ["line 10, column 6", "object \"bottle\" never passes there"]),
-        (moves, "window = [3, 2]", ["line 10, column 10", "window [3, 2] is none"]),
+        (moves, "window = [3, 2]", ["line 10, column 10", "window [3, 2] is invalid"]),
         (
             moves,
             "at = [1.3, 0.1]\nwindow = [1, 2]",
@@ -259,12 +256,12 @@ fn picks_that_make_no_sense_are_refused_with_their_place() {
         (
             "at = [1.3, -0.9]\nrenew = true\nmotion = { velocity = [0, 0.25] }",
             "",
-            ["line 8", "what moves is not renewed"],
+            ["line 8", "a moving object cannot be renewed"],
         ),
         (
             moves,
             "[[step]]\nplace = { at = [0.5, 1.0] }\n[[step]]\npick = \"bottle\"\nat = [1.3, 0.1]",
-            ["line 14, column 6", "\"bottle\" has been picked before"],
+            ["line 14, column 6", "\"bottle\" was picked before"],
         ),
         (
             moves,
@@ -274,12 +271,12 @@ fn picks_that_make_no_sense_are_refused_with_their_place() {
         (
             moves,
             "[robot]\nwrist = { velocity = 6.0 }\npayload = \"level\"\n[[step]]\nplace = { at = [0.5, 1.0], angle = 1.0 }",
-            ["\"bottle\" moves", "a wrist turns objects among what stands"],
+            ["\"bottle\" moves", "a wrist that turns objects needs static obstacles"],
         ),
         (
             "payload = \"level\"\nat = [1.3, -0.9]\nmotion = { stops = [{ time = 1 }, { time = 2, angle = 1 }] }",
             "",
-            ["\"bottle\" moves", "held level where nothing that moves turns"],
+            ["\"bottle\" moves", "held level need moving obstacles that do not turn"],
         ),
     ] {
         place.plan(belt(object, step), "").refused(1, &parts);
@@ -297,5 +294,5 @@ fn what_is_never_within_reach_is_proven_and_what_is_missed_is_told() {
     assert!(!place.path("c.json").exists());
     let done = place.plan(belt("at = [1.3, -0.9]\nmotion = { velocity = [0, 0.25] }", "window = [0, 0.3]"), "");
     assert_eq!(done.code, 4, "{}", done.stdout);
-    assert!(done.stdout.contains("passes before the arm can be there"), "{}", done.stdout);
+    assert!(done.stdout.contains("passes before the arm can arrive"), "{}", done.stdout);
 }

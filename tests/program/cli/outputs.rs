@@ -17,7 +17,7 @@ fn refused(place: &Place, arguments: &[&str], names: &[&str]) {
     let before = files.map(|file| place.read(file));
     let done = place.run(arguments, "");
     assert_eq!(done.code, 1, "{arguments:?}: {}", done.stdout);
-    for part in [names, &["nothing was written", "cure:"]].concat() {
+    for part in [names, &["nothing was written", "hint:"]].concat() {
         assert!(done.stderr.contains(part), "no {part} in {}", done.stderr);
     }
     assert_eq!(files.map(|file| place.read(file)), before, "{arguments:?}");
@@ -40,7 +40,7 @@ fn outputs_are_written_behind_links() {
     // One of two outputs may be the target of the other.
     std::os::unix::fs::symlink("late.json", place.path("late.svg")).unwrap();
     let both = ["arm.urdf", "world.json", "--output", "late.json", "--picture", "late.svg"];
-    place.run(&both, "").refused(1, &["late.json and late.svg are one file", "nothing was written"]);
+    place.run(&both, "").refused(1, &["late.json and late.svg are the same file", "nothing was written"]);
     assert!(!place.path("late.json").exists());
 }
 
@@ -108,13 +108,13 @@ fn two_outputs_are_two_files() {
         vec!["--output", "a.json", "--output", "a.json"],
         vec!["--picture", "a.svg", "--picture", "sub/../a.svg"],
     ] {
-        refused(&place, &[&["arm.urdf", "world.json"], &outputs[..]].concat(), &["are one file"]);
+        refused(&place, &[&["arm.urdf", "world.json"], &outputs[..]].concat(), &["are the same file"]);
         assert!(!place.path("a.json").exists() && !place.path("a.svg").exists());
     }
     refused(
         &place,
         &["compare", "arm.urdf", "world.json", "--output", "a.html", "--picture", "./a.html"],
-        &["are one file"],
+        &["are the same file"],
     );
-    refused(&place, &["demo", "--output", "./plan.json"], &["are one file"]);
+    refused(&place, &["demo", "--output", "./plan.json"], &["are the same file"]);
 }

@@ -44,12 +44,14 @@ fn planners_with_two_paths_give_the_one_that_is_asked_for() {
 #[test]
 fn the_shortest_path_has_no_other_beside_it() {
     let place = Place::new();
-    place.run(&["no.urdf", "no.toml"], "--path own").refused(2, &["--path own is not for shortest", "taut as it is"]);
+    place
+        .run(&["no.urdf", "no.toml"], "--path own")
+        .refused(2, &["--path own does not apply to planner shortest", "the taut one"]);
     place.run(&["no.urdf", "no.toml"], "--path straight").refused(2, &["own, taut"]);
     let compare = ["compare", "no.urdf", "no.toml", "--with", "visibility --path own"];
     let done = place.command().args(compare).output().unwrap();
     assert_eq!(done.status.code(), Some(2));
-    assert!(String::from_utf8(done.stderr).unwrap().contains("--path own is not for visibility"));
+    assert!(String::from_utf8(done.stderr).unwrap().contains("--path own does not apply to planner visibility"));
 }
 
 #[test]

@@ -245,7 +245,8 @@ fn outlines_say_the_same_however_they_are_written() {
             assert!(said.is_ok_and(|said| said.contains("does all 2 steps")), "{what}");
         } else {
             assert!(
-                done.stderr.contains("object \"part\" rests on something, and is too fine or touches itself"),
+                done.stderr
+                    .contains("object \"part\" rests on a support, but its outline is too fine or touches itself"),
                 "{}",
                 done.stderr
             );

@@ -105,7 +105,7 @@ fn what_is_said_of_a_solution_is_what_planning_to_it_says() {
 #[test]
 fn cells_and_homes_that_make_no_sense_are_refused() {
     let place = Place::new();
-    reach(&place, &shelf(), "--cell 0.0001").refused(1, &["more than 4000000 cells", "choose larger ones"]);
+    reach(&place, &shelf(), "--cell 0.0001").refused(1, &["more than 4000000 cells", "choose a larger size"]);
     reach(&place, &shelf(), "--cell 0").refused(2, &["--cell"]);
     reach(&place, &shelf(), "--home 0,9").refused(1, &["elbow"]);
     reach(&place, &shelf(), "--output r.yaml").refused(2, &["written as .json or .csv"]);

@@ -220,7 +220,7 @@ fn the_search_finds_better_layouts_and_says_what_it_tried() {
         serde_json::from_str(&place.run(&command.split(' ').collect::<Vec<_>>(), "--json").stdout).unwrap();
     assert_eq!(alone["length"], summary["best"]["measured"]["length"]);
     let told = run(&place, "--output best.toml").stdout;
-    assert!(told.contains(&format!("layout {} is planned by: cplan ", summary["best"]["layout"])), "{told}");
+    assert!(told.contains(&format!("to plan layout {}: cplan ", summary["best"]["layout"])), "{told}");
     assert!(told.contains("planar_2r.urdf best.toml --clearance=0.003\n"), "{told}");
     assert_eq!(run(&place, "--output u.csv --jobs 1 --quiet").code, 0);
     assert_eq!(place.read("t.csv"), place.read("u.csv"));
@@ -279,7 +279,7 @@ fn two_runs_do_not_share_their_rows() {
     study(&place, "draws = 3", CRATE);
     let kept = std::fs::File::create(place.path("t.csv.part")).unwrap();
     kept.lock().unwrap();
-    run(&place, "--output t.csv").refused(1, &["t.csv.part: the study is at work elsewhere"]);
+    run(&place, "--output t.csv").refused(1, &["t.csv.part: another process is running this study"]);
     drop(kept);
     assert_eq!(run(&place, "--output t.csv --quiet").code, 0);
     // A run does not use its own study as rows either.
@@ -297,7 +297,7 @@ fn what_is_wrong_with_a_study_has_its_place_and_cure() {
         (
             "",
             x.replace("to = 1", "to = 0") + "draw = \"latin\"\n",
-            &["from 0 to 0 there is nothing to draw", "write values = [0]"],
+            &["the range from 0 to 0 has only one value", "write values = [0]"],
         ),
         (
             "",
@@ -312,9 +312,9 @@ fn what_is_wrong_with_a_study_has_its_place_and_cure() {
         (
             "options = [\"--picture=x.svg\"]",
             format!("{x}steps = 2\n"),
-            &["options: --picture is about files or what is printed", "files are named to `cplan study` itself"],
+            &["options: --picture is about files or printed output", "give files to `cplan study` itself"],
         ),
-        ("", String::new(), &["a study without parameters", "[[parameter]]"]),
+        ("", String::new(), &["the study has no parameters", "[[parameter]]"]),
         ("", x.into(), &["line 4, column 1", "which values parameter \"x\" takes", "from, to and steps"]),
         ("", format!("{x}steps = 1\n"), &["line 9", "1 values from 0 to 1"]),
         ("", format!("{x}draw = \"latin\"\n"), &["is drawn: how often?", "draws = 1000"]),
@@ -422,7 +422,7 @@ fn a_best_layout_at_the_end_of_a_range_is_said() {
         study(&place, "measure = [\"duration\"]", &parameter);
         run(&place, "")
     };
-    let edge = "speed = 1 of at most 1: a wider range may do better\n";
+    let edge = "speed = 1 of at most 1: a wider range may give a better layout\n";
     let stepped = speed("from = 0.5\nto = 1\nsteps = 3");
     assert!(stepped.stdout.contains(edge), "{} {}", stepped.stdout, stepped.stderr);
     assert!(!speed("values = [0.5, 1]").stdout.contains("a wider range"));
@@ -437,7 +437,7 @@ fn a_search_plans_in_no_layout_twice() {
     let done = run(&place, "--output t.csv");
     assert_eq!(done.code, 0, "{}", done.stderr);
     assert_eq!(rows(&place.read("t.csv")).len(), 6);
-    assert!(done.stdout.contains("the search found no layout to try that has no row yet"), "{}", done.stdout);
+    assert!(done.stdout.contains("the search found no new layout to try"), "{}", done.stdout);
 }
 
 #[test]
@@ -470,7 +470,7 @@ fn ctrl_c_says_what_is_kept() {
     let said = String::from_utf8(done.stderr).unwrap();
     assert_eq!(done.status.code(), Some(130), "{said}");
     let kept = said.split("stopped: ").nth(1).unwrap().split(' ').next().unwrap().parse::<usize>().unwrap();
-    assert!(kept > 0 && said.contains(" of 8000 rows are kept in t.csv.part; the same command goes on"), "{said}");
+    assert!(kept > 0 && said.contains(" of 8000 rows are kept in t.csv.part; the same command continues"), "{said}");
     // The file also has a line that names the study of the rows.
     assert!(lines() > kept, "{} {kept}", lines());
 }

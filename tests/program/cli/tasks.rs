@@ -204,7 +204,7 @@ fn repeated_tasks_are_counted_in_cycles() {
     assert_eq!(cycles, (0..30).map(|i| i / 6 + 1).collect::<Vec<_>>());
     let text = place.task(&world, "").stdout;
     for part in
-        ["1 obstacle, 2 objects", "1 (cycle 3)", "... 12 steps in cycles 4 to 5", "done and certified: 30 steps"]
+        ["1 obstacle, 2 objects", "1 (cycle 3)", "... 12 steps in cycles 4 to 5", "found and certified: 30 steps"]
     {
         assert!(text.contains(part), "{part:?} is not in: {text}");
     }
@@ -230,8 +230,8 @@ fn shipped_tasks_are_consistent() {
 fn the_first_step_that_fails_is_named() {
     let place = Place::new();
     for (steps, code, status, verdict) in [
-        (BARRED, 3, "infeasible", "result     proven: step 2, place at (1.45, 0.25) m"),
-        (DOUBTFUL, 4, "unknown", "result     unknown: no way to do step 2"),
+        (BARRED, 3, "infeasible", "result     infeasible: step 2, place at (1.45, 0.25) m"),
+        (DOUBTFUL, 4, "unknown", "result     unknown: no motion was found for step 2"),
     ] {
         place.write("a.csv", "old");
         let done = place.task(steps, "--output a.csv --json");
@@ -259,8 +259,9 @@ fn the_first_step_that_fails_is_named() {
         assert!(before[0]["path"].as_array().unwrap().len() > 1 && before[0]["first_sample"].is_null());
         assert_eq!(result["events"].as_array().unwrap().len(), 1);
         assert!(
-            done.stderr
-                .contains("a.csv is not written: there is no trajectory to put into it; what it has is from before"),
+            done.stderr.contains(
+                "a.csv is not written: the result has no trajectory; the existing file is from an earlier run"
+            ),
             "{}",
             done.stderr
         );
@@ -284,7 +285,7 @@ fn the_same_task_gives_the_same_bytes() {
     let before = read();
     let again = place.task(STEPS, &format!("{outputs} --json"));
     assert!(read() == before && again.stdout == before[0]);
-    assert!(before[3].starts_with("<svg") && before[3].contains("done, certified"));
+    assert!(before[3].starts_with("<svg") && before[3].contains("found, certified"));
     let timed = place.task(STEPS, "--json --timings").json();
     assert!(timed["timings"]["plan"].is_number() && !before[0].contains("timings"));
 
@@ -327,12 +328,12 @@ fn each_step_has_a_file_of_its_own() {
 fn what_cannot_be_done_for_steps_is_refused() {
     let place = Place::new();
     let refused = |options: &str, code: i32, part: &str| place.task(STEPS, options).refused(code, &[part]);
-    refused("--gap 0.01", 2, "--gap is for a single motion");
+    refused("--gap 0.01", 2, "--gap is for single motions");
     refused("--per-step", 2, "--per-step needs an --output");
     refused("--per-step --output a.json", 2, ".csv or .yaml");
     refused("--goal 0.1,0.2", 1, "goal");
     let plain = "[start]\njoints = [-0.9, 0.4]\n[goal]\njoints = [1.55, -0.35]\n";
-    place.plan(plain, "--per-step --output a.csv").refused(2, &["--per-step is for worlds with steps"]);
+    place.plan(plain, "--per-step --output a.csv").refused(2, &["--per-step needs a world with steps"]);
     std::fs::create_dir(place.path("a-002.csv")).unwrap();
     refused("--per-step --output a.csv", 1, "a-002.csv");
     assert!(!place.path("a-001.csv").exists(), "nothing is written if not all can be");

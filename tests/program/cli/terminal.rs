@@ -87,7 +87,7 @@ fn the_verdict_comes_first_and_what_was_taken_for_granted_last() {
         "note",
     ];
     assert_eq!(keys, order, "{}", done.stdout);
-    assert!(done.stdout.contains("no acceleration limit given; assumed"), "{}", done.stdout);
+    assert!(done.stdout.contains("no acceleration limit given; "), "{}", done.stdout);
     assert!(!done.stdout.contains("heights along"), "{}", done.stdout);
     let verbose = Place::new().run(&shelf(), "-v").stdout;
     assert!(

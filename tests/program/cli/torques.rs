@@ -103,7 +103,7 @@ fn what_is_missing_or_makes_no_sense_is_named() {
     let [urdf, world] = upright();
     place.run(&shelf(), "--torque").refused(1, &["--torque", "link \"upper_arm\" has no mass", "<inertial>"]);
     let [plain, _] = shelf();
-    place.run(&[plain.as_str(), world.as_str()], "").refused(1, &["has no mass", "cure"]);
+    place.run(&[plain.as_str(), world.as_str()], "").refused(1, &["has no mass", "hint"]);
     let text = std::fs::read_to_string(&world).unwrap();
     let cases = [
         ("shoulder = 36", "shoulder = 0", "effort of \"shoulder\" must be positive"),
@@ -123,7 +123,7 @@ fn what_is_missing_or_makes_no_sense_is_named() {
             "wrong.toml",
             silent.replace("shoulder = 36", if wrong == "gravity" { "shoulder = 36" } else { wrong }),
         );
-        place.run(&[urdf.as_str(), "wrong.toml"], "").refused(1, &["[robot]", "wrong.toml", "cure"]);
+        place.run(&[urdf.as_str(), "wrong.toml"], "").refused(1, &["[robot]", "wrong.toml", "hint"]);
     }
     let robot = std::fs::read_to_string(&urdf).unwrap();
     let robots = [
@@ -174,7 +174,7 @@ fn efforts_next_to_nothing_are_told_from_links_without_mass() {
     let weak = text.replace("shoulder = 36", "shoulder = 1e-14");
     assert_ne!(weak, text);
     place.write("weak.toml", weak);
-    let parts = ["efforts of the joints are nothing beside", "cure: look for a wrong unit"];
+    let parts = ["efforts of the joints are far too small", "hint: check the units"];
     place.run(&[&urdf, "weak.toml"], "").refused(1, &parts);
 }
 
@@ -187,7 +187,7 @@ fn torques_of_what_has_no_velocities_are_not_said_to_be_kept() {
     place.write("path.csv", "time,shoulder,elbow\n0,1.9,-0.4\n10,1.9,-0.39\n");
     let verified = place.run(&["verify", &urdf, &world, "path.csv"], "--anywhere");
     assert_eq!(verified.code, 4, "{}", verified.stdout);
-    assert!(verified.stdout.contains("no velocities: torques cannot be told"), "{}", verified.stdout);
+    assert!(verified.stdout.contains("no velocities: torques are unknown"), "{}", verified.stdout);
     place.write("one.csv", "time,shoulder,elbow,shoulder_velocity,elbow_velocity\n0,1.9,-0.4,0,0\n");
     let weaker =
         std::fs::read_to_string(&world).unwrap().replace("shoulder = 36, elbow = 12", "shoulder = 3, elbow = 1");

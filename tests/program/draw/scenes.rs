@@ -52,7 +52,7 @@ pub fn arm(
         name: "test arm".to_owned(),
         joints: [joint(0), joint(1)],
         links: [link(0), link(1)],
-        base: Point::origin(),
+        base: Point::zeros(),
         offset: Vector::new(lengths[0], 0.0),
         tip: Point::new(lengths[1], 0.0),
         tip_name: "tool0".to_owned(),
@@ -63,7 +63,7 @@ pub fn arm(
 }
 
 pub fn capsule(length: f64, radius: f64) -> Convex {
-    common::wall(Point::origin(), Point::new(length, 0.0)).grown(radius)
+    common::wall(Point::zeros(), Point::new(length, 0.0)).grown(radius)
 }
 
 pub fn block(x0: f64, y0: f64, x1: f64, y1: f64) -> Convex {
@@ -154,7 +154,7 @@ impl Cells {
             self.runs(move |k| self.all[k].contains(&obstacle)).into_iter().map(move |corners| CObstacle {
                 obstacle,
                 link: 1,
-                contour: corners.into_iter().map(Point::from).collect(),
+                contour: corners,
             })
         };
         (0..count).flat_map(of).collect()

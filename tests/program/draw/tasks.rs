@@ -26,11 +26,11 @@ fn object(name: &str, round: bool, holding: Holding, at: [f64; 2]) -> Object {
     let half = 0.09;
     let corners = [(-half, -half), (half, -half), (half, half), (-half, half)].map(|c| Point::new(c.0, c.1)).to_vec();
     let (shape, piece) = if round {
-        (Shape::Circle { center: Point::origin(), radius: half }, disc(Point::origin(), half))
+        (Shape::Circle { center: Point::zeros(), radius: half }, disc(Point::zeros(), half))
     } else {
         (Shape::Polygon(corners.clone()), convex(corners, 0.0))
     };
-    let at = Pose::translation(at[0], at[1]);
+    let at = Pose::translation(at.into());
     Object {
         name: name.into(),
         shape,
@@ -45,7 +45,7 @@ fn object(name: &str, round: bool, holding: Holding, at: [f64; 2]) -> Object {
 }
 
 fn pick(object: usize) -> Action {
-    Action::Pick { object, grasp: Point::origin(), supports: Vec::new(), when: Vec::new() }
+    Action::Pick { object, grasp: Point::zeros(), supports: Vec::new(), when: Vec::new() }
 }
 
 fn place(x: f64, y: f64) -> Action {
@@ -345,8 +345,8 @@ fn repetitions_are_drawn_once() {
 fn a_kit_of_many_parts_is_cut_short() {
     let rows = |i: usize| [1.15 + 0.22 * (i % 3) as f64, -0.6 + 0.22 * (i / 3) as f64];
     let part = |i: usize| Object {
-        pieces: vec![disc(Point::origin(), 0.05)],
-        shape: Shape::Circle { center: Point::origin(), radius: 0.05 },
+        pieces: vec![disc(Point::zeros(), 0.05)],
+        shape: Shape::Circle { center: Point::zeros(), radius: 0.05 },
         ..object(&format!("part {}", i + 1), true, Holding::Level, rows(i))
     };
     let mut steps = Vec::new();

@@ -46,7 +46,7 @@ fn what_it_brings_along_names_no_files() {
         let error = told["error"].as_str().unwrap_or_else(|| panic!("no error: {told}"));
         assert!(error.contains(part), "{part}: {error}");
     };
-    let no_file = "this text is no file";
+    let no_file = "this text is not a file";
     // Even the server's own files are refused.
     for world in [own.as_str(), "[[obstacle]]\nimage = \"/etc/passwd\"\n", "[map]\nfile = \"/etc/passwd\"\n"] {
         refused("world", world, no_file);

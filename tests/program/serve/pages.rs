@@ -53,7 +53,7 @@ fn an_address_that_is_not_of_this_machine_is_refused_with_its_cure() {
     let done = serve.args(["serve", "--port", "0", "--bind", "203.0.113.9"]).output().unwrap();
     let said = String::from_utf8(done.stderr).unwrap();
     assert_eq!(done.status.code(), Some(1), "{said}");
-    for part in ["cannot listen at 203.0.113.9:0", "cure: --bind takes an address of this machine"] {
+    for part in ["cannot listen at 203.0.113.9:0", "hint: give --bind an address of this machine"] {
         assert!(said.contains(part), "{said}");
     }
 }
@@ -132,7 +132,7 @@ fn wrong_command_lines_are_said_so() {
     let (code, error) = run(&["--export", "page.html", "--engine", "missing.wasm.gz"]);
     assert!(code == 1 && error.contains("missing.wasm.gz: cannot be read") && error.contains(".ci/page"), "{error}");
     let (code, error) = run(&["--export", "page.html", "--engine", &shipped("robots/scara.urdf")]);
-    assert!(code == 1 && error.contains("is no program packed by gzip"), "{error}");
+    assert!(code == 1 && error.contains("is not packed by gzip"), "{error}");
     let taken = Server::start(&[]);
     let (code, error) = run(&["--port", &taken.address.port().to_string()]);
     assert!(code == 1 && error.contains("cannot listen") && error.contains("--port 0"), "{error}");

@@ -115,7 +115,7 @@ fn states_that_make_no_sense_are_refused() {
     stale["clearance"] = json!(-1.0);
     assert!(error_of(&page.plan(Some(stale), "visibility")).contains("must not be negative"));
     page.base += 1;
-    assert!(error_of(&page.plan(None, "visibility")).contains("speaks of world 2"));
+    assert!(error_of(&page.plan(None, "visibility")).contains("shows world 2"));
     page.base -= 1;
     assert_eq!(page.plan(None, "visibility")["verdict"], "found");
 }

@@ -73,7 +73,7 @@ fn tables_that_are_none() {
 #[test]
 fn documents_that_are_none() {
     let json = |text: &str, parts: &[&str]| refused("m.json", text, parts);
-    json("", &["line 1", "cure"]);
+    json("", &["line 1", "hint"]);
     json("{\"joints\": [\"j1\", \"j2\"],\n \"path\": [[0, NaN]]}", &["line 2", "finite"]);
     json("{\"joints\": [\"j1\", \"j2\"], \"path\": [[0, 1], [2]]}", &["path[1] has 1 values, but 2 joints"]);
     json("{\"joints\": [\"j1\", \"j2\"], \"path\": []}", &["no sample"]);
@@ -95,15 +95,15 @@ fn documents_that_are_none() {
 fn messages_that_are_none() {
     let yaml = |text: &str, parts: &[&str]| refused("m.yaml", text, parts);
     let points = |points: &str, parts: &[&str]| yaml(&format!("joint_names: [j1, j2]\npoints:\n{points}"), parts);
-    yaml("", &["cure"]);
-    yaml("joint_names: [j1, j2\npoints: []\n", &["line", "cure"]);
+    yaml("", &["hint"]);
+    yaml("joint_names: [j1, j2\npoints: []\n", &["line", "hint"]);
     yaml("points: []\n", &["\"joint_names\" is missing"]);
     yaml("joint_names: []\npoints: []\n", &["\"joint_names\" is missing"]);
     yaml("joint_names: [j1, j2]\npoints: []\n", &["no sample"]);
     yaml("joint_names: [j1]\npoints: [{positions: [0]}]\n", &["no positions of joint \"j2\""]);
     points("- positions: [0]\n", &["positions of points[0] has 1 values, but 2 joints"]);
     points("- velocities: [0, 0]\n", &["positions of points[0] has 0 values"]);
-    points("- positions: [0, x]\n", &["line 3", "cure"]);
+    points("- positions: [0, x]\n", &["line 3", "hint"]);
     points("- positions: [0, .nan]\n", &["points[0]", "position is NaN"]);
     let two = |a: &str, b: &str| format!("- {{positions: [0, 0]{a}}}\n- {{positions: [0, 1]{b}}}\n");
     points(
@@ -113,7 +113,7 @@ fn messages_that_are_none() {
     points(&two(", time_from_start: {sec: 1}", ""), &["1 of 2 points have time_from_start"]);
     points(&two("", ", velocities: [0, 0]"), &["1 of 2 points have velocities"]);
     points(&two(", velocities: [0]", ", velocities: [0]"), &["velocities of points[0] has 1 values"]);
-    yaml("joint_names: [j1, j2]\npoints: []\n---\njoint_names: [j1, j2]\npoints: []\n", &["cure"]);
+    yaml("joint_names: [j1, j2]\npoints: []\n---\njoint_names: [j1, j2]\npoints: []\n", &["hint"]);
 }
 
 #[test]

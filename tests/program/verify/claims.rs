@@ -178,8 +178,8 @@ fn each_false_claim_of_a_task_is_named() {
     case.refused(|r| r["events"][1]["tip"][1] = json!(0.9), "claims", "events[1].tip");
     case.refused(|r| r["events"][1]["pose"]["at"][0] = json!(0.9), "claims", "events[1].pose.at");
     case.refused(|r| r["events"][1]["pose"]["angle"] = json!(0.9), "claims", "events[1].pose.angle");
-    case.refused(|r| drop(r["events"].as_array_mut().unwrap().pop()), "claims", "the gripper does");
-    case.refused(|r| r["events"] = json!([]), "claims", "the gripper does");
+    case.refused(|r| drop(r["events"].as_array_mut().unwrap().pop()), "claims", "the gripper acts");
+    case.refused(|r| r["events"] = json!([]), "claims", "the gripper acts");
     case.refused(|r| r["steps"][0]["action"] = json!("place"), "claims", "steps[0].action");
     case.refused(|r| r["steps"][1]["carried"] = Value::Null, "claims", "steps[1].carried");
     case.refused(|r| r["steps"][1]["object"] = json!("nothing"), "claims", "steps[1].object");

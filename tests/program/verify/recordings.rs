@@ -121,14 +121,14 @@ fn states_that_somebody_recorded() {
     let found = judged(&recording_of(&states([0.5, -0.8])), None).unwrap();
     assert_eq!(found["verdict"], "free", "{found:#}");
     assert_eq!((&found["samples"], &found["duration"]), (&json!(2), &json!(2.0)));
-    assert!(found["notes"].to_string().contains("topics that are not used: \\\"/rosout\\\""), "{found:#}");
+    assert!(found["notes"].to_string().contains("unused topics: \\\"/rosout\\\""), "{found:#}");
     // The straight line to the goal leads through the shelf, faster than the elbow can move.
     assert_eq!(judged(&recording_of(&states([-0.35, 1.55])), None).unwrap()["verdict"], "collision");
 
     let whole = recording_of(&states([0.5, -0.8]));
     for (bytes, part) in [
-        (whole[..whole.len() / 2].to_vec(), "cure: it is damaged, cut off, or no recording"),
-        (b"no recording".to_vec(), "cure: it is damaged, cut off, or no recording"),
+        (whole[..whole.len() / 2].to_vec(), "hint: it is damaged, truncated, or not a recording"),
+        (b"no recording".to_vec(), "hint: it is damaged, truncated, or not a recording"),
         (
             recording(&[("/joint_states", 7, state(10, [0.4, -0.9])[..40].to_vec())]),
             "a message on /joint_states at 7 ns",
@@ -139,7 +139,7 @@ fn states_that_somebody_recorded() {
         ),
     ] {
         let error = judged(&bytes, None).unwrap_err().to_string();
-        assert!(error.contains(part) && error.contains("cure:"), "{part}: {error}");
+        assert!(error.contains(part) && error.contains("hint:"), "{part}: {error}");
     }
 }
 
@@ -281,7 +281,7 @@ fn motions_of_a_controller_in_a_namespace() {
         ("/joint_states", STATES, 10, state(11, [0.43, -0.9])),
     ]);
     let message = message_of(&jumps, None);
-    assert!(message.contains("stands elsewhere when a motion begins") && message.contains("--topic"), "{message}");
+    assert!(message.contains("is at another value when a motion begins") && message.contains("--topic"), "{message}");
     assert_eq!(judged(&jumps, Some("/joint_states")).unwrap()["verdict"], "free");
 }
 

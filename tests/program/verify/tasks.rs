@@ -144,7 +144,7 @@ fn the_summary_has_a_line_a_step() {
     let turned = shipped("board_turned").in_world("velocity = 3.0", "velocity = 0.3");
     let (code, text, _) = turned.said(&[]);
     assert_eq!(code, 3);
-    for part in ["not as asked for", "task       step 2 (cycle 1): the wrist turns in 0.", "result     not the task"] {
+    for part in ["not as required", "task       step 2 (cycle 1): the wrist turns in 0.", "result     not the task"] {
         assert!(text.contains(part), "no {part:?} in:\n{text}");
     }
     assert_eq!(turned.said(&["--quiet"]), (3, String::new(), String::new()));
@@ -193,7 +193,7 @@ fn steps_in_another_order() {
     tower.result["steps"][0]["step"] = json!(3);
     tower.result["steps"][2]["step"] = json!(1);
     let found = tower.refuted("task", &[]);
-    assert_eq!(found["faults"], json!(["steps[0] is step 3 (cycle 1), where the world asks for step 1 (cycle 1)"]));
+    assert_eq!(found["faults"], json!(["steps[0] is step 3 (cycle 1), but the world requires step 1 (cycle 1)"]));
 
     let mut tower = shipped("tower");
     tower.result["steps"].as_array_mut().unwrap().swap(3, 4);
@@ -203,12 +203,12 @@ fn steps_in_another_order() {
     tower.result["steps"].as_array_mut().unwrap().pop();
     assert_eq!(
         tower.refuted("task", &[])["faults"][0],
-        "after 4 steps the world asks for step 5 (cycle 1), but there are no more"
+        "after 4 steps the world requires step 5 (cycle 1), but the file ends"
     );
 
     let mut feeder = shipped("feeder");
     feeder.result["steps"][4]["cycle"] = json!(3);
-    assert!(feeder.refuted("task", &[])["faults"][0].as_str().unwrap().contains("asks for step 2 (cycle 2)"));
+    assert!(feeder.refuted("task", &[])["faults"][0].as_str().unwrap().contains("requires step 2 (cycle 2)"));
 
     // A place that is another pair's.
     let mut sorting = shipped("sorting");
@@ -357,7 +357,7 @@ fn steps_that_are_none_are_refused() {
         step.as_object_mut().unwrap().extend(members.as_object().unwrap().clone());
         json!([step])
     };
-    refused(json!(7), &["line 1", "cure"]);
+    refused(json!(7), &["line 1", "hint"]);
     refused(json!([1]), &["line 1"]);
     refused(json!([{}]), &["missing field `step`"]);
     refused(json!([{"step": 1}]), &["missing field `cycle`"]);

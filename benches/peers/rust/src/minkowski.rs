@@ -28,7 +28,7 @@ fn plain(b: &[Point], a: &[Point]) -> Vec<Point> {
         |polygon: &[Point], k: usize| -> Vector { polygon[(k + 1) % polygon.len()] - polygon[k % polygon.len()] };
     let (first, second) = (lowest(b), lowest(&mirrored));
     let (mut i, mut j) = (0, 0);
-    let mut at = b[first] + mirrored[second].coords;
+    let mut at = b[first] + mirrored[second];
     let mut out = Vec::with_capacity(b.len() + a.len());
     while i < b.len() || j < a.len() {
         out.push(at);

@@ -25,7 +25,7 @@ const QUERIES: usize = 32;
 /// Number of pairs of free places in the window.
 fn queries(regions: &Regions) -> Vec<[Configuration; 2]> {
     let mut random = Dice::new(7);
-    let free = |q: &Configuration| regions.free.iter().any(|polygon| polygon.contains(Point::from(*q)));
+    let free = |q: &Configuration| regions.free.iter().any(|polygon| polygon.contains(*q));
     let mut place = || loop {
         let [x, y] = regions.window.map(|(low, high)| random.within(low, high));
         let q = Configuration::new(x, y);
@@ -56,7 +56,7 @@ fn mesh(regions: &Regions, is_merged: bool) -> Mesh {
 
 /// Returns the length of polyanya's path, whose first waypoint is the first corner.
 fn polyanya_length(mesh: &Mesh, [from, to]: &[Configuration; 2]) -> Option<f64> {
-    let path = mesh.path(single(Point::from(*from)), single(Point::from(*to)))?;
+    let path = mesh.path(single(*from), single(*to))?;
     Some(f64::from(path.length))
 }
 

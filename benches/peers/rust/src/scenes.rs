@@ -24,7 +24,7 @@ pub struct Bars {
 /// Returns the arm, if it is of the simple kind that the peers' checkers support.
 pub fn bars(scene: &Scene) -> Result<Bars> {
     let arm = scene.arm();
-    let simple = arm.base.coords.norm() == 0.0 && arm.offset.y == 0.0 && arm.links.iter().all(|l| l.parts.len() == 1);
+    let simple = arm.base.norm() == 0.0 && arm.offset.y == 0.0 && arm.links.iter().all(|l| l.parts.len() == 1);
     if !simple {
         return Err("the peers' checkers know an arm of two bars at the origin".into());
     }

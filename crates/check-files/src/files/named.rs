@@ -16,7 +16,7 @@ impl Files {
     /// If it was given as a text.
     pub fn path(&self, of: Input) -> Result<&Path, CheckError> {
         let path = self.given[usize::from(of == Input::World)].as_deref();
-        path.ok_or_else(|| CheckError::in_file(of, "it names other files, which only check_files looks for"))
+        path.ok_or_else(|| CheckError::in_file(of, "it names other files, which only check_files reads"))
     }
 
     /// Reads a file that the URDF or the world refers to.
@@ -37,7 +37,7 @@ impl Files {
         let is_said = |said: &Vec<String>| said.iter().any(|said| said.eq_ignore_ascii_case(&digest(&bytes)));
         match self.others.as_ref().is_none_or(is_said) {
             true => Ok(bytes),
-            false => CheckError::fails(format!("it is about another {name}: none of \"others\" is its SHA-256")),
+            false => CheckError::fails(format!("it is about another {name}, whose SHA-256 is not in \"others\"")),
         }
     }
 }

@@ -14,7 +14,7 @@ impl Robot<'_> {
     /// Makes the bar: all points within a radius of the segment from a joint to the next joint or to the tip.
     pub(super) fn bar(&self, last: usize, radius: &Decimal) -> Read<Counted> {
         if radius.sign() != Sign::Plus {
-            return Err(CheckError::in_file(Input::World, "the radius of a bar is positive"));
+            return Err(CheckError::in_file(Input::World, "the radius of a bar must be positive"));
         }
         let link = self.children[last];
         let (next, end) = match last {

@@ -32,7 +32,7 @@ struct Scene<'a> {
 
 /// Returns the vertices of all geometries that the scene shows, metres.
 pub fn vertices(bytes: &[u8]) -> Result<Vec<Vector>, String> {
-    let text = std::str::from_utf8(bytes).map_err(|_| "it is no text")?;
+    let text = std::str::from_utf8(bytes).map_err(|_| "it is not text")?;
     let options = ParsingOptions { allow_dtd: true, ..ParsingOptions::default() };
     let text = text.trim_start_matches('\u{feff}');
     // Ignore comments before the declaration.
@@ -41,12 +41,12 @@ pub fn vertices(bytes: &[u8]) -> Result<Vec<Vector>, String> {
     let document = Document::parse_with_options(text, options).map_err(|error| error.to_string())?;
     let root = document.root_element();
     if root.tag_name().name() != "COLLADA" {
-        return Err("it is no Collada".into());
+        return Err("it is not Collada".into());
     }
     let metres = child(root, "asset").and_then(|a| child(a, "unit")).and_then(|unit| unit.attribute("meter"));
     let metres = Decimal::read(metres.unwrap_or("1").trim())?;
     if metres.sign() != Sign::Plus {
-        return Err("its unit is no length".into());
+        return Err("its unit is not a positive length".into());
     }
     let ids = document.descendants().filter_map(|node| Some((node.attribute("id")?, node))).collect();
     let mut scene = Scene { ids, nodes: 0, numbers: 0, points: Vec::new() };
@@ -91,10 +91,11 @@ impl<'a> Scene<'a> {
     fn show(&mut self, node: Node<'a, 'a>, to_file: &Affine, depth: usize) -> Result<(), String> {
         self.nodes += 1;
         if depth > DEEPEST || self.nodes > MOST_NODES {
-            return Err("its nodes hold themselves, or too many others".into());
+            return Err("a node contains itself, or too many nodes".into());
         }
         for child in node.children().filter(Node::is_element) {
-            let target = || self.target(child).ok_or_else(|| "it refers to what it does not have".to_owned());
+            let target =
+                || self.target(child).ok_or_else(|| "it refers to an element that it does not have".to_owned());
             match child.tag_name().name() {
                 "node" => self.show(child, &to_file.after(&placing(child)?), depth + 1)?,
                 "instance_node" => {
@@ -106,7 +107,7 @@ impl<'a> Scene<'a> {
                     let mesh = self::child(target, "mesh").ok_or("the checker knows geometries that are a <mesh>")?;
                     self.positions(mesh, to_file)?;
                 }
-                "instance_controller" => return Err("the checker does not know meshes that controllers bend".into()),
+                "instance_controller" => return Err("the checker does not read meshes that controllers deform".into()),
                 _ => {}
             }
         }
@@ -121,7 +122,7 @@ impl<'a> Scene<'a> {
         let array = child(source, "float_array").ok_or("a mesh has no positions")?;
         let accessor = named(source, "accessor").next().ok_or("positions have no accessor")?;
         let whole = |name: &str, else_: usize| match accessor.attribute(name) {
-            Some(text) => text.trim().parse().map_err(|_| format!("an accessor's {name} is no number")),
+            Some(text) => text.trim().parse().map_err(|_| format!("an accessor's {name} is not a number")),
             None => Ok(else_),
         };
         let (numbers, stride, count) = (numbers(array)?, whole("stride", 1)?, whole("count", 0)?);
@@ -132,7 +133,7 @@ impl<'a> Scene<'a> {
         self.numbers += numbers.len();
         if !is_plain || stride < 3 || count.checked_mul(stride) != Some(numbers.len()) || self.numbers > 3 * MOST_POINTS
         {
-            return Err("numbers of a mesh make no positions x, y and z, or too many".into());
+            return Err("a mesh's numbers do not form positions x, y and z, or form too many".into());
         }
         let mut shown = BTreeSet::new();
         for primitive in mesh.children().filter(Node::is_element) {
@@ -151,7 +152,7 @@ impl<'a> Scene<'a> {
                 let indices = indices.collect::<Option<Vec<_>>>().unwrap_or_default();
                 let are_whole = !indices.is_empty() && indices.len().is_multiple_of(each);
                 if !are_whole && !text.trim().is_empty() {
-                    return Err("a primitive's indices are none of the mesh's".into());
+                    return Err("a primitive has an index beyond the mesh's vertices".into());
                 }
                 shown.extend(indices.into_iter().skip(own).step_by(each));
             }
@@ -190,7 +191,7 @@ fn placing(node: Node) -> Result<Affine, String> {
     let mut all = Pose::identity();
     let is_one = |part: &Node| PLACING.contains(&part.tag_name().name());
     if node.children().filter(is_one).count() > MOST_PLACINGS {
-        return Err("a node is placed by too many transformations".into());
+        return Err("a node has too many transformations".into());
     }
     for part in node.children().filter(is_one) {
         let kind = part.tag_name().name();
@@ -212,7 +213,7 @@ fn placing(node: Node) -> Result<Affine, String> {
             ("rotate", 4) => {
                 let length = size(&vector());
                 if length.lower.sign() != Sign::Plus {
-                    return Err("a node turns about no axis".into());
+                    return Err("a node's rotation has no axis".into());
                 }
                 let axis = vector().map(|c| c.divided(&length));
                 Pose::turn(&axis, &(&values[3] * &Interval::pi().over(180)))

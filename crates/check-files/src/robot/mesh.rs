@@ -65,7 +65,7 @@ fn read(files: &Files, name: &str) -> Result<Mesh, CheckError> {
         _ => return Err(wrong("the checker knows meshes as STL, OBJ and Collada (.dae)")),
     };
     let path = candidates(name, files.path(Input::Urdf)?).into_iter().find(|path| path.is_file());
-    let bytes = files.bytes(Input::Urdf, &path.ok_or_else(|| wrong("it is not there"))?)?;
+    let bytes = files.bytes(Input::Urdf, &path.ok_or_else(|| wrong("it does not exist"))?)?;
     match read(&bytes) {
         Ok(mesh) if mesh.points.is_empty() => Err(wrong("it has no corners")),
         read => read.map_err(|why| wrong(&why)),
@@ -78,7 +78,7 @@ fn stl(bytes: &[u8]) -> Result<Mesh, String> {
         bytes.get(HEADER - 4..HEADER).map(|count| count.iter().rev().fold(0, |sum, b| sum << 8 | usize::from(*b)));
     let triangles = match count {
         Some(count) if bytes.len() == HEADER + TRIANGLE * count => in_bytes(&bytes[HEADER..]),
-        _ => std::str::from_utf8(bytes).ok().and_then(as_text).ok_or("it is no STL")?,
+        _ => std::str::from_utf8(bytes).ok().and_then(as_text).ok_or("it is not an STL file")?,
     };
     let (corners, edges) = of_faces(&triangles);
     let points: Option<Vec<Vector>> = corners.into_iter().map(exactly).collect();
@@ -112,7 +112,7 @@ fn obj(bytes: &[u8]) -> Result<Mesh, String> {
                     let number = word.split('/').next().and_then(|number| number.parse::<i64>().ok());
                     let at = number.map(|n| if n < 0 { n.saturating_add(vertices.len() as i64) } else { n - 1 });
                     let at = at.and_then(|at| usize::try_from(at).ok()).filter(|at| *at < vertices.len());
-                    face.push(at.ok_or("a face has a vertex that is not there before it")?);
+                    face.push(at.ok_or("a face has a vertex that does not precede it")?);
                 }
                 faces.push(face);
             }

@@ -15,7 +15,7 @@ impl<'a> Tree<'a> {
             let Some(next) = self.named.get(self.text(mimic, "joint")?) else { return Ok(None) };
             (leader, at) = (Some(*next), *next);
         }
-        self.error(joint, "joints mimic one another")
+        self.error(joint, "joints mimic one another in a cycle")
     }
 
     /// Returns the value of a joint: 0 for the two planned joints, and the value that follows from its leader for a
@@ -37,7 +37,7 @@ impl<'a> Tree<'a> {
                 let by = &number("multiplier", 1)? * &self.value(*leader, followed + 1)?;
                 Ok(&by + &number("offset", 0)?)
             }
-            _ => self.error(mimic, "the joint that it mimics is not there, or mimics this one"),
+            _ => self.error(mimic, "the joint that it mimics does not exist, or mimics this one"),
         }
     }
 }
@@ -51,9 +51,10 @@ impl<'a> Robot<'a> {
             let counts = has_shapes || link == self.tip_link;
             for joint in if counts { self.tree.above(link)? } else { Vec::new() } {
                 if self.tree.leader(joint)?.is_some_and(|leader| joints.contains(&leader)) {
-                    return self
-                        .tree
-                        .error(joint, "it mimics a joint that moves, and carries what could collide, or the tip");
+                    return self.tree.error(
+                        joint,
+                        "it mimics a joint that moves, and carries the tip or a shape that could collide",
+                    );
                 }
             }
         }

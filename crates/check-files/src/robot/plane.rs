@@ -74,7 +74,7 @@ impl Plane {
             Some(ROUNDED) => String::new(),
             digits => {
                 let digits = digits.unwrap_or(0);
-                format!("; the joints are taken to move in one plane, off which they are by up to 1e-{digits} rad")
+                format!("; the joints' axes are up to 1e-{digits} rad off the assumed common plane")
             }
         }
     }

@@ -38,9 +38,9 @@ impl<'a> Robot<'a> {
             let is_no_matter = |kind: &str| last.is_none() || kind == "visual" && has_collision;
             let (left, unread): (Vec<_>, Vec<_>) = unread.into_iter().partition(|(_, kind, _)| is_no_matter(kind));
             self.arm.notes.extend(
-                left.iter().map(|(link, kind, why)| format!("; a {kind} of link \"{link}\" is left out: {why}")),
+                left.iter().map(|(link, kind, why)| format!("; a {kind} of link \"{link}\" is ignored: {why}")),
             );
-            self.arm.notes.extend(unread.iter().map(|(.., why)| format!("; {why}: a bar stands in for it")));
+            self.arm.notes.extend(unread.iter().map(|(.., why)| format!("; {why}: a bar replaces it")));
             match (last, &world.robot.bar, unread.into_iter().next()) {
                 (Some(last), Some(bar), unread) if found.is_empty() || unread.is_some() => {
                     let (link, whole) = (self.children[last], self.bar(last, bar)?);
@@ -73,7 +73,7 @@ impl<'a> Robot<'a> {
                 let mut geometry = child(node, "geometry").into_iter().flat_map(|all| all.children());
                 let mut next = || geometry.by_ref().find(Node::is_element);
                 let (Some(geometry), None) = (next(), next()) else {
-                    return self.tree.error(node, "it has no geometry, or one of several shapes");
+                    return self.tree.error(node, "it needs a geometry with exactly one shape");
                 };
                 let solid = match self.tree.solid(geometry)? {
                     Some(Ok(solid)) => solid,

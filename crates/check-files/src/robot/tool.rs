@@ -52,7 +52,7 @@ fn turn_about(counted: &mut Counted, axis: &Point) -> Read<()> {
     let deepest = depth(&counted.within.shape, axis);
     if deepest.sign() != Sign::Plus {
         let message = format!(
-            "{counted} turns with the wrist and does not hold its axis: give it a shape that covers it all round"
+            "{counted} turns with the wrist, but does not contain its axis: give it a shape that covers all angles"
         );
         return Err(CheckError::in_file(Input::Urdf, message));
     }
@@ -74,7 +74,9 @@ impl<'a> Robot<'a> {
             let axis = minus(&self.plane.flat(&self.tree.pose(carried)?.at), &sum(at, axis));
             let off = length(&minus(&axis, &self.arm.tip.shape.points[0])).upper;
             if off > Interval::from(&Decimal::power_of_ten(ON_AXIS)).lower {
-                let message = format!("the wrist's joint \"{name}\" moves the tip: its axis does not go through that");
+                let message = format!(
+                    "the wrist's joint \"{name}\" moves the tip, because its axis does not pass through the tip"
+                );
                 return Err(CheckError::in_file(Input::World, message));
             }
             for k in 0..self.arm.shapes.len() {
@@ -92,7 +94,7 @@ impl<'a> Robot<'a> {
     fn of_the_tool(&mut self, name: &str, what: &str) -> Read<(Node<'a, 'a>, &'a str)> {
         let wrong = |why: &str| Err(CheckError::in_file(Input::World, format!("the {what}'s joint \"{name}\" {why}")));
         let found = self.tree.joints.iter().find(|(_, node)| node.attribute("name") == Some(name));
-        let Some((&carried, &joint)) = found else { return wrong("is none of the robot's") };
+        let Some((&carried, &joint)) = found else { return wrong("does not exist in the robot") };
         let axis = self.tree.pose(carried)?.direction(&self.tree.axis(joint)?);
         let along = self.plane.height(&axis).abs();
         let least = &Decimal::whole(1) - &Decimal::power_of_ten(UPRIGHT);

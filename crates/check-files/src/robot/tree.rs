@@ -144,7 +144,7 @@ impl<'a> Tree<'a> {
             self.text(node, name)?.split_whitespace().map(Decimal::read).collect();
         match numbers.map(<[Decimal; N]>::try_from) {
             Ok(Ok(numbers)) => Ok(numbers),
-            Ok(Err(_)) => self.error(node, format!("{name} has not {N} numbers")),
+            Ok(Err(_)) => self.error(node, format!("{name} must have {N} numbers")),
             Err(why) => self.error(node, why),
         }
     }
@@ -164,7 +164,7 @@ impl<'a> Tree<'a> {
         let Some(origin) = child(node, "origin") else { return Ok(pose) };
         if origin.has_attribute("quat_xyzw") {
             if origin.has_attribute("rpy") {
-                return self.error(origin, "it has both rpy and quat_xyzw: keep one");
+                return self.error(origin, "it has both rpy and quat_xyzw: remove one");
             }
             pose = self.quaternion(origin)?;
         } else if origin.has_attribute("rpy") {
@@ -185,7 +185,7 @@ impl<'a> Tree<'a> {
         let numbers = self.numbers::<3>(axis, "xyz")?;
         let signs = numbers.each_ref().map(Decimal::sign);
         match signs.iter().filter(|s| **s != Sign::NoSign).count() {
-            0 => self.error(axis, "the axis has no direction"),
+            0 => self.error(axis, "the axis is zero"),
             1 => Ok(signs.map(|s| {
                 Interval::whole(match s {
                     Sign::Minus => -1,
@@ -282,7 +282,7 @@ impl<'a> Tree<'a> {
             }
         }
         if low >= high {
-            return self.error(joint, "its limits are reversed, or its soft limits leave nothing of them");
+            return self.error(joint, "its limits are reversed, or do not overlap its soft limits");
         }
         let [least, most] = [-FARTHEST, FARTHEST].map(Decimal::whole);
         if turns && low <= least && high >= most {

@@ -54,10 +54,12 @@ impl<'a> Order<'a> {
                 Ok(())
             }
             Some((index, done)) => CheckError::fails(format!(
-                "steps[{index}] is step {}, where the world asks for step {}",
+                "steps[{index}] is step {}, but the world requires step {}",
                 done.step, step.number
             )),
-            None => CheckError::fails(format!("the world asks for step {} then, and there are no more", step.number)),
+            None => {
+                CheckError::fails(format!("the world requires step {} next, but the certificate ends", step.number))
+            }
         }
     }
 }
@@ -71,10 +73,12 @@ pub(super) fn stands(motion: &Motion, steps: &[Matched]) -> Result<Vec<Decimal>,
     let begins = steps.iter().map(|step| step.done.knots[0]).chain([end]);
     for (index, first) in begins.enumerate() {
         if first < last || first > end {
-            return CheckError::fails(format!("steps[{index}] begins before the one before ends, or after the motion"));
+            return CheckError::fails(format!(
+                "steps[{index}] begins before the previous step ends, or after the motion"
+            ));
         }
         if let Some(knot) = (last..first).find(|knot| !motion.stands(*knot)) {
-            return CheckError::fails(format!("after knot {knot}, which belongs to no step, the arm moves"));
+            return CheckError::fails(format!("the arm moves after knot {knot}, which belongs to no step"));
         }
         all.push(&knots[first][0] - &knots[last][0]);
         if let Some(step) = steps.get(index) {

@@ -131,10 +131,10 @@ impl<'a> Replay<'a> {
         for object in renewed {
             let number = self.task.first + object;
             if self.held.as_ref().is_some_and(|held| held.object == *object) {
-                return CheckError::fails("an object is carried of which there is to be a new one");
+                return CheckError::fails("an object is renewed while the tool carries it");
             }
             if self.all[number].course.is_some() {
-                return CheckError::fails("there is to be a new one of an object that moves");
+                return CheckError::fails("a moving object cannot be renewed");
             }
             self.present[number] = Some(Present::new(&self.chain, self.all[number].clone())?);
             // Another object, which may now be touched.
@@ -220,7 +220,7 @@ impl<'a> Replay<'a> {
         let part = |solid, keeps, manner: Manner| {
             let is_met = |obstacle| self.meets(held, obstacle, tool).is_some_and(|of| of == manner);
             let meets = all.clone().map(is_met).collect();
-            Part { name: "what is carried".to_owned(), keeps, solid, meets }
+            Part { name: "the payload".to_owned(), keeps, solid, meets }
         };
         let [others, supports] = solids;
         let supported = supports.iter().map(|solid| part(solid, "no deeper than it may press into", Manner::Pressed));
@@ -241,10 +241,7 @@ impl<'a> Replay<'a> {
                     let mut edges = present.iter().flat_map(|present| &present.edges);
                     let side = |edge: &Edge| edge.during(&self.chain, [time, time]).point().clone();
                     if edges.any(|edge| lying.surrounds(&side(edge), &guard()) != Some(false)) {
-                        return CheckError::fails(format!(
-                            "{} is inside what is carried",
-                            self.all[number].called(number)
-                        ));
+                        return CheckError::fails(format!("{} is inside the payload", self.all[number].called(number)));
                     }
                 }
             }

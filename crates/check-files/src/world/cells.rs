@@ -47,7 +47,7 @@ impl Cells {
     /// If it is not a description, or if the picture is neither PGM nor PNG.
     pub fn read(files: &Files, yaml: &Path, unknown_is_solid: bool) -> Result<Self, CheckError> {
         let wrong = |path: &Path, why: &str| CheckError::in_file(Input::World, format!("{}: {why}", path.display()));
-        let text = String::from_utf8(files.bytes(Input::World, yaml)?).map_err(|_| wrong(yaml, "it is no text"))?;
+        let text = String::from_utf8(files.bytes(Input::World, yaml)?).map_err(|_| wrong(yaml, "it is not text"))?;
         let description = serde_saphyr::from_str::<Description>(&text);
         let Description { image, resolution, origin, negate, occupied_thresh, free_thresh, mode } =
             description.map_err(|error| wrong(yaml, &error.without_snippet().to_string()))?;
@@ -61,10 +61,10 @@ impl Cells {
         {
             return Err(wrong(
                 yaml,
-                "free_thresh is above occupied_thresh, one is no share, or the resolution is no length",
+                "free_thresh is above occupied_thresh, one of them is not from 0 to 1, or the resolution is not positive",
             ));
         }
-        let [x, y, yaw] = &origin[..] else { return Err(wrong(yaml, "origin is no list [x, y, yaw]")) };
+        let [x, y, yaw] = &origin[..] else { return Err(wrong(yaml, "origin must be a list [x, y, yaw]")) };
         let [x, y, yaw] = [number(x)?, number(y)?, number(yaw)?];
         let is_light = match negate.to_lowercase().as_str() {
             "0" | "false" | "no" | "off" | "n" => false,
@@ -153,8 +153,10 @@ impl Squares for Cells {
             }
         }
         if border.len() > MOST_PIECES {
-            let message =
-                format!("a picture has a border of {} pieces: more than {MOST_PIECES} are not looked at", border.len());
+            let message = format!(
+                "a picture has a border of {} pieces, but the checker takes at most {MOST_PIECES}",
+                border.len()
+            );
             return Err(CheckError::in_file(Input::World, message));
         }
         Ok(border.into_iter().map(|ends| ends.map(|end| self.corner(end))).collect())

@@ -76,7 +76,7 @@ impl Reader<'_> {
         }
         let stop = |value: &Value| {
             let stop = self.table(value)?;
-            let Some(time) = stop.get("time") else { return self.error(value, "a stop has a time") };
+            let Some(time) = stop.get("time") else { return self.error(value, "a stop needs a time") };
             if let Some((key, _)) = stop.iter().find(|(key, _)| !["time", "at", "angle"].contains(&&**key.get_ref())) {
                 return self.error(value, &format!("the checker does not know the key {} of a stop", key.get_ref()));
             }
@@ -92,7 +92,7 @@ impl Reader<'_> {
         };
         let is_later = |pair: &[Stop]| Interval::from(&(&pair[1].time - &pair[0].time)).lower.sign() == Sign::Plus;
         if stops.is_empty() || !stops.windows(2).all(is_later) {
-            return self.error(value, "a motion has stops, each later than the one before");
+            return self.error(value, "a motion needs stops, each later than the previous one");
         }
         let velocity = table.get("velocity").map(|v| self.two(v, |n| self.number(n))).transpose()?;
         Ok(Stops { stops, velocity: velocity.map_or_else(|| [0, 0].map(Interval::whole), |v| point(&v)) })

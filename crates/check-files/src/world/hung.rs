@@ -44,11 +44,12 @@ pub fn pressed(object: &Obstacle, by: &Interval) -> Read<Obstacle> {
             let inset = |(number, ring): (usize, &Vec<Corner>)| inset(bent(ring), number > 0, by);
             let smaller: Option<Vec<_>> = rings.iter().enumerate().map(inset).collect();
             let within = smaller.filter(|all| all.iter().flatten().all(|corner| surrounds(rings, corner)));
-            let thin = || wrong("an object on supports is too thin for what it may press into them, or too pointed");
+            let thin =
+                || wrong("an object on supports is too thin or too pointed for the depth that it may press into them");
             Outline::Polygon(within.ok_or_else(thin)?)
         }
         Outline::Polyline(_) | Outline::Squares(_) | Outline::Own(_) => {
-            return Err(wrong("an object is a polygon or a circle"));
+            return Err(wrong("an object must be a polygon or a circle"));
         }
     };
     Ok(Obstacle { outline, ..object.clone() })

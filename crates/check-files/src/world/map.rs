@@ -108,7 +108,7 @@ impl<'a> Text<'a> {
 
 fn text_of(files: &Files, path: &Path) -> Result<String, CheckError> {
     let text = String::from_utf8(files.bytes(Input::World, path)?);
-    let text = text.map_err(|_| CheckError::in_file(Input::World, format!("{} is no text", path.display())))?;
+    let text = text.map_err(|_| CheckError::in_file(Input::World, format!("{} is not text", path.display())))?;
     Ok(text.trim_start_matches('\u{feff}').to_owned())
 }
 

@@ -26,7 +26,7 @@ pub fn read(bytes: &[u8]) -> Result<Picture, String> {
 
 fn pixels([width, height]: [usize; 2]) -> Result<usize, String> {
     let count = width.checked_mul(height).filter(|count| (1..=MOST_PIXELS).contains(count));
-    count.ok_or_else(|| "it has no size, or too large a one".into())
+    count.ok_or_else(|| "its size is 0 or too large".into())
 }
 
 /// Reads a PNG of any kind. Colours are averaged.
@@ -82,12 +82,12 @@ fn is_in_palette(bytes: &[u8]) -> Result<bool, DecodingError> {
 /// Reads a PGM, in text or binary form, after its first two bytes.
 fn greymap(mut rest: &[u8], is_text: bool) -> Result<Picture, String> {
     if !rest.first().is_some_and(|byte| byte.is_ascii_whitespace() || *byte == b'#') {
-        return Err("its header is none".into());
+        return Err("its header is not valid".into());
     }
     let [width, height, white] = [number(&mut rest)?, number(&mut rest)?, number(&mut rest)?];
     let count = pixels([width, height])?;
     if !(1..=65535).contains(&white) {
-        return Err(format!("its maxval is {white}: it has to be from 1 to 65535"));
+        return Err(format!("its maxval is {white}, but must be from 1 to 65535"));
     }
     let shades: Vec<usize> = if is_text {
         let shades = (0..count).map(|_| number(&mut rest)).collect::<Result<_, _>>()?;
@@ -109,7 +109,7 @@ fn greymap(mut rest: &[u8], is_text: bool) -> Result<Picture, String> {
             white: white as u32,
             shades: shades.into_iter().map(|shade| Some(shade as u32)).collect(),
         }),
-        false => Err("a value exceeds its maxval, or something follows the picture".into()),
+        false => Err("a value exceeds the maxval, or bytes follow the picture".into()),
     }
 }
 
@@ -136,7 +136,7 @@ fn number(rest: &mut &[u8]) -> Result<usize, String> {
     let (digits, after) = rest.split_at(length);
     *rest = after;
     let text = std::str::from_utf8(digits).unwrap_or_default();
-    text.parse().map_err(|_| format!("\"{text}\" is no number, or it ends early"))
+    text.parse().map_err(|_| format!("\"{text}\" is not a number, or the file ends early"))
 }
 
 #[cfg(test)]

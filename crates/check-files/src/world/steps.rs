@@ -95,13 +95,13 @@ impl Reader<'_> {
         match &*self.text(value)? {
             "level" => Ok(true),
             "rigid" => Ok(false),
-            _ => self.error(value, "a payload is \"rigid\" or \"level\""),
+            _ => self.error(value, "a payload must be \"rigid\" or \"level\""),
         }
     }
 
     fn stroke(&self, value: &Value) -> Read<Stroke> {
         let table = self.table(value)?;
-        let Some(joint) = table.get("joint") else { return self.error(value, "a stroke has a joint") };
+        let Some(joint) = table.get("joint") else { return self.error(value, "a stroke needs a joint") };
         Ok(Stroke { joint: self.text(joint)?, travel: table.get("travel").map(|n| self.number(n)).transpose()? })
     }
 
@@ -110,7 +110,7 @@ impl Reader<'_> {
         let (Some(name), Some(rows), Some(columns), Some(pitch), Some(at)) =
             (table.get("name"), table.get("rows"), table.get("columns"), table.get("pitch"), table.get("at"))
         else {
-            return self.error(value, "a pallet has a name, rows, columns, a pitch and a place");
+            return self.error(value, "a pallet needs a name, rows, columns, a pitch and a place");
         };
         let [rows, columns] = [self.count(rows)?, self.count(columns)?];
         if rows.saturating_mul(columns) > MOST_PLACES {
@@ -137,7 +137,7 @@ impl Reader<'_> {
         objects: &mut Vec<Object>,
     ) -> Read<Vec<Obstacle>> {
         let (table, lying) = (self.table(value)?, self.obstacle(value, true)?);
-        let Some(family) = lying.name.clone() else { return self.error(value, "an object has a name") };
+        let Some(family) = lying.name.clone() else { return self.error(value, "an object needs a name") };
         let number = |key: &str| table.get(key).map(|value| self.number(value)).transpose();
         let grasp = table.get("grasp").map(|grasp| self.two(grasp, |n| self.number(n))).transpose()?;
         let is_level = table.get("payload").map_or(Ok(is_level), |value| self.is_level(value))?;
@@ -161,7 +161,7 @@ impl Reader<'_> {
                 };
                 places.iter().map(on).collect()
             }
-            _ => return self.error(value, "an object has either a place or a pallet"),
+            _ => return self.error(value, "an object needs either a place or a pallet"),
         };
         objects.extend(places.iter().map(|_| Object {
             family: family.clone(),
@@ -212,7 +212,7 @@ impl Steps<'_, '_> {
         let is_free = match of("order").map(|value| reader.text(value)).transpose()?.as_deref() {
             None | Some("fixed") => false,
             Some("free") => true,
-            _ => return reader.error(list, "an order is \"free\" or \"fixed\""),
+            _ => return reader.error(list, "an order must be \"free\" or \"fixed\""),
         };
         let is_pair = |pair: &[Node]| {
             let [Node::Step(first), Node::Step(second)] = pair else { return false };
@@ -246,9 +246,9 @@ impl Steps<'_, '_> {
             return reader.error(value, &format!("the checker does not know the key {} of a step", key.get_ref()));
         }
         let given: Vec<&str> = known[..5].iter().copied().filter(|key| table.get(*key).is_some()).collect();
-        let [what] = given[..] else { return reader.error(value, "a step does one thing") };
+        let [what] = given[..] else { return reader.error(value, "a step needs exactly one action") };
         if what != "pick" && (table.contains_key("at") || table.contains_key("window")) {
-            return reader.error(value, "a place and a window of time are said of picks");
+            return reader.error(value, "only picks have a place and a window of time");
         }
         let of = &table[what];
         let actions = match what {
@@ -312,12 +312,12 @@ impl Steps<'_, '_> {
     fn transfer(&self, value: &Value) -> Read<Vec<Action>> {
         let (reader, table) = (self.reader, self.reader.table(value)?);
         let (Some(name), Some(to)) = (table.get("objects"), table.get("to")) else {
-            return reader.error(value, "a transfer has objects, and a pallet that they go to");
+            return reader.error(value, "a transfer needs objects and a pallet for them");
         };
         let (family, pallet) = (reader.text(name)?, self.pallets.get(&reader.text(to)?));
         let objects: Vec<usize> = (0..self.objects.len()).filter(|k| self.objects[*k].family == family).collect();
         let Some(pallet) = pallet.filter(|pallet| pallet.places.len() == objects.len()) else {
-            return reader.error(value, "a transfer has as many objects as the pallet has places");
+            return reader.error(value, "a transfer needs as many objects as the pallet has places");
         };
         let (angle, supports) = (self.angle(table)?, self.supports(table)?);
         let pair = |(object, (_, at)): (usize, &(String, Point))| {

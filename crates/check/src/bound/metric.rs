@@ -32,7 +32,7 @@ impl Metric {
         if factors.iter().all(is_positive) && tells(0) && tells(1) {
             return Ok(());
         }
-        CheckError::fails("the metric's weights or speeds are not greater than 0, or too great")
+        CheckError::fails("the metric's weights or speeds must be greater than 0 and not too large")
     }
 
     /// Returns true if the length is the greatest entry. Otherwise it is the root of the sum of squares.

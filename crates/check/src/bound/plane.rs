@@ -46,7 +46,7 @@ impl<'a> Plane<'a> {
     ) -> Result<Self, CheckError> {
         let metric = &bound.metric;
         let length = Interval::from(&bound.length);
-        let too_long = || CheckError::Fails(format!("the length {} leads past too much", bound.length));
+        let too_long = || CheckError::Fails(format!("the length {} leads to too many cases", bound.length));
         let from = Place::new(metric, start, [0, 0]).ok_or_else(too_long)?;
         // The copies of a rectangle that paths of this length can reach.
         let copies = |rectangle: &Rectangle| -> Option<Vec<([i64; 2], Place)>> {
@@ -97,10 +97,10 @@ impl<'a> Plane<'a> {
         for (number, potential) in bound.potentials.iter().enumerate() {
             let value = Interval::from(&potential.value).upper;
             if potential.wall >= bound.walls.len() || potential.end > 1 {
-                return CheckError::fails(format!("potential {number} is at a wall or an end that is not there"));
+                return CheckError::fails(format!("potential {number} is at a wall or an end that does not exist"));
             }
             if potentials.insert((potential.wall, potential.end, potential.turns), value).is_some() {
-                return CheckError::fails(format!("potential {number} is at a corner that has one"));
+                return CheckError::fails(format!("potential {number} is at a corner that has another potential"));
             }
         }
         let mut corners = Vec::new();
@@ -148,12 +148,12 @@ impl<'a> Plane<'a> {
             let from = || name.map_or_else(|| "the start".to_owned(), called);
             for goal in &self.goals {
                 if !self.is_long(at, goal, &(&self.length.upper - potential)) && !bars(goal) {
-                    return CheckError::fails(format!("from {} no wall bars the way to a goal", from()));
+                    return CheckError::fails(format!("from {} no wall blocks a straight path to a goal", from()));
                 }
             }
             for (corner, claimed) in corners.iter().zip(&claimed) {
                 if !self.is_long(at, &corner.at, &(claimed - potential)) && !bars(&corner.at) {
-                    let message = "the potential grows by more than the way is long, and no wall bars it";
+                    let message = "the potential grows by more than the length of a straight path that no wall blocks";
                     return CheckError::fails(format!("from {} to {}: {message}", from(), called(corner.name)));
                 }
             }

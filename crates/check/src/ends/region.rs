@@ -25,7 +25,7 @@ impl End {
             Goal::Joints(values) => arm.configuration(self.what, values),
             Goal::Tip(_) | Goal::Areas(_) => {
                 let message = format!(
-                    "the checker does not know proofs from a {} that is a place of the tip: give joint values",
+                    "the checker does not judge proofs for a {} that is a position of the tip: give joint values",
                     self.what
                 );
                 Err(CheckError::in_file(Input::World, message))

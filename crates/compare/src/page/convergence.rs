@@ -9,7 +9,7 @@ impl Convergence {
     #[must_use]
     pub fn to_html(&self) -> String {
         let [rows, columns] = self.cells;
-        let subtitle = format!("Relaxations on {rows} x {columns} cells, {} of which are free", self.free);
+        let subtitle = format!("Relaxations on {rows} x {columns} cells, {} of them free", self.free);
         let charts = format!(
             "<figure class=\"picture\" tabindex=\"0\"><img alt=\"Errors and sweeps\" src=\"{}\"/></figure>\n",
             image_source(&self.to_svg())

@@ -119,9 +119,9 @@ impl<'a> Posture<'a> {
     #[must_use]
     pub fn new(scene: &'a Scene, q: Configuration) -> Self {
         let poses = scene.arm().pair_poses(q);
-        let offset = Point::from(scene.arm().offset);
-        let at_zero = scene.arm().pose(0, Configuration::new(0.0, q[1])) * offset;
-        Self { scene, q, poses, elbows: [poses[0] * offset, at_zero] }
+        let offset = scene.arm().offset;
+        let at_zero = scene.arm().pose(0, Configuration::new(0.0, q[1])).point(offset);
+        Self { scene, q, poses, elbows: [poses[0].point(offset), at_zero] }
     }
 
     /// Returns the configuration.
@@ -167,8 +167,8 @@ impl<'a> Posture<'a> {
     /// Same as [`Posture::apart`] for a loose obstacle.
     pub fn apart_drifting(&self, pair: Pair, deviation: Deviation, drift: &Drift) -> f64 {
         let (center, around) = disc(self.scene.piece(pair));
-        let drifts = drift.farthest(center.coords.norm() + around);
-        self.apart_from(pair, deviation, drift.middle * center, around + drifts)
+        let drifts = drift.farthest(center.norm() + around);
+        self.apart_from(pair, deviation, drift.middle.point(center), around + drifts)
     }
 
     fn shapes(&self, pair: Pair) -> Shapes<'a> {
@@ -180,8 +180,7 @@ impl<'a> Posture<'a> {
         separation_at(local, &self.poses[link], piece, |corners, here| {
             let rounding = ROUNDING * self.scale(corners, local.radius(), piece);
             let enough = enough(here.distance) + rounding;
-            let drifts =
-                drift.map_or(0.0, |drift| drift.farthest(piece.reach_from(drift.middle.translation.vector.into())));
+            let drifts = drift.map_or(0.0, |drift| drift.farthest(piece.reach_from(drift.middle.translation)));
             let mut least = here.distance - self.farthest_motion_of(link, local, deviation) - drifts;
             let radii = local.radius() + piece.radius();
             if least < enough {
@@ -204,14 +203,14 @@ impl<'a> Posture<'a> {
     fn apart_from(&self, pair: Pair, deviation: Deviation, fixed: Point, around: f64) -> f64 {
         let (at, extent) = self.place(pair, deviation);
         let between = (at - fixed).norm();
-        let scale = self.scene.arm().base.coords.norm() + at.coords.norm() + fixed.coords.norm() + extent + around;
+        let scale = self.scene.arm().base.norm() + at.norm() + fixed.norm() + extent + around;
         between - extent - around - ROUNDING * scale
     }
 
     /// Returns a disc that holds the part of a pair over `deviation`.
     pub fn place(&self, pair: Pair, deviation: Deviation) -> (Point, f64) {
         let (center, extent) = disc(self.scene.part(pair));
-        (self.poses[pair.link] * center, extent + self.farthest_motion(pair, deviation))
+        (self.poses[pair.link].point(center), extent + self.farthest_motion(pair, deviation))
     }
 
     /// Returns an upper bound on the signed distance of a pair over `deviation`: if it is negative, the pair collides
@@ -231,7 +230,7 @@ impl<'a> Posture<'a> {
     /// Returns the magnitude of the coordinates that enter a distance.
     pub fn scale(&self, corners: &[Point], radius: f64, piece: &Convex) -> f64 {
         let base = self.scene.arm().base;
-        base.coords.norm() + reach(corners, base) + radius.max(0.0) + piece.reach_from(base)
+        base.norm() + reach(corners, base) + radius.max(0.0) + piece.reach_from(base)
     }
 
     /// Returns a bound with the separating direction fixed in the plane: the link's corners move, and those of a moving
@@ -239,7 +238,7 @@ impl<'a> Posture<'a> {
     fn least_in_plane(&self, shapes: Shapes, corners: &[Point], n: Vector, deviation: Deviation) -> f64 {
         let Shapes { link, local, piece, drift } = shapes;
         let curvature = self.curvature_in_plane(link, deviation);
-        let ahead = |p: &Point| n.dot(&p.coords);
+        let ahead = |p: &Point| n.dot(p);
         let Some(drift) = drift else {
             let line = piece.core().iter().map(ahead).fold(f64::INFINITY, f64::min);
             let mut least = f64::INFINITY;
@@ -265,11 +264,11 @@ impl<'a> Posture<'a> {
     /// of the velocity that a point of the link has at their place.
     fn least_in_link(&self, shapes: Shapes, corners: &[Point], n: Vector, deviation: Deviation) -> f64 {
         let Shapes { link, piece, .. } = shapes;
-        let line = corners.iter().map(|p| n.dot(&p.coords)).fold(f64::NEG_INFINITY, f64::max);
+        let line = corners.iter().map(|p| n.dot(p)).fold(f64::NEG_INFINITY, f64::max);
         let mut least = f64::INFINITY;
         let curvature = self.curvature_in_link(link, deviation);
         for p in piece.core() {
-            let gap = n.dot(&p.coords) - line;
+            let gap = n.dot(p) - line;
             let toward = deviation.linear(self.rates(link, *p, n));
             least = least.min(gap - toward - curvature.of(*p) / 2.0);
         }
@@ -288,7 +287,7 @@ impl<'a> Posture<'a> {
             _ if link == 0 => 0.0,
             JointType::Revolute { sign } => sign * n.dot(&perpendicular(x - self.elbows[link - 1])),
             JointType::Prismatic { direction } if link == 2 => n.dot(&direction),
-            JointType::Prismatic { direction } => n.dot(&(self.poses[0].rotation * direction)),
+            JointType::Prismatic { direction } => n.dot(&self.poses[0].direction(direction)),
         };
         [first, second]
     }
@@ -298,7 +297,7 @@ impl<'a> Posture<'a> {
         use JointType::{Prismatic, Revolute};
         let arm = self.scene.arm();
         let [d1, d2] = deviation.each();
-        let none = Curvature { center: Point::origin(), shift: 0.0, factor: 0.0, constant: 0.0 };
+        let none = Curvature { center: Point::zeros(), shift: 0.0, factor: 0.0, constant: 0.0 };
         match (link, arm.joints[0].joint_type, arm.joints[1].joint_type) {
             (0, Revolute { .. }, _) => Curvature { factor: d1, ..none },
             (2, _, Revolute { .. }) => Curvature { factor: d2, ..none },
@@ -307,7 +306,7 @@ impl<'a> Posture<'a> {
                 Curvature { factor: turn_of_link_2(arm, deviation), constant: arm.offset.norm() * d1 * d1, ..none }
             }
             (_, Revolute { .. }, Prismatic { direction }) => {
-                let center = Point::from(-(arm.offset + direction * self.q[1]));
+                let center = -(arm.offset + direction * self.q[1]);
                 Curvature { center, shift: d2, factor: d1, constant: 2.0 * d1 * d2 }
             }
             (1, Prismatic { .. }, Revolute { .. }) => Curvature { factor: d2, ..none },
@@ -345,7 +344,7 @@ impl<'a> Posture<'a> {
     fn farthest_motion_of(&self, link: usize, local: &Convex, deviation: Deviation) -> f64 {
         use JointType::{Prismatic, Revolute};
         let arm = self.scene.arm();
-        let reach = local.reach_from(Point::origin());
+        let reach = local.reach_from(Point::zeros());
         let [d1, d2] = deviation.each();
         match (link, arm.joints[0].joint_type, arm.joints[1].joint_type) {
             (0, Revolute { .. }, _) => reach * d1,
@@ -369,7 +368,7 @@ impl<'a> Posture<'a> {
 /// Returns a disc around a shape.
 fn disc(shape: &Convex) -> (Point, f64) {
     let core = shape.core();
-    let center = Point::from(core.iter().map(|p| p.coords).sum::<Vector>() / core.len() as f64);
+    let center = core.iter().sum::<Vector>() / core.len() as f64;
     let extent2 = core.iter().map(|p| (p - center).norm_squared()).fold(0.0, f64::max);
     (center, extent2.sqrt() + shape.radius())
 }

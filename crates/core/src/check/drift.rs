@@ -41,6 +41,6 @@ impl Drift {
     }
 
     fn origin(&self) -> Point {
-        Point::from(self.middle.translation.vector)
+        self.middle.translation
     }
 }

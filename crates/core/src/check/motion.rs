@@ -68,7 +68,10 @@ impl CertifiedPath {
     #[must_use]
     pub fn then(self, next: &Self) -> Self {
         let (goal, start) = (self.path.goal(), next.path.start());
-        assert!((goal - start).amax() <= JOINED * (1.0 + goal.amax()), "the path goes on at {start}, not at {goal}");
+        assert!(
+            (goal - start).amax() <= JOINED * (1.0 + goal.amax()),
+            "the next path begins at {start}, not at {goal}"
+        );
         let distance = |nearest: &Nearest| nearest.contact.separation.distance;
         let both = self.nearest.into_iter().chain(next.nearest);
         let nearest = both.min_by(|a, b| distance(a).total_cmp(&distance(b)));

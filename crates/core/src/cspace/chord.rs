@@ -52,7 +52,7 @@ pub(super) struct PairMotion<'a> {
 impl<'a> PairMotion<'a> {
     /// Creates the pair; `part` is in link 2's frame.
     pub fn new(arm: &'a Arm, part: &'a Convex, piece: &'a Convex) -> Self {
-        let part_reach = part.core().iter().map(|a| a.coords.norm()).fold(0.0, f64::max);
+        let part_reach = part.core().iter().map(|a| a.norm()).fold(0.0, f64::max);
         let piece_reach = piece.core().iter().map(|b| (b - arm.base).norm()).fold(0.0, f64::max);
         Self { arm, part, piece, part_reach, piece_reach }
     }
@@ -104,10 +104,10 @@ impl<'a> PairMotion<'a> {
 
     /// Returns the gap between the cores along the unit direction `n` (from part to piece) with the link at `pose`.
     fn gap(&self, pose: &Pose, n: Vector) -> f64 {
-        let in_link = pose.rotation.inverse() * n;
-        let part = self.part.core().iter().map(|a| in_link.dot(&a.coords)).fold(f64::NEG_INFINITY, f64::max);
-        let piece = self.piece.core().iter().map(|b| n.dot(&b.coords)).fold(f64::INFINITY, f64::min);
-        piece - part - n.dot(&pose.translation.vector)
+        let in_link = pose.inverse_direction(n);
+        let part = self.part.core().iter().map(|a| in_link.dot(a)).fold(f64::NEG_INFINITY, f64::max);
+        let piece = self.piece.core().iter().map(|b| n.dot(b)).fold(f64::INFINITY, f64::min);
+        piece - part - n.dot(&pose.translation)
     }
 
     /// Bounds on the second derivative, along the straight motion over a unit of time, of a corner of the part seen from

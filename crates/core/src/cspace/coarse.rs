@@ -115,8 +115,8 @@ fn around_convex(core: &[Point], within: f64) -> Option<Vec<Point>> {
         outline.push(meeting);
         side = next;
     }
-    let middle = Point::from(outline.iter().map(|p| p.coords).sum::<Vector>() / outline.len() as f64);
-    let out = |p: Point| p + (p - middle) * ROUNDING + (p - middle).map(f64::signum) * (ROUNDING * p.coords.amax());
+    let middle = outline.iter().sum::<Vector>() / outline.len() as f64;
+    let out = |p: Point| p + (p - middle) * ROUNDING + (p - middle).map(f64::signum) * (ROUNDING * p.amax());
     let outline = cplan_geometry::hull(&outline.into_iter().map(out).collect::<Vec<_>>());
     (outline.len() > 2).then_some(outline)
 }
@@ -200,7 +200,7 @@ fn rectangle(run: &[Point]) -> Convex {
     let (a, b) = (run[0], run[run.len() - 1]);
     let along = (b - a).normalize();
     let across = perpendicular(along);
-    let pad = ROUNDING * run.iter().map(|p| p.coords.amax()).fold(0.0, f64::max);
+    let pad = ROUNDING * run.iter().map(|p| p.amax()).fold(0.0, f64::max);
     let extent = |axis: Vector| {
         let on = run.iter().map(|p| axis.dot(&(p - a)));
         let (low, high) = on.fold((0.0_f64, 0.0_f64), |(low, high), v| (low.min(v), high.max(v)));

@@ -45,7 +45,7 @@ impl Lattice {
     fn new(pieces: &[Convex], diagonal: f64) -> Option<Self> {
         let first = pieces.first()?.bounds();
         let [lower, upper] = pieces.iter().map(Convex::bounds).fold(first, |[l, u], b| [l.inf(&b[0]), u.sup(&b[1])]);
-        let largest = lower.coords.amax().max(upper.coords.amax());
+        let largest = lower.amax().max(upper.amax());
         let (side, pad) = (diagonal / 2_f64.sqrt() * (1.0 - 1e-9), ROUNDING * largest);
         let height = |[lower, upper]: [Point; 2]| (upper.y - lower.y) / side + 2.0;
         let crossings: f64 = pieces.iter().map(|piece| height(piece.bounds())).sum();
@@ -311,7 +311,7 @@ mod tests {
             )
         };
         let slices: Vec<Convex> =
-            (0..300).map(|k| Convex::trusted(vec![Point::origin(), at(k), at(k + 1)], 0.0)).collect();
+            (0..300).map(|k| Convex::trusted(vec![Point::zeros(), at(k), at(k + 1)], 0.0)).collect();
         let polygons = covering(&slices, 0.02).unwrap();
         assert_eq!(polygons.len(), 1);
         covers(&slices, &polygons, 0.02, &[0.2, 0.7, 1.0]);

@@ -116,7 +116,7 @@ impl Source for &Curves<'_> {
     }
 
     fn point(&self, end: &Contact) -> Point {
-        Point::from(end.q)
+        end.q
     }
 
     fn shifted(&self, end: &Contact, turns: f64) -> Contact {

@@ -31,7 +31,7 @@ fn sliding(arm: &Arm, direction: Vector, part: &Convex, piece: &Convex, radius: 
     // Parallel slides keep the distance across them; others need no slices.
     let JointType::Revolute { sign } = arm.joints[0].joint_type else { return Vec::new() };
     // The part keeps its extent across the direction; that of the piece turns with joint 1.
-    let track = part.core().iter().map(|a| cross(direction, arm.offset + a.coords));
+    let track = part.core().iter().map(|a| cross(direction, arm.offset + a));
     let (low, high) = extent(track);
     let mut found = Vec::new();
     for p in piece.core() {
@@ -47,7 +47,7 @@ fn sliding(arm: &Arm, direction: Vector, part: &Convex, piece: &Convex, radius: 
     }
     // Only where the corner is the outermost of the piece.
     found.retain(|&q1| {
-        let turned = arm.pose(0, Configuration::new(q1, 0.0)).rotation * direction;
+        let turned = arm.pose(0, Configuration::new(q1, 0.0)).direction(direction);
         let (near, far) = extent(piece.core().iter().map(|b| cross(turned, b - arm.base)));
         (near - high - radius).abs() <= SLACK || (low - radius - far).abs() <= SLACK
     });
@@ -100,7 +100,7 @@ impl Turning<'_> {
         for (p, q) in sides(self.piece.core()) {
             let along = (q - p).normalize();
             let normal = -perpendicular(along);
-            for q1 in self.elbow_on_line(normal, normal.dot(&p.coords) - facing * distance) {
+            for q1 in self.elbow_on_line(normal, normal.dot(&p) - facing * distance) {
                 let foot = along.dot(&(self.arm.elbow_at(q1) - p));
                 if (-SLACK..=(q - p).norm() + SLACK).contains(&foot) {
                     self.consider(q1, facing * normal, feature);
@@ -148,11 +148,11 @@ impl Turning<'_> {
         let arm = self.arm;
         match arm.joints[0].joint_type {
             JointType::Revolute { sign } => {
-                turns_to(arm.offset, normal, offset - normal.dot(&arm.base.coords)).map(|theta| sign * theta).to_vec()
+                turns_to(arm.offset, normal, offset - normal.dot(&arm.base)).map(|theta| sign * theta).to_vec()
             }
             JointType::Prismatic { direction } => {
                 let speed = normal.dot(&direction);
-                let gap = offset - normal.dot(&(arm.base.coords + arm.offset));
+                let gap = offset - normal.dot(&(arm.base + arm.offset));
                 if speed == 0.0 { Vec::new() } else { vec![gap / speed] }
             }
         }
@@ -196,9 +196,9 @@ fn radial_features(core: &[Point]) -> Vec<Radial> {
     let n = core.len();
     let mut features = Vec::new();
     for i in 0..n {
-        let a = core[i].coords;
+        let a = core[i];
         let distance = a.norm();
-        let neighbors = [core[(i + 1) % n].coords - a, core[(i + n - 1) % n].coords - a];
+        let neighbors = [core[(i + 1) % n] - a, core[(i + n - 1) % n] - a];
         for (outward, sense) in [(true, 1.0), (false, -1.0)] {
             if neighbors.iter().all(|w| sense * a.dot(w) <= SLACK * w.norm()) {
                 let heading = (distance > SLACK).then(|| a / distance);
@@ -209,7 +209,7 @@ fn radial_features(core: &[Point]) -> Vec<Radial> {
     for (p, q) in sides(core) {
         let along = (q - p).normalize();
         let normal = -perpendicular(along);
-        let (offset, foot) = (normal.dot(&p.coords), -along.dot(&p.coords));
+        let (offset, foot) = (normal.dot(&p), -along.dot(&p));
         if !(-SLACK..=(q - p).norm() + SLACK).contains(&foot) {
             continue;
         }
@@ -234,7 +234,7 @@ mod tests {
     use crate::model::{Joint, Link, OutlineSource, Plane};
     use crate::space::JointRange;
     use cplan_geometry::{Hits, hull, sliding as slid, turning};
-    use nalgebra::{Translation2, Vector3};
+    use nalgebra::Vector3;
     use proptest::prelude::*;
 
     fn shape() -> impl Strategy<Value = Convex> {
@@ -252,9 +252,9 @@ mod tests {
             name: "arm".into(),
             joints,
             links: [link.clone(), link],
-            base: Point::origin(),
+            base: Point::zeros(),
             offset,
-            tip: Point::origin(),
+            tip: Point::zeros(),
             tip_name: "tip".into(),
             plane,
             dynamics: None,
@@ -295,7 +295,7 @@ mod tests {
             let turns = motions[1].is_revolute();
             let slice = |q1: f64| {
                 let pose = arm.pose(0, Configuration::new(q1, 0.0));
-                let pivot = pose * Point::from(arm.offset);
+                let pivot = pose.point(arm.offset);
                 let mut out = Vec::new();
                 match motions[1] {
                     JointType::Revolute { .. } => {
@@ -305,8 +305,8 @@ mod tests {
                         }
                     }
                     JointType::Prismatic { direction } => {
-                        let moved = part.at(&(pose * Translation2::from(arm.offset)));
-                        out.extend(slid(&moved, pose.rotation * direction, &piece, level));
+                        let moved = part.at(&pose.shifted_in_frame(arm.offset));
+                        out.extend(slid(&moved, pose.direction(direction), &piece, level));
                     }
                 }
                 out

@@ -105,7 +105,7 @@ impl Regions {
     /// Returns the component of free space that contains `q`, given within the window. Linear in the number of corners.
     #[must_use]
     pub fn component(&self, q: Configuration) -> Option<usize> {
-        self.free.iter().position(|polygon| polygon.contains(Point::from(q)))
+        self.free.iter().position(|polygon| polygon.contains(q))
     }
 }
 

@@ -85,6 +85,6 @@ impl Solid {
 
 /// Converts a nalgebra pose to parry2d's glam pose.
 fn pose(pose: &cplan_geometry::Pose) -> Pose {
-    let (translation, rotation) = (pose.translation.vector, pose.rotation);
+    let (translation, rotation) = (pose.translation, pose.rotation);
     Pose::from_parts(Vector::new(translation.x, translation.y), Rotation { re: rotation.re, im: rotation.im })
 }

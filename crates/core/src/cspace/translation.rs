@@ -76,7 +76,7 @@ fn chord_polygon(core: &[Point], radius: f64, sag: f64) -> Vec<Point> {
 /// Converts a polygon of positions of link 2's origin to joint values.
 fn in_joint_values(arm: &Arm, map: &Matrix2<f64>, polygon: &[Point]) -> Vec<Point> {
     let origin = arm.base + arm.offset;
-    let mut contour: Vec<Point> = polygon.iter().map(|p| Point::from(map * (p - origin))).collect();
+    let mut contour: Vec<Point> = polygon.iter().map(|p| map * (p - origin)).collect();
     if map.determinant() < 0.0 {
         contour.reverse();
     }

@@ -3,7 +3,7 @@
 use super::{Dynamics, Joint, JointType, Link, SelfObstacle};
 use crate::space::{Configuration, Topology};
 use cplan_geometry::{ConvexError, Point, Pose, Vector, perpendicular};
-use nalgebra::{Isometry2, Translation2, Vector3};
+use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 /// The plane of motion in the URDF's root frame: plane coordinates of a root point `x` are `(x . u, x . v)`.
@@ -68,7 +68,7 @@ impl Arm {
             name: "arm".into(),
             joints,
             links,
-            base: Point::origin(),
+            base: Point::zeros(),
             offset: Vector::new(offset, 0.0),
             tip: Point::new(tip, 0.0),
             tip_name: "tip".into(),
@@ -96,11 +96,11 @@ impl Arm {
     #[must_use]
     pub fn placed(&self, place: &Pose) -> Self {
         let (mut arm, turn) = (self.clone(), place.rotation);
-        arm.base = place * self.base;
+        arm.base = place.point(self.base);
         // Without a turn all numbers stay unchanged.
         if turn.angle() != 0.0 {
             (arm.offset, arm.tip) = (turn * self.offset, turn * self.tip);
-            let turned = Pose::from_parts(Translation2::identity(), turn);
+            let turned = Pose { rotation: turn, translation: Vector::zeros() };
             for part in arm.links.iter_mut().flat_map(|link| &mut link.parts) {
                 part.shape = part.shape.at(&turned);
                 part.inner = part.inner.as_ref().map(|inner| inner.at(&turned));
@@ -152,11 +152,11 @@ impl Arm {
     #[must_use]
     pub fn pose(&self, index: usize, q: Configuration) -> Pose {
         let q = if index == 2 { Configuration::new(0.0, q[1]) } else { q };
-        let first = Translation2::from(self.base.coords) * motion(self.joints[0].joint_type, q[0]);
+        let first = motion(self.joints[0].joint_type, q[0]).shifted(self.base);
         if index == 0 {
             return first;
         }
-        first * Translation2::from(self.offset) * motion(self.joints[1].joint_type, q[1])
+        first.shifted_in_frame(self.offset) * motion(self.joints[1].joint_type, q[1])
     }
 
     /// Returns both link poses.
@@ -169,7 +169,7 @@ impl Arm {
     /// Returns the poses for a pair's part, indexed by [`super::Pair::link`].
     #[must_use]
     pub fn pair_poses(&self, q: Configuration) -> [Pose; 3] {
-        let second = Translation2::from(self.offset) * motion(self.joints[1].joint_type, q[1]);
+        let second = motion(self.joints[1].joint_type, q[1]).shifted(self.offset);
         let [first, at_zero] = [q[0], 0.0].map(|value| self.pose(0, Configuration::new(value, 0.0)));
         [first, first * second, at_zero * second]
     }
@@ -178,22 +178,22 @@ impl Arm {
     /// positive. It is the size of the arm, to which tolerances are relative.
     #[must_use]
     pub fn reach(&self) -> f64 {
-        let of = |link: usize| self.links[link].parts.iter().map(|p| p.shape.reach_from(Point::origin()));
+        let of = |link: usize| self.links[link].parts.iter().map(|p| p.shape.reach_from(Point::zeros()));
         let first = of(0).fold(self.offset.norm(), f64::max);
-        let second = of(1).fold(self.tip.coords.norm(), f64::max);
+        let second = of(1).fold(self.tip.norm(), f64::max);
         (first.max(self.offset.norm() + second)).max(f64::MIN_POSITIVE)
     }
 
     /// Returns the place of the tip.
     #[must_use]
     pub fn tip_at(&self, q: Configuration) -> Point {
-        self.pose(1, q) * self.tip
+        self.pose(1, q).point(self.tip)
     }
 
     /// Returns the place of joint 2 (for a prismatic one: its origin at zero, carried by link 1).
     #[must_use]
     pub fn elbow_at(&self, q1: f64) -> Point {
-        self.pose(0, Configuration::new(q1, 0.0)) * Point::from(self.offset)
+        self.pose(0, Configuration::new(q1, 0.0)).point(self.offset)
     }
 
     /// Returns the velocity of the point `p` of link `index` (link frame) per unit of each joint's rate: the two
@@ -201,7 +201,7 @@ impl Arm {
     #[must_use]
     pub fn jacobian(&self, index: usize, p: Point, q: Configuration) -> [Vector; 2] {
         let poses = self.poses(q);
-        let at = poses[index] * p;
+        let at = poses[index].point(p);
         let first = match self.joints[0].joint_type {
             JointType::Revolute { sign } => sign * perpendicular(at - self.base),
             JointType::Prismatic { direction } => direction,
@@ -210,8 +210,8 @@ impl Arm {
             return [first, Vector::zeros()];
         }
         let second = match self.joints[1].joint_type {
-            JointType::Revolute { sign } => sign * perpendicular(at - poses[0] * Point::from(self.offset)),
-            JointType::Prismatic { direction } => poses[0].rotation * direction,
+            JointType::Revolute { sign } => sign * perpendicular(at - poses[0].point(self.offset)),
+            JointType::Prismatic { direction } => poses[0].direction(direction),
         };
         [first, second]
     }
@@ -219,7 +219,7 @@ impl Arm {
 
 fn motion(joint_type: JointType, value: f64) -> Pose {
     match joint_type {
-        JointType::Revolute { sign } => Isometry2::rotation(sign * value),
-        JointType::Prismatic { direction } => Isometry2::translation(value * direction.x, value * direction.y),
+        JointType::Revolute { sign } => Pose::rotation(sign * value),
+        JointType::Prismatic { direction } => Pose::translation(value * direction),
     }
 }

@@ -4,7 +4,6 @@ use super::pairing::{Kind, Reading};
 use super::{Arm, Carrier, Heights, LooseObstacle, Obstacle, Part};
 use crate::space::Configuration;
 use cplan_geometry::{Convex, Point, Pose};
-use nalgebra::{Isometry2, Translation2};
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
@@ -61,15 +60,15 @@ impl Grip {
     /// Returns the rigid grip that puts an attachment at `pose` with the arm at `q`.
     #[must_use]
     pub fn rigid(arm: &Arm, q: Configuration, pose: &Pose) -> Self {
-        Self::Rigid(arm.pose(1, q).inv_mul(pose))
+        Self::Rigid(arm.pose(1, q).inverse_pose(pose))
     }
 
     /// Returns the pose of the attachment's frame in the plane at `q`.
     #[must_use]
     pub fn pose(&self, arm: &Arm, q: Configuration) -> Pose {
-        match self {
+        match *self {
             Self::Rigid(in_link) => arm.pose(1, q) * in_link,
-            Self::Level { .. } => Translation2::from(arm.tip_at(q).coords) * self.frame(),
+            Self::Level { .. } => self.frame().shifted(arm.tip_at(q)),
         }
     }
 
@@ -84,7 +83,7 @@ impl Grip {
     fn frame(&self) -> Pose {
         match *self {
             Self::Rigid(in_link) => in_link,
-            Self::Level { angle, point } => Isometry2::rotation(angle) * Translation2::from(-point.coords),
+            Self::Level { angle, point } => Pose::rotation(angle).shifted_in_frame(-point),
         }
     }
 }
@@ -149,7 +148,7 @@ impl Attachment {
             // A loose obstacle has its pieces in its own frame, which does not turn if something level is attached.
             let seen = level.as_ref().map(|level| match kind {
                 _ if is_turned => all_round(level),
-                Kind::Loose(LooseObstacle { angle, .. }) => level.at(&Isometry2::rotation(-angle.unwrap_or_default())),
+                Kind::Loose(LooseObstacle { angle, .. }) => level.at(&Pose::rotation(-angle.unwrap_or_default())),
                 Kind::Standing | Kind::Own(_) => level.clone(),
             });
             let made = &mut differences[number];
@@ -166,5 +165,5 @@ impl Attachment {
 
 /// Returns the disc about the tip that contains a level shape.
 fn all_round(level: &Convex) -> Convex {
-    Convex::trusted(vec![Point::origin()], level.reach_from(Point::origin()))
+    Convex::trusted(vec![Point::zeros()], level.reach_from(Point::zeros()))
 }

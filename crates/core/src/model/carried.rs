@@ -55,7 +55,7 @@ impl Carried {
             JointType::Prismatic { direction } => {
                 let radius = self.features.shape().radius() + piece.shape().radius() + grow;
                 let direction = product(heading, direction);
-                let track = along_and_across(piece.shape().core().iter(), pivot.coords, direction);
+                let track = along_and_across(piece.shape().core().iter(), pivot, direction);
                 match sliding_tracks(&self.track, &track, radius) {
                     Some(interval) => {
                         out.push(interval);
@@ -94,11 +94,10 @@ pub fn on_axis(joint: &Joint, hits: Hits, intervals: &[[f64; 2]], mut f: impl Fn
 /// Returns a shape, in link 1's frame, that contains a part of link 2 at all values of joint 2.
 #[must_use]
 pub fn swept(shape: &Convex, joint: &Joint, offset: Vector) -> Convex {
-    let elbow = Point::from(offset);
     match joint.joint_type {
-        JointType::Revolute { .. } => Convex::trusted(vec![elbow], shape.reach_from(Point::origin())),
+        JointType::Revolute { .. } => Convex::trusted(vec![offset], shape.reach_from(Point::zeros())),
         JointType::Prismatic { direction } => {
-            let center = Point::from(shape.core().iter().map(|p| p.coords).sum::<Vector>() / shape.core().len() as f64);
+            let center = shape.core().iter().sum::<Vector>() / shape.core().len() as f64;
             let (lower, upper) = joint.range.domain();
             let [from, to] = [lower, upper].map(|q| center + offset + direction * q);
             let core = if from == to { vec![from] } else { vec![from, to] };

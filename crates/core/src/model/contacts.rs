@@ -72,7 +72,7 @@ impl PreparedPart {
             (Carried::new(second.joint_type, part), Some(Carried::new(first.joint_type, &sweep)))
         };
         let pieces = BoxTree::new(pairs.iter().map(|&pair| scene.piece(pair).bounds()).collect());
-        let reach = sweep.as_ref().unwrap_or(&carried).shape().reach_from(Point::origin());
+        let reach = sweep.as_ref().unwrap_or(&carried).shape().reach_from(Point::zeros());
         Self { link: pairs[0].link, carried, reach, sweep, pairs: from..from + pairs.len(), pieces }
     }
 
@@ -80,7 +80,7 @@ impl PreparedPart {
         found.clear();
         match self.carried.joint_type() {
             JointType::Revolute { .. } => {
-                let around = Vector::repeat(self.carried.shape().reach_from(Point::origin()) + grow + ROUNDING);
+                let around = Vector::repeat(self.carried.shape().reach_from(Point::zeros()) + grow + ROUNDING);
                 self.pieces.meeting(&[elbow - around, elbow + around], found);
                 found.iter_mut().for_each(|index| *index += self.pairs.start as u32);
             }
@@ -251,7 +251,7 @@ impl<'a> Contacts<'a> {
         let part = &self.part(self.pairs[index]).carried;
         match part.joint_type() {
             JointType::Prismatic { .. } => 1.0,
-            JointType::Revolute { .. } => part.shape().reach_from(Point::origin()),
+            JointType::Revolute { .. } => part.shape().reach_from(Point::zeros()),
         }
     }
 
@@ -276,5 +276,5 @@ impl<'a> Contacts<'a> {
 /// Returns the place of joint 2 at `q1`, and the direction of link 1's x axis.
 fn elbow(scene: &Scene, q1: f64) -> (Point, Vector) {
     let pose = scene.arm().pose(0, Configuration::new(q1, 0.0));
-    (pose * Point::from(scene.arm().offset), pose * Vector::x())
+    (pose.point(scene.arm().offset), pose.direction(Vector::x()))
 }

@@ -42,7 +42,7 @@ pub enum Freedom {
 #[must_use]
 pub fn inverse(arm: &Arm, target: Point, preferred: Configuration) -> Inverse {
     let from_base = target - arm.base;
-    let (o, t) = (arm.offset, arm.tip.coords);
+    let (o, t) = (arm.offset, arm.tip);
     let mut inverse = match (arm.joints[0].joint_type, arm.joints[1].joint_type) {
         (JointType::Revolute { sign: s1 }, JointType::Revolute { sign: s2 }) => {
             turn_turn(from_base, (s1, o), (s2, t), preferred)

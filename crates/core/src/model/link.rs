@@ -84,6 +84,6 @@ impl Link {
         if !(length > 0.0 && length.is_finite()) {
             return Err(ConvexError::Length { length });
         }
-        Ok(Self::of(name, [Convex::new(vec![Point::origin(), Point::new(length, 0.0)], width / 2.0)?]))
+        Ok(Self::of(name, [Convex::new(vec![Point::zeros(), Point::new(length, 0.0)], width / 2.0)?]))
     }
 }

@@ -26,7 +26,7 @@ impl Goal {
         match self {
             Self::Joints(_) => None,
             Self::Tip(tip) => Some(*tip),
-            Self::Area([low, high]) => Some(nalgebra::center(low, high)),
+            Self::Area([low, high]) => Some((low + high) * 0.5),
         }
     }
 

@@ -18,7 +18,9 @@ const SHAPE_ROUNDING: f64 = 1e-9;
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum SceneError {
     /// A joint's range is empty, not finite, or too long.
-    #[error("joint \"{joint}\": no range from {lower} to {upper}")]
+    #[error(
+        "joint \"{joint}\": the range from {lower} to {upper} is invalid; it needs finite numbers, the lower one first"
+    )]
     Range {
         /// The joint's name in the URDF.
         joint: String,
@@ -34,7 +36,7 @@ pub enum SceneError {
         joint: String,
     },
     /// A revolute joint's sign is neither 1 nor -1, or a prismatic one's direction is not of length 1.
-    #[error("joint \"{joint}\": a sign is 1 or -1, a direction of length 1")]
+    #[error("joint \"{joint}\": its sign must be 1 or -1, and its direction must have length 1")]
     JointType {
         /// The joint's name in the URDF.
         joint: String,
@@ -50,34 +52,34 @@ pub enum SceneError {
         value: f64,
     },
     /// A coordinate of the arm is not a number, or too large.
-    #[error("the arm's {what} is no place within 1e15 m")]
+    #[error("the arm's {what} must be finite and within 1e15 m")]
     NotFinite {
         /// The point with that coordinate, in words.
         what: &'static str,
     },
     /// The plane's vectors are not of length 1 and at right angles.
-    #[error("the plane's vectors are not of length 1 and at right angles")]
+    #[error("the plane's vectors must have length 1 and be at right angles")]
     Plane,
     /// A shape is too large, or too far away.
-    #[error("\"{of}\": its shape is not within 1e15 m")]
+    #[error("\"{of}\": its shape must be within 1e15 m of the origin")]
     Size {
         /// Name of the obstacle or link.
         of: String,
     },
     /// A mass, an inertia, an effort or the gravity is negative or not finite, or there is no effort at all.
-    #[error("masses, efforts and gravity make no sense: {what}")]
+    #[error("masses, efforts and gravity are invalid: {what}")]
     Dynamics {
         /// The quantity.
         what: String,
     },
     /// The inner shape, on which proofs rest, is not within the outline.
-    #[error("\"{of}\": its inner shape is not within its outline")]
+    #[error("\"{of}\": its inner shape must be within its outline")]
     Inner {
         /// Name of the link.
         of: String,
     },
     /// A height range has no finite numbers, or ends below its beginning.
-    #[error("\"{of}\": no heights from {lower} to {upper}")]
+    #[error("\"{of}\": the heights from {lower} to {upper} are invalid; they need finite numbers, the lower one first")]
     Heights {
         /// Name of the obstacle, link or attachment.
         of: String,
@@ -93,19 +95,19 @@ pub enum SceneError {
         clearance: f64,
     },
     /// A preference's strength is not finite, or its direction not of length 1.
-    #[error("preference \"{name}\": its epsilon must be finite, its direction of length 1")]
+    #[error("preference \"{name}\": its epsilon must be finite, and its direction must have length 1")]
     Preference {
         /// The preference's name in the world.
         name: String,
     },
     /// The attachment's pose is not finite, or the attachment is too large.
-    #[error("payload \"{object}\": its grip is no place and angle within 1e15 m, or its shape larger")]
+    #[error("payload \"{object}\": its grip and its shape must be finite and within 1e15 m")]
     Grip {
         /// The attachment's name.
         object: String,
     },
     /// There is no obstacle of this number, which is an allowed contact or a support.
-    #[error("there is no obstacle number {number} among {count}")]
+    #[error("obstacle number {number} does not exist: there are {count} obstacles, numbered from 0")]
     NoObstacle {
         /// The number as given; the first obstacle is 0.
         number: usize,
@@ -113,7 +115,9 @@ pub enum SceneError {
         count: usize,
     },
     /// The attachment keeps its orientation, and a loose obstacle does not.
-    #[error("payload \"{object}\" is held level, and \"{mover}\" turns")]
+    #[error(
+        "payload \"{object}\" is held level, but \"{mover}\" turns; level payloads need moving obstacles that do not turn"
+    )]
     TurnsAboutLevel {
         /// The attachment's name.
         object: String,
@@ -162,7 +166,7 @@ fn check_attachment(attachment: &Attachment, loose: &[LooseObstacle]) -> Result<
 
 fn check_arm(arm: &Arm) -> Result<(), SceneError> {
     arm.joints.iter().try_for_each(check_joint)?;
-    for (what, place) in [("base", arm.base.coords), ("offset", arm.offset), ("tip", arm.tip.coords)] {
+    for (what, place) in [("base", arm.base), ("offset", arm.offset), ("tip", arm.tip)] {
         if !are_small(place.iter().copied()) {
             return Err(SceneError::NotFinite { what });
         }
@@ -187,8 +191,13 @@ fn check_arm(arm: &Arm) -> Result<(), SceneError> {
 fn check_dynamics(dynamics: &Dynamics) -> Result<(), SceneError> {
     let error = |what: String| Err(SceneError::Dynamics { what });
     for (k, Body { mass, center, inertia }) in dynamics.bodies.iter().enumerate() {
-        if !is_mass(*mass) || !is_mass(*inertia) || !are_small(center.coords.iter().copied()) {
-            return error(format!("link {} of {mass} kg, {inertia} kg m2, its centre at {center}", k + 1));
+        if !is_mass(*mass) || !is_mass(*inertia) || !are_small(center.iter().copied()) {
+            return error(format!(
+                "link {} of {mass} kg, {inertia} kg m2, its centre at {{{}, {}}}",
+                k + 1,
+                center.x,
+                center.y
+            ));
         }
     }
     if let Some(effort) = dynamics.effort.into_iter().find(|effort| !(is_mass(*effort) && *effort > 0.0)) {
@@ -204,7 +213,7 @@ fn is_mass(value: f64) -> bool {
 /// Returns true if a shape covers another one, up to rounding: each corner of the inner shape's core lies inside the
 /// shape by at least the inner shape's radius.
 fn covers(shape: &Convex, inner: &Convex) -> bool {
-    let room = SHAPE_ROUNDING * shape.reach_from(Point::origin());
+    let room = SHAPE_ROUNDING * shape.reach_from(Point::zeros());
     let beyond = |corner: &Point| separation(shape, &Convex::point(*corner)).distance + inner.radius();
     inner.core().iter().all(|corner| beyond(corner) <= room)
 }
@@ -290,7 +299,7 @@ pub fn is_small(shape: &Convex) -> bool {
 /// Returns true if a pose is a rigid motion.
 #[must_use]
 pub fn is_pose(pose: &Pose) -> bool {
-    are_small(pose.translation.vector.iter().copied()) && (pose.rotation.as_ref().norm() - 1.0).abs() <= UNIT_ROUNDING
+    are_small(pose.translation.iter().copied()) && (pose.rotation.as_ref().norm() - 1.0).abs() <= UNIT_ROUNDING
 }
 
 fn check_size<'a>(of: &str, shapes: impl IntoIterator<Item = &'a Convex>) -> Result<(), SceneError> {

@@ -80,7 +80,7 @@ impl Scene {
         let from_base = part.at(&arm.pose(pair.link, q)).reach_from(arm.base);
         let second = match arm.joints[1].joint_type {
             _ if pair.link == 0 => 0.0,
-            JointType::Revolute { .. } => moves[1] * part.reach_from(Point::origin()),
+            JointType::Revolute { .. } => moves[1] * part.reach_from(Point::zeros()),
             JointType::Prismatic { .. } => moves[1],
         };
         let first = match arm.joints[0].joint_type {
@@ -88,7 +88,7 @@ impl Scene {
             JointType::Revolute { .. } => moves[0] * (from_base + second),
             JointType::Prismatic { .. } => moves[0],
         };
-        let scale = from_base + self.piece(pair).reach_from(arm.base) + arm.base.coords.norm() + first + second;
+        let scale = from_base + self.piece(pair).reach_from(arm.base) + arm.base.norm() + first + second;
         (first + second, scale)
     }
 }

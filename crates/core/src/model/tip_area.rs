@@ -11,7 +11,7 @@ impl Goal {
     #[must_use]
     pub fn of_arm(self, arm: &Arm) -> Self {
         match self {
-            Self::Area([low, high]) if low == high || !slides(arm) => Self::Tip(nalgebra::center(&low, &high)),
+            Self::Area([low, high]) if low == high || !slides(arm) => Self::Tip((low + high) * 0.5),
             goal => goal,
         }
     }

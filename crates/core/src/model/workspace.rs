@@ -98,10 +98,10 @@ impl Shape {
     /// Returns the shape moved by `pose`.
     #[must_use]
     pub fn at(&self, pose: &Pose) -> Self {
-        let moved = |points: &[Point]| points.iter().map(|p| pose * p).collect();
+        let moved = |points: &[Point]| points.iter().map(|&p| pose.point(p)).collect();
         match self {
             Shape::Polygon(corners) => Shape::Polygon(moved(corners)),
-            Shape::Circle { center, radius } => Shape::Circle { center: pose * center, radius: *radius },
+            Shape::Circle { center, radius } => Shape::Circle { center: pose.point(*center), radius: *radius },
             Shape::Polyline(points) => Shape::Polyline(moved(points)),
             Shape::Pieces => Shape::Pieces,
         }

@@ -43,7 +43,7 @@ impl Place {
     fn nearest(self, p: Point) -> Point {
         match self {
             Place::At(point) => point,
-            Place::Any(goals) => Point::from(goals.nearest(Measure::from(Metric::Euclidean), p.coords)),
+            Place::Any(goals) => goals.nearest(Measure::from(Metric::Euclidean), p),
         }
     }
 }
@@ -60,7 +60,7 @@ struct Passage {
 impl Adjacency {
     /// Builds the graph. Linear.
     pub fn new(decomposition: &Decomposition, centers: Vec<Point>) -> Self {
-        let middles = decomposition.portals.iter().map(|portal| nalgebra::center(&portal.low, &portal.high)).collect();
+        let middles = decomposition.portals.iter().map(|portal| (portal.low + portal.high) * 0.5).collect();
         let cells = UnGraph::with_capacity(centers.len(), decomposition.portals.len());
         let mut adjacency = Self { cells, centers, middles };
         for &center in &adjacency.centers {
@@ -77,7 +77,7 @@ impl Adjacency {
 
     /// Returns the passage from a point to another, or to the nearest of some goals.
     fn passage(&self, [from, to]: [Place; 2], portal: Option<usize>) -> Passage {
-        let from = from.nearest(Point::origin());
+        let from = from.nearest(Point::zeros());
         let last = portal.map_or(from, |portal| self.middles[portal]);
         Passage { portal, cost: (last - from).norm() + (to.nearest(last) - last).norm() }
     }
@@ -127,7 +127,7 @@ impl Adjacency {
             behind: |node: NodeIndex| (graph[node].nearest(terminals.start) - terminals.start).norm(),
         };
         let Searched { way, expanded } = search(&graph, how, &question);
-        let expanded = expanded.into_iter().map(|node| graph[node].nearest(terminals.start).coords).collect();
+        let expanded = expanded.into_iter().map(|node| graph[node].nearest(terminals.start)).collect();
         (way.map(|places| self.passed(portals, terminals, &graph, start, &places)), expanded)
     }
 

@@ -116,7 +116,7 @@ impl Decomposition {
     /// Returns the cells that contain a part of a segment, with that part. Linear.
     pub fn parts_of(&self, boundary: &Boundary, segment: &Segment) -> Vec<(u32, Segment)> {
         if segment.is_point() {
-            let [at, _] = segment.corners();
+            let [at, _] = segment.ends();
             return self.cells_at(boundary, at).map(|cell| (cell as u32, *segment)).collect();
         }
         let part = |(cell, number): (&Cell, u32)| Some((number, cell.part(boundary, segment)?));

@@ -198,7 +198,7 @@ impl<'a> Polyanya<'a> {
         let Node { at: from, cost, .. } = self.nodes[root as usize];
         for (_, part) in terminals.parts_in(triangle) {
             if let Some(seen) = sees(part) {
-                let at = Point::from(seen.nearest(self.measure, from.coords));
+                let at = seen.nearest(self.measure, from);
                 self.arcs.push([from, at]);
                 let cost = cost + self.measure.norm(at - from);
                 let node = self.push_node(Node { at, cost, parent: root, corner: NONE });

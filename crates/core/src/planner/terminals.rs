@@ -29,7 +29,7 @@ impl Terminals {
         query: &Query,
         parts_of: impl Fn(&Segment) -> Vec<(u32, Segment)>,
     ) -> Result<Self, String> {
-        let start = Point::from(query.start);
+        let start = query.start;
         if parts_of(&Segment::point(query.start)).is_empty() {
             return Err(format!("the start {} is not in the free space of the representation", shown(start)));
         }
@@ -45,7 +45,7 @@ impl Terminals {
             }
         }
         if goals.is_empty() {
-            let goal = shown(first.corners()[0]);
+            let goal = shown(first.ends()[0]);
             let others = if pieces.len() > 1 { format!(" (nor {} others)", pieces.len() - 1) } else { String::new() };
             return Err(format!("the goal {goal}{others} is not in the free space of the representation"));
         }
@@ -59,9 +59,9 @@ impl Terminals {
         let places = self.goals.iter().flat_map(|goals| {
             let count = if goals.is_point() { 1 } else { PLACES };
             let along = (0..count).map(|k| goals.at(k as f64 / (PLACES - 1) as f64));
-            along.chain([goals.nearest(Measure::from(Metric::Euclidean), self.start.coords)])
+            along.chain([goals.nearest(Measure::from(Metric::Euclidean), self.start)])
         });
-        places.map(Point::from).filter(|&at| mesh.triangles_at(at).next().is_some())
+        places.filter(|&at| mesh.triangles_at(at).next().is_some())
     }
 
     /// Returns the parts of the goals in a cell.
@@ -72,7 +72,7 @@ impl Terminals {
 
     /// Returns the distance from `p` to the nearest goal: a lower bound on the length of any path there.
     pub fn distance(&self, measure: Measure, p: Point) -> f64 {
-        self.goals.iter().map(|goal| goal.distance(measure, p.coords)).fold(f64::INFINITY, f64::min)
+        self.goals.iter().map(|goal| goal.distance(measure, p)).fold(f64::INFINITY, f64::min)
     }
 }
 

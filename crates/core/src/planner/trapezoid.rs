@@ -58,8 +58,7 @@ impl Planner for Trapezoid {
     fn build(&self, space: &Regions) -> TrapezoidMap {
         let boundary = Boundary::new(&space.contours());
         let decomposition = Decomposition::new(&boundary);
-        let corners_of = |points: Vec<Point>| points.into_iter().map(|p| p.coords).collect();
-        let corners = decomposition.cells.iter().map(|cell| corners_of(cell.corners(&boundary))).collect();
+        let corners = decomposition.cells.iter().map(|cell| cell.corners(&boundary)).collect();
         let centers = decomposition.cells.iter().map(|cell| cell.centroid(&boundary)).collect();
         let adjacency = Adjacency::new(&decomposition, centers);
         TrapezoidMap { boundary, decomposition, corners, adjacency }
@@ -82,7 +81,7 @@ impl Planner for Trapezoid {
                             PathKind::Own => map.middle_path(&channel, false),
                             PathKind::Middles => map.middle_path(&channel, true),
                         };
-                        let path = Path::new(waypoints.into_iter().map(|p| p.coords).collect());
+                        let path = Path::new(waypoints);
                         points = map.points(&channel);
                         (Proposal::Found(path), channel.cells, expanded)
                     }
@@ -109,7 +108,7 @@ impl Planner for Trapezoid {
 impl TrapezoidMap {
     /// Returns the centres and middles along a channel.
     fn points(&self, channel: &Channel) -> ChannelPoints {
-        let all = |points: &[Point], numbers: &[usize]| numbers.iter().map(|&number| points[number].coords).collect();
+        let all = |points: &[Point], numbers: &[usize]| numbers.iter().map(|&number| points[number]).collect();
         ChannelPoints {
             centers: all(&self.adjacency.centers, &channel.cells),
             middles: all(&self.adjacency.middles, &channel.portals),
@@ -129,7 +128,7 @@ impl TrapezoidMap {
             waypoints.push(middle);
         }
         let last = waypoints[waypoints.len() - 1];
-        waypoints.push(Point::from(channel.goals.nearest(Measure::from(Metric::Euclidean), last.coords)));
+        waypoints.push(channel.goals.nearest(Measure::from(Metric::Euclidean), last));
         waypoints
     }
 

@@ -18,7 +18,6 @@ use super::terminals::Terminals;
 use super::{GraphKind, Planner, Proposal, Query, Run, Size, Trace};
 use crate::cspace::Regions;
 use crate::space::{Configuration, Measure, Metric, Path, Segment};
-use cplan_geometry::Point;
 use cplan_geometry::planar::Boundary;
 use cplan_interrupt::checkpoint;
 use petgraph::graph::NodeIndex;
@@ -104,10 +103,10 @@ impl Planner for Visibility {
         }
         let mut search = Polyanya::new(&map.mesh, Measure::from(self.metric), &terminals);
         let outcome = match search.path() {
-            Some(waypoints) => Proposal::Found(Path::new(waypoints.into_iter().map(|p| p.coords).collect())),
+            Some(waypoints) => Proposal::Found(Path::new(waypoints)),
             None => Proposal::NoPath,
         };
-        let edges: Vec<_> = search.arcs.iter().map(|ends| ends.map(|p| p.coords)).collect();
+        let edges = search.arcs.clone();
         let size = Size::Graph { nodes: search.nodes(), edges: edges.len() };
         Run { outcome, trace: Trace::Roadmap { edges, whole: false }, size, note: None }
     }
@@ -124,7 +123,7 @@ impl VisibilityMap {
     #[must_use]
     pub fn arcs(&self) -> Vec<[Configuration; 2]> {
         let corners = self.mesh.corners();
-        self.pairs().into_iter().map(|pair| pair.map(|number| corners[number as usize].at.coords)).collect()
+        self.pairs().into_iter().map(|pair| pair.map(|number| corners[number as usize].at)).collect()
     }
 
     /// Returns the corners at the ends of all arcs.
@@ -163,7 +162,7 @@ impl Visibility {
         };
         let (way, expanded) = asked.search(self.search, terminals);
         let outcome = match way {
-            Some(way) => Proposal::Found(Path::new(way.into_iter().map(|node| asked.at(node).coords).collect())),
+            Some(way) => Proposal::Found(Path::new(way.into_iter().map(|node| asked.at(node)).collect())),
             None => Proposal::NoPath,
         };
         let [nodes, edges] = asked.size();
@@ -234,8 +233,8 @@ impl Ends<'_> {
     fn meet_goals(&mut self, root: NodeIndex, triangle: u32, sees: impl Fn(&Segment) -> Option<Segment>) {
         for (_, part) in self.terminals.parts_in(triangle) {
             if let Some(seen) = sees(part) {
-                let at = seen.nearest(self.measure, self.asked.at(root).coords);
-                let goal = self.asked.goal(Point::from(at));
+                let at = seen.nearest(self.measure, self.asked.at(root));
+                let goal = self.asked.goal(at);
                 self.asked.join(root, goal);
             }
         }

@@ -35,12 +35,12 @@ pub fn funnel_path(start: Point, goal: Point, portals: &[Portal]) -> Vec<Point> 
 pub fn nearest_end(start: Point, goals: &Segment, portals: &[Portal]) -> Point {
     let euclid = Measure::from(Metric::Euclidean);
     let length = |share: f64| {
-        let path = funnel_path(start, Point::from(goals.at(share)), portals);
+        let path = funnel_path(start, goals.at(share), portals);
         let last = path[path.len().saturating_sub(2)];
         (path.windows(2).map(|w| (w[1] - w[0]).norm()).sum::<f64>(), last)
     };
     if goals.is_point() {
-        return goals.corners()[0];
+        return goals.ends()[0];
     }
     let golden = (5.0_f64.sqrt() - 1.0) / 2.0;
     let (mut lower, mut upper) = (0.0, 1.0);
@@ -51,10 +51,10 @@ pub fn nearest_end(start: Point, goals: &Segment, portals: &[Portal]) -> Point {
     let tried = [0.0, f64::midpoint(lower, upper), 1.0].map(|share| (length(share), goals.at(share)));
     let [first, rest @ ..] = tried;
     let ((shortest, last), best) = rest.into_iter().fold(first, |a, b| if b.0.0 < a.0.0 { b } else { a });
-    let foot = Point::from(goals.nearest(euclid, last.coords));
+    let foot = goals.nearest(euclid, last);
     let path = funnel_path(start, foot, portals);
     let to_foot: f64 = path.windows(2).map(|w| (w[1] - w[0]).norm()).sum();
-    if to_foot <= shortest * (1.0 + SETTLED) { foot } else { Point::from(best) }
+    if to_foot <= shortest * (1.0 + SETTLED) { foot } else { best }
 }
 
 /// Golden sections: they leave less than a millionth of the segment.

@@ -60,20 +60,20 @@ impl Measure {
     #[must_use]
     pub fn through(self, root: Point, ends: [Point; 2], line: [Point; 2], goals: &Segment) -> f64 {
         let along = line[1] - line[0];
-        let [from, to] = goals.corners().map(|goal| cross(along, goal - line[0]));
+        let [from, to] = goals.ends().map(|goal| cross(along, goal - line[0]));
         if from <= 0.0 && to <= 0.0 {
             return self.across(root, ends, goals);
         }
         let beyond = goals.where_positive(-from, -to).map_or(f64::INFINITY, |beyond| self.across(root, ends, &beyond));
         let Some(before) = goals.where_positive(from, to) else { return beyond };
-        let Self::Ellipse([u, v]) = self else { return beyond.min(before.distance(self, root.coords)) };
+        let Self::Ellipse([u, v]) = self else { return beyond.min(before.distance(self, root)) };
         // There and back is as long as to the mirror image.
         let product = |a: Vector, b: Vector| u * u * a.x * b.x + v * v * a.y * b.y;
         let mirrored = |goal: Point| {
             let foot = line[0] + along * (product(goal - line[0], along) / product(along, along));
-            (foot + (foot - goal)).coords
+            foot + (foot - goal)
         };
-        let [a, b] = before.corners().map(mirrored);
+        let [a, b] = before.ends().map(mirrored);
         beyond.min(self.across(root, ends, &Segment::new(a, b)))
     }
 
@@ -83,8 +83,8 @@ impl Measure {
     /// straight line to the nearest goal crosses the segment's line. If that point is outside of the segment, the
     /// nearest end is optimal.
     fn across(self, root: Point, [right, left]: [Point; 2], goals: &Segment) -> f64 {
-        let goal = goals.nearest(self, root.coords) - root.coords;
-        let via = |end: Point| self.norm(end - root) + goals.distance(self, end.coords);
+        let goal = goals.nearest(self, root) - root;
+        let via = |end: Point| self.norm(end - root) + goals.distance(self, end);
         if cross(right - root, goal) < 0.0 {
             via(right)
         } else if cross(left - root, goal) > 0.0 {
@@ -128,7 +128,7 @@ mod tests {
                     if by_way_of(shares[0]) <= by_way_of(shares[1]) { to = shares[1] } else { from = shares[0] }
                 }
                 let least = by_way_of(from).min(by_way_of(to));
-                let bound = Measure::from(metric).through(root, [right, left], [right, left], &Segment::point(goal.coords));
+                let bound = Measure::from(metric).through(root, [right, left], [right, left], &Segment::point(goal));
                 prop_assert!(bound <= least + 1e-8, "{metric:?}: {bound} > {least}");
                 let is_exact = !matches!(metric, Metric::Time { .. }) || goal.y <= 0.0;
                 prop_assert!(!is_exact || bound >= least - 1e-5, "{metric:?}: {bound} < {least}");

@@ -34,4 +34,4 @@ pub use segment::Segment;
 pub use topology::{JointRange, Topology};
 
 /// Values of the two joints, in the order base to tip; radians for a revolute joint, metres for a prismatic one.
-pub type Configuration = nalgebra::Vector2<f64>;
+pub type Configuration = cplan_geometry::Vector;

@@ -31,12 +31,6 @@ impl Segment {
         [self.from, self.to]
     }
 
-    /// Returns its ends as points of the plane.
-    #[must_use]
-    pub fn corners(&self) -> [Point; 2] {
-        self.ends().map(Point::from)
-    }
-
     /// Returns true if it is a single configuration.
     #[must_use]
     pub fn is_point(&self) -> bool {
@@ -80,7 +74,7 @@ impl Segment {
     /// Returns the part on or to the left of the directed line from `a` to `b`.
     #[must_use]
     pub fn left_of(&self, a: Point, b: Point) -> Option<Self> {
-        let [from, to] = self.corners().map(|p| cross(b - a, p - a));
+        let [from, to] = self.ends().map(|p| cross(b - a, p - a));
         self.where_positive(from, to)
     }
 
@@ -114,7 +108,7 @@ impl Segment {
             return true;
         }
         // A slanted segment misses a box that it overlaps along both axes if all corners lie on one side of it.
-        let [a, b] = self.corners();
+        let [a, b] = self.ends();
         let sides = [[lower[0], lower[1]], [upper[0], lower[1]], [upper[0], upper[1]], [lower[0], upper[1]]]
             .map(|[x, y]| orientation(a, b, Point::new(x, y)));
         [Orientation::Clockwise, Orientation::CounterClockwise].iter().all(|side| sides.iter().any(|s| s != side))

@@ -130,7 +130,7 @@ impl<'a> Reader<'_, 'a> {
         }
         let parts = filled(&rings, FillRule::NonZero);
         if is_closed && parts.iter().any(|(_, holes)| !holes.is_empty()) {
-            let message = "closed polylines with a width: taken as frames of that width, free inside";
+            let message = "closed polylines with a width: read as frames of that width, free inside";
             self.sheet.note(message, origin);
         }
         parts.into_iter().try_for_each(|(outer, holes)| self.sheet.polygon(outer, holes, origin))
@@ -179,7 +179,7 @@ impl<'a> Reader<'_, 'a> {
         }
         if !spline.is_sound() {
             let message = "SPLINE whose degree, knots, weights and control points do not fit";
-            return Err(Error::new(record.line, message, "draw the spline again, or turn it into a polyline"));
+            return Err(Error::new(record.line, message, "draw the spline again, or convert it to a polyline"));
         }
         let points = self.sheet.chords(spline.points(self.sheet.tolerance), origin)?;
         self.open(points, place, origin)

@@ -34,9 +34,9 @@ pub(crate) fn read(bytes: &[u8], settings: &Settings) -> Result<Drawing, Error> 
     let unit = settings.unit.or(document.unit).unwrap_or_else(|| {
         match document.unread_unit {
             Some(Tag { value, line, .. }) => {
-                sheet.notes.add(format!("$INSUNITS {value} is no unit that is read: read as mm"), Some(line));
+                sheet.notes.add(format!("$INSUNITS {value} is not a known unit: read as mm"), Some(line));
             }
-            None => sheet.notes.add("the drawing does not say its unit: read as mm", None),
+            None => sheet.notes.add("the drawing does not state its unit: read as mm", None),
         }
         Unit::MILLIMETRE
     });
@@ -89,14 +89,14 @@ impl<'d, 'a> Reader<'d, 'a> {
             let record = entity.record;
             if self.entities > MOST_ENTITIES {
                 let message = format!("with all blocks inserted the drawing has more than {MOST_ENTITIES} entities");
-                return Err(Error::new(record.line, message, "leave out all that the arm cannot reach"));
+                return Err(Error::new(record.line, message, "remove parts that the arm cannot reach"));
             }
             if record.integer_or(67, 0)? == 1 {
                 let origin = self.origin(entity, place)?;
                 self.sheet.leave_out("entities in paper space", &origin);
             } else if record.integer_or(60, 0)? == 1 {
                 let origin = self.origin(entity, place)?;
-                self.sheet.leave_out("what is invisible", &origin);
+                self.sheet.leave_out("invisible entities", &origin);
             } else if record.kind == "INSERT" {
                 self.insert(entity, place, within)?;
             } else {
@@ -143,17 +143,17 @@ impl<'d, 'a> Reader<'d, 'a> {
         }
         if self.document.clips(record) {
             let origin = self.origin(entity, place)?;
-            self.sheet.note("INSERT with a clip (XCLIP): taken whole, not clipped", &origin);
+            self.sheet.note("INSERT with a clip (XCLIP): read without the clip", &origin);
         }
         let name = record.text(2).unwrap_or_default();
         let key = name.to_uppercase();
         let Some(block) = self.document.blocks.get(&key) else {
-            let message = format!("INSERT of block \"{name}\", which the file does not hold: left out");
+            let message = format!("INSERT of block \"{name}\", which the file does not contain: left out");
             self.sheet.notes.add(message, Some(record.line));
             return Ok(());
         };
         if within.contains(&key) || within.len() == DEEPEST {
-            let what = if within.contains(&key) { "holds itself" } else { "lies in too many others" };
+            let what = if within.contains(&key) { "contains itself" } else { "is nested too deeply" };
             let message = format!("block \"{name}\" {what}");
             return Err(Error::new(record.line, message, "explode the block, or draw it without itself"));
         }
@@ -182,7 +182,7 @@ impl<'d, 'a> Reader<'d, 'a> {
                 if self.entities > MOST_ENTITIES {
                     let message =
                         format!("with all blocks inserted the drawing has more than {MOST_ENTITIES} entities");
-                    return Err(Error::new(record.line, message, "leave out all that the arm cannot reach"));
+                    return Err(Error::new(record.line, message, "remove parts that the arm cannot reach"));
                 }
                 let shift = Map::moving([column as f64 * spacing[0], row as f64 * spacing[1]]);
                 let here = map.after(&at).after(&shift);

@@ -63,7 +63,7 @@ impl<'a> Record<'a> {
     pub fn needed(&self, code: i32) -> Result<f64, Error> {
         self.number(code)?.ok_or_else(|| {
             let message = format!("{} has no group {code}", self.kind);
-            Error::new(self.line, message, "the file seems to be cut: export the drawing again")
+            Error::new(self.line, message, "the file seems truncated: export the drawing again")
         })
     }
 
@@ -78,7 +78,7 @@ impl<'a> Record<'a> {
         let y = self.numbers(code + 10)?;
         if x.len() != y.len() {
             let message = format!("{} has {} coordinates x and {} coordinates y", self.kind, x.len(), y.len());
-            return Err(Error::new(self.line, message, "the file seems to be cut: export the drawing again"));
+            return Err(Error::new(self.line, message, "the file seems truncated: export the drawing again"));
         }
         Ok(x.into_iter().zip(y).map(|(x, y)| [x, y]).collect())
     }
@@ -121,7 +121,7 @@ pub(super) fn tags(text: &str) -> Result<(Vec<Tag<'_>>, Option<usize>), Error> {
         }
         let Ok(code) = code.trim().parse() else {
             let message = match tags.is_empty() {
-                true => "this is no DXF: it does not begin with the code of a group".into(),
+                true => "this is not a DXF file: it does not begin with the code of a group".into(),
                 false => format!("expected the code of a group, found \"{}\"", code.trim()),
             };
             return Err(Error::new(line, message, "export the drawing again, as an ASCII DXF"));

@@ -37,11 +37,11 @@ pub(crate) fn read(text: &str, settings: &Settings) -> Result<Drawing, Error> {
     let document = Document::parse_with_options(text, options).map_err(|error| {
         let (line, message) = (error.pos().row as usize, error.to_string());
         let message = message.split(" at ").next().unwrap_or_default();
-        Error::new(line, format!("this is no well-formed XML: {message}"), CURE)
+        Error::new(line, format!("this is not well-formed XML: {message}"), CURE)
     })?;
     let root = document.root_element();
     if !is_svg(root) || root.tag_name().name() != "svg" {
-        let message = format!("this is no SVG: the root element is <{}>", root.tag_name().name());
+        let message = format!("this is not an SVG file: the root element is <{}>", root.tag_name().name());
         return Err(Error::new(1, message, "give an .svg file"));
     }
     let mut styles = StyleSheet::new();
@@ -119,7 +119,7 @@ impl<'a, 'i> Reader<'a, 'i> {
         let scale = unit_of_page.metres() * settings.scale;
         let says_unit = lengths.iter().flatten().any(|text| text.trim_end().ends_with(char::is_alphabetic));
         if unit.is_none() && !says_unit {
-            self.sheet.notes.add("the drawing does not say its size: read as px, 96 to an inch", None);
+            self.sheet.notes.add("the drawing does not state its size: read as px, 96 to an inch", None);
         }
         let up = Map { u: [scale, 0.0], v: [0.0, -scale], o: [0.0, size.map_or(0.0, |[_, height]| height * scale)] };
         let map = match (view, size) {
@@ -171,7 +171,7 @@ impl<'a, 'i> Reader<'a, 'i> {
 
     fn wrong(&self, node: Node, name: &str, text: &str) -> Error {
         let shown: String = text.chars().take(40).collect();
-        let message = format!("<{}> has {name}=\"{shown}\", which makes no sense", node.tag_name().name());
+        let message = format!("<{}> has {name}=\"{shown}\", which is not a valid value", node.tag_name().name());
         Error::new(self.line(node), message, "save the drawing again, as a plain SVG")
     }
 
@@ -203,7 +203,7 @@ impl<'a, 'i> Reader<'a, 'i> {
         if map.is_regular() {
             return Ok(());
         }
-        let message = format!("<{}> is scaled by 0, or by more than numbers hold", node.tag_name().name());
+        let message = format!("<{}> is scaled by 0, or by too large a factor", node.tag_name().name());
         Err(Error::new(self.line(node), message, "give it a scale (or a viewBox) that is not 0"))
     }
 
@@ -220,7 +220,7 @@ impl<'a, 'i> Reader<'a, 'i> {
         }
         if self.elements > MOST_ELEMENTS {
             let message = format!("with all uses followed the drawing has more than {MOST_ELEMENTS} elements");
-            return Err(Error::new(line, message, "leave out all that the arm cannot reach"));
+            return Err(Error::new(line, message, "remove parts that the arm cannot reach"));
         }
         let style = around.style.of(node, &self.styles);
         let own_name = node.attribute((INKSCAPE, "label")).or(node.attribute("id")).map(str::to_owned);
@@ -233,7 +233,7 @@ impl<'a, 'i> Reader<'a, 'i> {
             return Ok(());
         }
         if node.has_attribute("clip-path") || node.has_attribute("mask") {
-            self.sheet.notes.add("clip-path and mask: not applied, the whole is taken", Some(line));
+            self.sheet.notes.add("clip-path and mask: not applied", Some(line));
         }
         let transform: Option<Transform> = self.parsed(node, "transform")?;
         let Transform { a, b, c, d, e, f } = transform.unwrap_or_default();
@@ -322,7 +322,7 @@ impl<'a, 'i> Reader<'a, 'i> {
         let Some(&target) = reference.strip_prefix('#').and_then(|id| self.ids.get(id)) else {
             self.sheet
                 .notes
-                .add(format!("<use> of \"{reference}\", which the file does not hold: left out"), Some(line));
+                .add(format!("<use> of \"{reference}\", which the file does not contain: left out"), Some(line));
             return Ok(());
         };
         let [x, y] = [0, 1].map(|k| self.length_or_0(node, ["x", "y"][k], inside.page[k]));
@@ -332,7 +332,7 @@ impl<'a, 'i> Reader<'a, 'i> {
             return self.element(target, &inside, depth + 1);
         }
         if depth > DEEPEST {
-            return Err(Error::new(line, "<use> uses itself", "take the loop out"));
+            return Err(Error::new(line, "<use> uses itself", "remove the loop"));
         }
         let inside = self.viewport(target, node, inside)?;
         self.children(target, &inside, depth + 1)

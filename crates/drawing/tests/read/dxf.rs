@@ -112,7 +112,7 @@ fn a_polyline_of_some_width_covers_it() {
             let (covered, count) = covers(one(&given));
             assert!((mm2 - missing - 1e-3..=mm2 + missing + 1e-3).contains(&(covered * 1e6)), "{corners}: {covered}");
             assert_eq!(count, holes, "{corners}");
-            let told = "closed polylines with a width: taken as frames of that width, free inside (line 28)";
+            let told = "closed polylines with a width: read as frames of that width, free inside (line 28)";
             assert_eq!(notes(&given), vec![told; holes], "{corners}");
         }
     }
@@ -315,9 +315,9 @@ fn units_are_the_files_or_the_users() {
         near(wall(one(&given))[1][0], metres, 1e-15);
     }
     let unsaid = drawing(&sections("9 $ACADVER 1 AC1015", "", "", line), Format::Dxf);
-    assert_eq!(notes(&unsaid), ["the drawing does not say its unit: read as mm"]);
+    assert_eq!(notes(&unsaid), ["the drawing does not state its unit: read as mm"]);
     let unknown = drawing(&sections("9 $INSUNITS 70 99", "", "", line), Format::Dxf);
-    assert_eq!(notes(&unknown), ["$INSUNITS 99 is no unit that is read: read as mm (line 8)"]);
+    assert_eq!(notes(&unknown), ["$INSUNITS 99 is not a known unit: read as mm (line 8)"]);
     near(wall(one(&unknown))[1][0], 0.01, 1e-15);
     let settings = Settings { unit: Some("in".parse::<Unit>().unwrap()), ..Settings::default() };
     let inches = read(file("", line).as_bytes(), Format::Dxf, &settings).unwrap();
@@ -371,7 +371,7 @@ fn what_is_not_taken_is_told() {
         "HATCH: left out (line 50)",
         "3DFACE: left out (line 54)",
         "entities in paper space: left out (line 58)",
-        "INSERT of block \"NOWHERE\", which the file does not hold: left out (line 72)",
+        "INSERT of block \"NOWHERE\", which the file does not contain: left out (line 72)",
         "LINE without extent: left out (line 92)",
     ];
     assert_eq!(notes(&given), expected);

@@ -25,7 +25,7 @@ fn features_have_names_holes_and_heights() {
     assert_eq!((ring(left).len(), area(ring(right))), (3, 0.5));
     assert_eq!(walls.iter().map(|shape| wall(shape).len()).collect::<Vec<_>>(), [2, 2, 3]);
     let expected =
-        ["GeoJSON does not say its unit: read as m", "Point: left out", "Feature without geometry: left out"];
+        ["GeoJSON does not state a unit: read as m", "Point: left out", "Feature without geometry: left out"];
     assert_eq!(notes(&given), expected);
     let settings = Settings { unit: Some("cm".parse().unwrap()), ..Settings::default() };
     let small = read(cell.as_bytes(), Format::GeoJson, &settings).unwrap();
@@ -40,7 +40,7 @@ fn features_have_names_holes_and_heights() {
 fn what_is_wrong_is_named_with_its_place() {
     let cases = [
         ("", None, "the file is empty"),
-        ("{ \"type\":\n \"Polygon\", ]", Some(2), "this is no JSON"),
+        ("{ \"type\":\n \"Polygon\", ]", Some(2), "this is not JSON"),
         ("[1, 2]", None, "expected an object with a type"),
         (r#"{"type": "Topology"}"#, None, "TopoJSON"),
         (r#"{"type": "Polygon"}"#, None, "coordinates: expected a list"),
@@ -68,10 +68,10 @@ fn what_is_wrong_is_named_with_its_place() {
 #[test]
 fn cures_are_for_what_is_wrong() {
     let cases = [
-        (r#"{"type": "Polygon", "coordinates": {}}"#, "stand in lists"),
+        (r#"{"type": "Polygon", "coordinates": {}}"#, "positions as lists"),
         (r#"{"type": "Polygon", "coordinates": [[[0, 0], [1, "x"]]]}"#, "both coordinates as numbers, without quotes"),
         (r#"{"type": "Feature", "properties": {"height": "x"}}"#, "heights as numbers, without quotes"),
-        (r#"{"type": "Feature", "properties": {"height": -1}}"#, "lower end first; a single number is above 0"),
+        (r#"{"type": "Feature", "properties": {"height": -1}}"#, "lower end first; a single number must be above 0"),
     ];
     for (text, cure) in cases {
         let error = read(text.as_bytes(), Format::GeoJson, &Settings::default()).unwrap_err();

@@ -55,7 +55,7 @@ fn blocks_without_end() {
         &format!("0 BLOCK 2 a {} 0 ENDBLK 0 BLOCK 2 b {} 0 ENDBLK", insert("b", ""), insert("A", "")),
         &insert("a", ""),
     );
-    assert!(refused(&own, Format::Dxf).message.contains("holds itself"));
+    assert!(refused(&own, Format::Dxf).message.contains("contains itself"));
     let zero = file("0 BLOCK 2 a 0 LINE 10 0 20 0 11 1 21 1 0 ENDBLK", &insert("a", "41 0"));
     assert!(refused(&zero, Format::Dxf).message.contains("scale 0 by 1"));
     // Each block occurs twice in the next; also empty ones, and rows without number.
@@ -86,10 +86,10 @@ fn broken_svg_files() {
     let cases = [
         ("", "the file is empty", None),
         ("<html/>", "no SVG", Some(1)),
-        ("<svg>\n<g>\n</svg>", "no well-formed XML", Some(3)),
-        ("<svg><g></svg>", "no well-formed XML", Some(1)),
+        ("<svg>\n<g>\n</svg>", "not well-formed XML", Some(3)),
+        ("<svg><g></svg>", "not well-formed XML", Some(1)),
         ("<svg viewBox='0 0 0 5'/>", "viewBox", Some(1)),
-        ("<svg>\n<rect width='x' height='1'/></svg>", "width=\"x\", which makes no sense", Some(2)),
+        ("<svg>\n<rect width='x' height='1'/></svg>", "width=\"x\", which is not a valid value", Some(2)),
         ("<svg>\n<g transform='scale(0)'><rect width='1' height='1'/></g></svg>", "scaled by 0", Some(2)),
         ("<svg>\n\n<path d='M0 0 L nan 3'/></svg>", "path data", Some(3)),
         ("<svg><circle r='1e300' transform='skewX(9)'/></svg>", "too many", Some(1)),

@@ -93,7 +93,7 @@ fn the_page_says_how_large_things_are() {
         let ring = ring(one(&given)).clone();
         ([ring[1][0] - ring[0][0], ring[0][1] - ring[3][1], ring[3][1]], notes(&given))
     };
-    let unsaid = vec!["the drawing does not say its size: read as px, 96 to an inch".to_owned()];
+    let unsaid = vec!["the drawing does not state its size: read as px, 96 to an inch".to_owned()];
     let cases = [
         ("", [0.0254, 0.0127, -0.0127], true),
         ("height='96' width='200'", [0.0254, 0.0127, 0.0127], true),
@@ -186,7 +186,7 @@ fn names_layers_uses_and_what_is_not_shown() {
         "elements not visible: left out",
         "<text>: left out",
         "<image>: left out",
-        "<use> of \"#nowhere\", which the file does not hold: left out",
+        "<use> of \"#nowhere\", which the file does not contain: left out",
     ];
     assert_eq!(told, expected);
 }

@@ -3,7 +3,7 @@
 use super::{Evidence, lines, reaching_out};
 use cplan_core::check::StuckBox;
 use cplan_core::model::{Heights, OutlineSource, Pair, Part, Scene, SelfObstacle, Shape};
-use cplan_geometry::{Convex, Point};
+use cplan_geometry::Convex;
 use serde::Serialize;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -113,5 +113,5 @@ fn of_layer(mut named: Value, own: Heights, mut all: impl Iterator<Item = Height
 }
 
 fn corners(piece: &Convex) -> Vec<[f64; 2]> {
-    piece.core().iter().map(|&Point { coords: p }| p.into()).collect()
+    piece.core().iter().map(|&p| p.into()).collect()
 }

@@ -40,11 +40,11 @@ pub enum NoCertificate {
     Task,
     /// An object rests on another one, and a checker refuses to move its corners.
     #[error(
-        "object \"{0}\" rests on something, and is too fine or touches itself: its corners cannot all be moved inwards by what it may press in"
+        "object \"{0}\" rests on a support, but its outline is too fine or touches itself: it cannot be shrunk by the depth that it may press in"
     )]
     Outline(String),
     /// A motion without times in a world with moving obstacles.
-    #[error("the motion says no times, and among what moves it depends on them whether it is free")]
+    #[error("the motion has no times, which decide whether it avoids the moving obstacles")]
     Untimed,
 }
 

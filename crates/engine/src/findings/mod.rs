@@ -62,14 +62,14 @@ fn judge_motion(
     let scene = &loaded.scene;
     let (start, goals) = if anywhere { (None, Vec::new()) } else { loaded.ends(overrides)? };
     notes.push(match (start.is_some(), !goals.is_empty()) {
-        (true, true) => format!("from the start to the goal: both are met within {ENDS_WITHIN}, or that is a fault"),
+        (true, true) => format!("the motion must begin at the start and end at the goal, each within {ENDS_WITHIN}"),
         (true, false) => {
-            format!("from the start, which is met within {ENDS_WITHIN}, or that is a fault; there is no goal")
+            format!("the motion must begin at the start, within {ENDS_WITHIN}; there is no goal")
         }
         (false, true) => {
-            format!("to the goal, which is met within {ENDS_WITHIN}, or that is a fault; there is no start")
+            format!("the motion must end at the goal, within {ENDS_WITHIN}; there is no start")
         }
-        (false, false) => "where it begins and ends is not judged".into(),
+        (false, false) => "start and goal of the motion are not judged".into(),
     });
     let has_movers = !loaded.courses.is_empty();
     if has_movers {
@@ -77,11 +77,11 @@ fn judge_motion(
     }
     let untold = [
         (has_movers && recording.times().is_none())
-            .then_some("obstacles move, and the file has no times: it cannot be told whether the motion meets them"),
+            .then_some("obstacles move, but the file has no times: whether the motion hits them is unknown"),
         (Torques::limited(scene).is_some() && recording.velocities().is_none())
-            .then_some("motions have to keep within efforts, and the file has no velocities: torques cannot be told"),
+            .then_some("efforts are limited, but the file has no velocities: torques are unknown"),
         (Torques::limited(scene).is_some() && !held.is_empty())
-            .then_some("motions have to keep within efforts, and joints of the tool move: torques cannot be told"),
+            .then_some("efforts are limited, but joints of the tool move: torques are unknown"),
     ];
     let clearance = scene.workspace().clearance;
     let collision_check = match held {

@@ -19,8 +19,8 @@ pub enum MessageError {
     Jump(#[from] AccelerationJump),
     /// A moving joint of the tool, whose accelerations are unknown.
     #[error(
-        "accelerations cannot be written: those of the tool's joint \"{joint}\", which moves at {time:.6} s, jump; write the two planned joints \
-         alone (--joints planned), or leave out --accelerations"
+        "accelerations cannot be written: the acceleration of the tool's joint \"{joint}\" jumps when it moves at {time:.6} s; \
+         write only the two planned joints (--joints planned), or leave out --accelerations"
     )]
     Tool {
         /// The joint's name in the URDF.
@@ -30,8 +30,8 @@ pub enum MessageError {
     },
     /// A wrist that cannot keep up.
     #[error(
-        "joint \"{joint}\" cannot keep what is carried level: at {time:.6} s it would {what}; let it have a wider range, give the \
-         step less speed, or write the two planned joints alone (--joints planned)"
+        "joint \"{joint}\" cannot keep the payload level: at {time:.6} s it would {what}; widen its range, give the step a \
+         lower speed, or write only the two planned joints (--joints planned)"
     )]
     Wrist {
         /// The joint's name in the URDF.
@@ -260,7 +260,7 @@ fn back(way: f64, duration: f64, limits: Wrist) -> f64 {
 /// Describes the violation, if a joint exceeds its speed or range.
 fn beyond(joint: &ToolJoint, limits: Wrist, value: f64, rate: f64) -> Option<String> {
     if rate.abs() > limits.velocity * (1.0 + ROUNDING) {
-        return Some(format!("turn at {:.3} rad/s, and its top speed is {} rad/s", rate.abs(), limits.velocity));
+        return Some(format!("turn at {:.3} rad/s, above its top speed of {} rad/s", rate.abs(), limits.velocity));
     }
     match joint.range {
         JointRange::Interval { lower, upper } if value < lower - ROUNDING || value > upper + ROUNDING => {

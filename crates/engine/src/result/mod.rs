@@ -115,8 +115,10 @@ fn reason(task: &Task, FailedStep { step, .. }: &FailedStep, status: Status) -> 
     let cycle = if step.cycle > 1 { format!(" of cycle {}", step.cycle) } else { String::new() };
     let which = format!("step {}{cycle}, {} ({})", step.number, step.action.describe(&task.objects), step.place);
     match status {
-        Status::Infeasible => format!("proven: {which} cannot be done, nor can the task in any other way"),
-        _ => format!("unknown: no way to do {which} was found, and none ruled out"),
+        Status::Infeasible => {
+            format!("infeasible: {which} has no motion, and no other choices make the task possible (proven)")
+        }
+        _ => format!("unknown: no motion was found for {which}, and none ruled out"),
     }
 }
 

@@ -200,7 +200,7 @@ impl EventReport {
         let (event, pose) = match happens {
             Event::Grasp { .. } => (EventName::Grasp, None),
             Event::Release { pose, .. } => {
-                let (at, angle) = (pose.translation.vector, pose.rotation.angle());
+                let (at, angle) = (pose.translation, pose.rotation.angle());
                 (EventName::Release, Some(PoseReport { at: [at.x, at.y], angle }))
             }
         };

@@ -43,7 +43,7 @@ impl Bar {
     pub fn of(shape: &Convex) -> Option<Self> {
         let core: &[Point; 4] = shape.core().try_into().ok()?;
         (0..4).find_map(|k| {
-            let [right, left, rear_left, rear_right] = [0, 1, 2, 3].map(|i| core[(k + i) % 4].coords);
+            let [right, left, rear_left, rear_right] = [0, 1, 2, 3].map(|i| core[(k + i) % 4]);
             let axis = (-perpendicular(left - right)).try_normalize(0.0)?;
             let (front, half_width) = (axis.dot(&right), (left - right).norm() / 2.0);
             let back = axis.dot(&rear_left);
@@ -67,7 +67,7 @@ impl Bar {
     /// Does the same as [`super::turning_from`] without radii and growth. Returns `None` if the joint is too close to the
     /// piece, or if only the front corners of the bar reach it. `O(n)`.
     pub fn arc(&self, pivot: Point, zero: Vector, piece: &Features, out: &mut Vec<[f64; 2]>) -> Option<Hits> {
-        let side_gap = |normal: Vector, offset: f64| normal.dot(&pivot.coords) - offset;
+        let side_gap = |normal: Vector, offset: f64| normal.dot(&pivot) - offset;
         let (gap, toward) = piece
             .sides
             .iter()
@@ -83,7 +83,7 @@ impl Bar {
         let (mut touched, mut blocks_front, mut all_inside) = (false, false, true);
         let reach = self.reach2.sqrt() + BLUR;
         for corner in &piece.corners {
-            let at = corner.at - pivot.coords;
+            let at = corner.at - pivot;
             let distance2 = at.norm_squared();
             if distance2 <= reach * reach {
                 extremes.add(at, (distance2 - self.half_width * self.half_width).sqrt(), self.half_width);
@@ -100,7 +100,7 @@ impl Bar {
                 if across2 < 0.0 {
                     continue;
                 }
-                let shift = cross(side.normal, pivot.coords);
+                let shift = cross(side.normal, pivot);
                 let (from, to) = (side.from - shift, side.to - shift);
                 let root = across2.sqrt();
                 for across in [root, -root] {
@@ -160,7 +160,7 @@ mod tests {
 
     fn bar(length: f64, back: f64, half_width: f64, turn: f64) -> Convex {
         let corners = [(back, -half_width), (length, -half_width), (length, half_width), (back, half_width)];
-        Convex::trusted(corners.map(|(x, y)| Pose::rotation(turn) * Point::new(x, y)).to_vec(), 0.0)
+        Convex::trusted(corners.map(|(x, y)| Pose::rotation(turn).point(Point::new(x, y))).to_vec(), 0.0)
     }
 
     #[test]
@@ -172,7 +172,7 @@ mod tests {
         assert!(Bar::of(&bar(0.1, -0.1, 0.1, 0.0)).is_none(), "no end is the front");
         assert!(Bar::of(&corners([(0.0, -0.05), (0.8, -0.05), (0.8, 0.06), (0.0, 0.06)])).is_none(), "off the axis");
         assert!(Bar::of(&corners([(0.0, -0.05), (0.8, -0.04), (0.8, 0.04), (0.0, 0.05)])).is_none(), "tapered");
-        assert!(Bar::of(&Convex::trusted(vec![Point::origin(), Point::new(1.0, 0.0)], 0.0)).is_none());
+        assert!(Bar::of(&Convex::trusted(vec![Point::zeros(), Point::new(1.0, 0.0)], 0.0)).is_none());
     }
 
     /// Rounding moves the touching corner further inside the bar's side than the distance along its normal says.
@@ -214,7 +214,7 @@ mod tests {
             let piece = Convex::trusted((0..corners).map(corner).collect(), 0.0);
             let away = Vector::new(direction.cos(), direction.sin());
             let pivot = match at_reach {
-                None => Point::from(away * distance),
+                None => away * distance,
                 Some(k) => piece.core()[k % corners] + away * 0.8_f64.hypot(half_width),
             };
             let zero = Vector::new(0.6, 0.8);
@@ -226,7 +226,7 @@ mod tests {
             let expected =
                 critical_arcs(&Placement { part: &part, pivot, zero, piece: &piece, radius: 0.0, reach }, &mut exhaustive);
             let distance = |angle: f64| {
-                let pose = Pose::new(pivot.coords, angle + zero.y.atan2(zero.x));
+                let pose = Pose::new(pivot, angle + zero.y.atan2(zero.x));
                 separation(&part.shape().at(&pose), piece.shape()).distance
             };
             if hits == Hits::Never {

@@ -26,7 +26,7 @@ pub(super) fn critical_arcs(placement: &Placement<'_>, out: &mut Vec<[f64; 2]>) 
 
     let allowed = radius - part.shape().radius() - piece.shape().radius() + ROUNDING / 2.0;
     let meets = |angle: f64| {
-        let pose = Pose::new(pivot.coords, angle + zero_angle);
+        let pose = Pose::new(pivot, angle + zero_angle);
         separation(&part.shape().at(&pose), piece.shape()).distance <= allowed
     };
     let n = angles.len();
@@ -73,12 +73,12 @@ fn critical_angles(placement: &Placement<'_>) -> Vec<f64> {
     };
     for a in part.corners.iter().filter(|a| a.distance2 > 0.0) {
         for side in &piece.sides {
-            let along = side.offset - side.normal.dot(&pivot.coords) + radius;
+            let along = side.offset - side.normal.dot(&pivot) + radius;
             solve(quotient(side.normal, a.at), along / a.distance);
         }
     }
     for p in &piece.corners {
-        let at = p.at - pivot.coords;
+        let at = p.at - pivot;
         let distance = at.norm();
         if distance == 0.0 {
             continue;

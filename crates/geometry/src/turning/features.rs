@@ -76,7 +76,7 @@ impl Features {
     /// Prepares a shape. `O(n)`.
     #[must_use]
     pub fn new(shape: &Convex) -> Self {
-        let core: Vec<Vector> = shape.core().iter().map(|p| p.coords).collect();
+        let core = shape.core();
         let n = core.len();
         let corners = (0..n)
             .map(|i| {
@@ -117,7 +117,7 @@ impl Features {
 
     /// Returns bounds on the least and the greatest distance of the core from `pivot`, by the disc around it.
     pub(super) fn distances(&self, pivot: Point) -> (f64, f64) {
-        let center = (self.center - pivot.coords).norm();
+        let center = (self.center - pivot).norm();
         (center - self.extent, center + self.extent)
     }
 }

@@ -76,7 +76,7 @@ pub fn turning_from(
     match placement.ends() {
         // No contact begins or ends, so one configuration decides for all angles.
         Ok(ends) if ends.is_empty() => {
-            let pose = Pose::new(pivot.coords, 0.0);
+            let pose = Pose::new(pivot, 0.0);
             let distance = separation(&part.shape.at(&pose), &piece.shape).distance - grow;
             if distance <= ROUNDING / 2.0 { Hits::Always } else { Hits::Never }
         }

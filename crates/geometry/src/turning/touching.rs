@@ -96,7 +96,7 @@ impl Placement<'_> {
         let mut ends = Ends::default();
         self.corners_on_fixed_sides(&mut ends)?;
         for corner in &self.piece.corners {
-            let at = corner.at - self.pivot.coords;
+            let at = corner.at - self.pivot;
             let distance2 = at.norm_squared();
             // A corner on the pivot is in contact at all angles or at none.
             if distance2 > 0.0 {
@@ -119,7 +119,7 @@ impl Placement<'_> {
     fn corners_on_fixed_sides(&self, ends: &mut Ends) -> Result<(), Doubtful> {
         for side in &self.piece.sides {
             // The side moved outwards by the radius, seen from the pivot.
-            let along = side.offset - side.normal.dot(&self.pivot.coords) + self.radius;
+            let along = side.offset - side.normal.dot(&self.pivot) + self.radius;
             let shift = side.normal.x * self.pivot.y - side.normal.y * self.pivot.x;
             let (from, to) = (side.from - shift, side.to - shift);
             for corner in self.corners_in_reach() {

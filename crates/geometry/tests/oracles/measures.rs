@@ -37,7 +37,7 @@ fn random_shape() -> impl Strategy<Value = Convex> {
 
 /// Returns the gap between two shapes along a unit direction: positive if a line across it separates them.
 fn gap(a: &Convex, b: &Convex, direction: Vector) -> f64 {
-    let along = |p: &Point| direction.dot(&p.coords);
+    let along = |p: &Point| direction.dot(p);
     let front = a.core().iter().map(along).fold(f64::NEG_INFINITY, f64::max) + a.radius();
     let back = b.core().iter().map(along).fold(f64::INFINITY, f64::min) - b.radius();
     back - front

@@ -27,7 +27,7 @@ fn sides(polygon: &[Point]) -> impl Iterator<Item = Vector> {
 
 /// Returns the greatest value of `n . p` over the polygon.
 fn support(polygon: &[Point], n: Vector) -> f64 {
-    polygon.iter().map(|p| n.dot(&p.coords)).fold(f64::NEG_INFINITY, f64::max)
+    polygon.iter().map(|p| n.dot(p)).fold(f64::NEG_INFINITY, f64::max)
 }
 
 /// Generates polygons from points on a circle of random radius, at a random position.
@@ -45,14 +45,14 @@ proptest! {
     #[test]
     fn lattice_differences_are_hulls_of_all_differences(a in core(), b in core()) {
         let (a, b) = (points(&a), points(&b));
-        let all: Vec<Point> = b.iter().flat_map(|q| a.iter().map(move |p| Point::from(q - p))).collect();
+        let all: Vec<Point> = b.iter().flat_map(|q| a.iter().map(move |p| q - p)).collect();
         prop_assert_eq!(from_leftmost(difference(b, a)), hull(&all));
     }
 
     #[test]
     fn support_area_and_perimeter_add_up(a in polygon(), b in polygon(), direction in 0.0..std::f64::consts::TAU) {
         let difference = difference(b.clone(), a.clone());
-        let minus_a: Vec<Point> = a.iter().map(|p| Point::from(-p.coords)).collect();
+        let minus_a: Vec<Point> = a.iter().map(|p| -p).collect();
         let n = Vector::new(direction.cos(), direction.sin());
         let tolerance = 1e-12;
         prop_assert!((support(&difference, n) - support(&b, n) - support(&minus_a, n)).abs() < 100.0 * tolerance);
@@ -91,7 +91,7 @@ fn radii_add_up() {
     assert_eq!(difference.radius(), 0.75);
     assert_eq!(difference.core(), [Point::new(-1.0, -2.0), Point::new(0.0, -2.0)]);
     // Cores without length are allowed.
-    assert_eq!(wall(Point::origin(), Point::origin()).core().len(), 1);
+    assert_eq!(wall(Point::zeros(), Point::zeros()).core().len(), 1);
 }
 
 #[test]

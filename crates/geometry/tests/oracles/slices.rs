@@ -48,7 +48,7 @@ fn pivot() -> impl Strategy<Value = Point> {
 }
 
 fn distance_at(part: &Convex, pivot: Point, angle: f64, piece: &Convex) -> f64 {
-    separation(&part.at(&Pose::new(pivot.coords, angle)), piece).distance
+    separation(&part.at(&Pose::new(pivot, angle)), piece).distance
 }
 
 fn holds(arcs: &[[f64; 2]], angle: f64) -> bool {

@@ -15,7 +15,7 @@ fn an_adapter_is_found_where_drivers_are() {
             let error = Gpu::open().expect_err("no drivers");
             assert!(matches!(error, GpuError::NoAdapter(_)), "{error}");
             let text = error.to_string();
-            assert!(text.contains("no GPU can be used") && text.contains("cure: install a driver"), "{text}");
+            assert!(text.contains("no GPU can be used") && text.contains("hint: install a driver"), "{text}");
         }
         _ => assert!(!Gpu::open().expect("a driver").adapter().is_empty()),
     }

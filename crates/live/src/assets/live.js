@@ -270,7 +270,7 @@ class Live {
   /** Returns the outcome for the badge: certified only if the server says so of the whole motion. */
   static ending({ verdict, certified, view }) {
     if (verdict === 'found' && certified) return { ending: 'found', status: view?.status ?? 'found, certified' };
-    if (verdict === 'infeasible') return { ending: 'infeasible', status: view?.status ?? 'no path: proven' };
+    if (verdict === 'infeasible') return { ending: 'infeasible', status: view?.status ?? 'infeasible: proven' };
     return { ending: 'unknown', status: 'unknown' };
   }
 
@@ -333,7 +333,7 @@ class Live {
       return;
     }
     const { length, lower_bound: bound, clearance, duration, size, milliseconds } = figures;
-    const verdicts = { found: certified ? 'found and certified' : 'found', infeasible: 'no path: proven', unknown: 'unknown' };
+    const verdicts = { found: certified ? 'found and certified' : 'found', infeasible: 'infeasible: proven', unknown: 'unknown' };
     const parts = [
       final ? verdicts[verdict] : 'following',
       length && `length ${length.toFixed(4)}`,

@@ -113,7 +113,7 @@ fn work(mailbox: &Mailbox, host: Arc<Host>, send: &mpsc::Sender<Message>) {
 /// Runs work and returns an error message if it panics. A desk changes its state only after everything that can fail,
 /// so it continues with its previous state.
 fn guarded(id: u64, work: impl FnOnce()) -> Option<Message> {
-    let error = || "the planner failed on this world: that is an error of cplan's, and the page goes on".to_owned();
+    let error = || "the planner failed on this world, which is a defect of cplan; the page still works".to_owned();
     catch_unwind(AssertUnwindSafe(work)).is_err().then(|| failed(id, error()))
 }
 

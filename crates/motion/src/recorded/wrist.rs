@@ -2,9 +2,8 @@
 
 use cplan_core::model::Arm;
 use cplan_core::space::{Configuration, JointRange};
-use cplan_geometry::{Features, Hits, Point, ROUNDING, Vector, turning_from};
+use cplan_geometry::{Features, Hits, Point, Pose, ROUNDING, Vector, turning_from};
 use cplan_handling::{Payload, Task, TimedWorkspace};
-use nalgebra::Translation2;
 use std::f64::consts::TAU;
 
 /// A turn of a payload about the tip, proven free.
@@ -87,7 +86,7 @@ impl Turning {
     fn new(task: &Task, workspace: &TimedWorkspace, payload: &Payload, point: Point, q: Configuration) -> Self {
         let arm = &task.arm;
         let attachment = payload.attachment(task, arm, task.objects[payload.object].carried_heights());
-        let about = Translation2::from(-point.coords).into();
+        let about = Pose::translation(-point);
         let features: Vec<_> = attachment.parts.iter().map(|part| Features::new(&part.shape.at(&about))).collect();
         let mut pairs = Vec::new();
         for (number, obstacle) in workspace.obstacles.iter().enumerate() {

@@ -214,18 +214,18 @@ impl<'a> Closed<'a> {
             (posture.curvature_in_link(link, deviation), posture.curvature_in_plane(link, deviation));
         let of_world = |p: Point, from_piece: f64| {
             let allowed = radius - from_piece - in_link.of(p) / 2.0;
-            poses.iter().all(|pose| within(pose.inverse_transform_point(&p), part.core(), of_part, allowed))
+            poses.iter().all(|pose| within(pose.inverse_point(p), part.core(), of_part, allowed))
         };
         let of_link = |a: Point, from_part: f64| {
             let allowed = radius - from_part - in_plane.of(a) / 2.0;
-            poses.iter().all(|pose| within(pose * a, piece.core(), of_piece, allowed))
+            poses.iter().all(|pose| within(pose.point(a), piece.core(), of_piece, allowed))
         };
         if piece.core().iter().any(|p| of_world(*p, 0.0)) || part.core().iter().any(|a| of_link(*a, 0.0)) {
             return true;
         }
         let pose = self.scene().arm().pose(link, (ends[0] + ends[1]) / 2.0);
         middle_point(part, piece, &pose).is_some_and(|p| {
-            let a = pose.inverse_transform_point(&p);
+            let a = pose.inverse_point(p);
             of_world(p, signed_distance(p, piece.core(), of_piece))
                 || of_link(a, signed_distance(a, part.core(), of_part))
         })
@@ -271,7 +271,7 @@ fn least_distance(shape: &Convex, from: Point) -> f64 {
 /// Returns a point in the middle of the intersection of the two cores, with the part at `pose`, if they intersect. For
 /// two segments it is the intersection of their lines, which need not lie on either segment.
 fn middle_point(part: &Convex, piece: &Convex, pose: &Pose) -> Option<Point> {
-    let part: Vec<Point> = part.core().iter().map(|a| pose * a).collect();
+    let part: Vec<Point> = part.core().iter().map(|&a| pose.point(a)).collect();
     let piece = piece.core();
     let both = match (part.as_slice(), piece) {
         (part, piece) if piece.len() > 2 => common(part, piece),
@@ -283,8 +283,8 @@ fn middle_point(part: &Convex, piece: &Convex, pose: &Pose) -> Option<Point> {
         }
         _ => return None,
     };
-    let sum: Vector = both.iter().map(|p| p.coords).sum();
-    (!both.is_empty()).then(|| Point::from(sum / both.len() as f64))
+    let sum: Vector = both.iter().sum();
+    (!both.is_empty()).then(|| sum / both.len() as f64)
 }
 
 /// Returns the half-planes `normal . p <= offset` of a convex polygon with area.
@@ -293,14 +293,14 @@ fn half_planes(core: &[Point]) -> Vec<(Vector, f64)> {
     (0..n)
         .map(|i| {
             let normal = -perpendicular((core[(i + 1) % n] - core[i]).normalize());
-            (normal, normal.dot(&core[i].coords))
+            (normal, normal.dot(&core[i]))
         })
         .collect()
 }
 
 /// Returns how far a point is outside the half-planes; negative inside.
 fn outside(p: Point, sides: &[(Vector, f64)]) -> f64 {
-    sides.iter().map(|(normal, offset)| normal.dot(&p.coords) - offset).fold(f64::NEG_INFINITY, f64::max)
+    sides.iter().map(|(normal, offset)| normal.dot(&p) - offset).fold(f64::NEG_INFINITY, f64::max)
 }
 
 /// Returns a point's distance from a convex polygon (negative inside), a segment or a point. This is a convex function

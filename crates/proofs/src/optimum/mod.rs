@@ -243,13 +243,13 @@ impl<'a> Ways<'a> {
         let Motions { scene, start, goals, clearance, metric } = motions;
         let mut strips = Strips::new(scene, clearance, slices);
         // Doubles are densest near zero, and all turns are equivalent.
-        let start = Point::from(strips.topology().wrap(start));
+        let start = strips.topology().wrap(start);
         let goals: Vec<Segment> = goals.wrapped(strips.topology()).collect();
-        let largest = goals.iter().flat_map(Segment::ends).map(|q| q.amax()).fold(start.coords.amax(), f64::max);
+        let largest = goals.iter().flat_map(Segment::ends).map(|q| q.amax()).fold(start.amax(), f64::max);
         let measure = Measure::from(metric);
         let goals: Vec<Segment> = goals.iter().flat_map(|piece| strips.open_goals(piece)).collect();
         let mut goals = copies(strips.topology(), metric, start, &goals, limit);
-        let straight = |goals: &Segment| goals.distance(measure, start.coords);
+        let straight = |goals: &Segment| goals.distance(measure, start);
         goals.retain(|copy| straight(copy) < limit);
         let nearest = goals.iter().map(straight).fold(limit, f64::min);
         // A caller that knows the slices also knows about the shortest length.
@@ -261,7 +261,7 @@ impl<'a> Ways<'a> {
     /// Returns the length and the corners of the shortest path around the known walls and barriers. Without corners, no
     /// path is as short as the limit.
     fn shortest(&mut self) -> (f64, Vec<Point>) {
-        let straight = |goals: &Segment| goals.distance(self.measure, self.start.coords);
+        let straight = |goals: &Segment| goals.distance(self.measure, self.start);
         if self.strips.count() == 0 {
             // Joint 1 cannot move, and walls on joint 2's path are not examined.
             return (self.goals.iter().map(straight).fold(self.limit, f64::min), Vec::new());
@@ -333,13 +333,13 @@ impl<'a> Ways<'a> {
 
     /// Returns the path with these corners, on the start's own turns.
     fn path(&self, start: Configuration, corners: &[Point]) -> Path {
-        let lift = start - self.start.coords;
-        Path::new(std::iter::once(start).chain(corners[1..].iter().map(|corner| corner.coords + lift)).collect())
+        let lift = start - self.start;
+        Path::new(std::iter::once(start).chain(corners[1..].iter().map(|corner| corner + lift)).collect())
     }
 
     /// Returns the portals through which a path passes, on the start's own turns.
     fn passed(&mut self, start: Configuration, corners: &[Point]) -> Vec<[Configuration; 2]> {
-        let lift = start - self.start.coords;
+        let lift = start - self.start;
         let mut passed = Vec::new();
         for ends in corners.windows(2) {
             let (from, to) = (ends[0], ends[1]);

@@ -136,7 +136,7 @@ pub(super) fn passed(
             continue;
         }
         let detour = |by: f64| {
-            let via = nalgebra::center(&left, &right) + Vector::new(0.0, by);
+            let via = (left + right) * 0.5 + Vector::new(0.0, by);
             measure.norm(via - left) + measure.norm(right - via) - measure.norm(right - left)
         };
         // A collision that the tested places miss may show halfway through the strip, where the next slice would be.
@@ -177,7 +177,7 @@ struct Deepest {
 /// places: at regular distances, and ever closer towards the ends, where a path may turn at a closed region. Ignores
 /// places where a detour of the allowed length would be enough to keep away.
 fn deepest(scene: &Scene, vicinity: &Vicinity, clearance: f64, ends: [Point; 2], allowed: Allowed) -> Option<Deepest> {
-    let (way, middle) = (ends[1] - ends[0], nalgebra::center(&ends[0], &ends[1]));
+    let (way, middle) = (ends[1] - ends[0], (ends[0] + ends[1]) * 0.5);
     let length = way.norm();
     let steps = (length / STEP).ceil().max(1.0);
     let regular = (0..steps as usize).map(|i| (i as f64 + 0.5) / steps);
@@ -190,10 +190,10 @@ fn deepest(scene: &Scene, vicinity: &Vicinity, clearance: f64, ends: [Point; 2],
 
     // Walls are made of shapes that are smaller by this.
     let least = clearance - 2.0 * OUTWARD;
-    let posture = Posture::new(scene, middle.coords);
+    let posture = Posture::new(scene, middle);
     let along = Deviation::Along(way / 2.0);
     let may_meet = |pair: Pair| posture.apart(pair, along) < least && posture.bound(pair, along).least < least;
-    let pose = |pair: Pair, share: f64| scene.arm().pose(pair.link, (ends[0] + way * share).coords);
+    let pose = |pair: Pair, share: f64| scene.arm().pose(pair.link, ends[0] + way * share);
     let here = |pair: Pair, pose: &Pose| separation(&scene.part(pair).at(pose), scene.piece(pair));
     let depth = |share: f64| match allowed {
         Allowed::Detour(worth) => scene.arm().reach() * (worth * length * share.min(1.0 - share)).sqrt(),

@@ -148,7 +148,7 @@ impl<'s, 'a> Search<'s, 'a> {
 
     /// Finds the shortest path from `start` to one of the goals.
     pub fn run(mut self, start: Point) -> Way {
-        let far = self.limit / self.measure.norm(Point::new(0.0, 1.0).coords);
+        let far = self.limit / self.measure.norm(Point::new(0.0, 1.0));
         self.range = [start.y - far, start.y + far];
         self.roots.push(Root { at: start, cost: 0.0, before: None });
         for strip in self.strips.around(start.x) {
@@ -192,7 +192,7 @@ impl<'s, 'a> Search<'s, 'a> {
     /// Adds the nearest of some goals. A root must see all of them.
     fn push_goal(&mut self, root: u32, goals: &Segment, parent: f64) {
         let Root { at, cost, .. } = self.roots[root as usize];
-        let goal = Point::from(goals.nearest(self.measure, at.coords));
+        let goal = goals.nearest(self.measure, at);
         self.push((cost + self.measure.norm(goal - at)).max(parent), Entry::Goal(root, goal));
     }
 
@@ -327,7 +327,7 @@ impl<'s, 'a> Search<'s, 'a> {
             };
             if let Some(root) = self.turn(root, slice, Point::new(at.x, end), !ahead) {
                 let Root { at, cost, .. } = self.roots[root as usize];
-                let ways = self.goals.iter().map(|goal| goal.distance(self.measure, at.coords));
+                let ways = self.goals.iter().map(|goal| goal.distance(self.measure, at));
                 let nearest = ways.fold(f64::INFINITY, f64::min);
                 self.push((cost + nearest).max(parent), Entry::Root(root, if ahead { slice - 1 } else { slice }));
             }

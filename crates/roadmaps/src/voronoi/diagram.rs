@@ -49,9 +49,9 @@ impl Diagram {
             if ranges[k].is_circle() { (middle - PI, middle + PI) } else { (f64::NEG_INFINITY, f64::INFINITY) }
         });
         let (lower, upper) = (part.map(|p| p.0), part.map(|p| p.1));
-        let within = |ends: [Point; 2]| Segment::new(ends[0].coords, ends[1].coords).within(lower, upper);
+        let within = |ends: [Point; 2]| Segment::new(ends[0], ends[1]).within(lower, upper);
         let sides = mesh.walls().filter_map(within).filter(|side| !side.is_point());
-        let mut sites: Vec<Site> = sides.map(|side| Site::side(side.corners()[0], side.corners()[1])).collect();
+        let mut sites: Vec<Site> = sides.map(|side| Site::side(side.ends()[0], side.ends()[1])).collect();
         let is_here = |p: Point| (0..2).all(|k| lower[k] <= p[k] && p[k] <= upper[k]);
         sites.extend(mesh.corners().iter().filter(|corner| is_here(corner.at)).map(Site::corner));
         let count = sites.len();
@@ -196,7 +196,7 @@ fn farthest(space: &Regions) -> f64 {
 
 /// Returns a point moved by a number of turns.
 fn moved(p: Point, turns: [f64; 2]) -> Point {
-    Segment::point(p.coords).turned(turns).corners()[0]
+    Segment::point(p).turned(turns).ends()[0]
 }
 
 /// Chords of an arc, halved until they are fine enough.
@@ -224,5 +224,5 @@ fn chord(site: &Site, other: &Site, arc: &Arc, [from, to]: [f64; 2], chords: &mu
     };
     let [a, b] = [place(from, heights[0]), place(to, heights[1])];
     let width = site.distance(a, b).min(other.distance(a, b));
-    chords.push(Chord { ends: Segment::new(a.coords, b.coords), width });
+    chords.push(Chord { ends: Segment::new(a, b), width });
 }

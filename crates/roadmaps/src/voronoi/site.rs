@@ -54,7 +54,7 @@ impl Site {
 
     /// Returns the same site, moved by turns.
     pub fn turned(&self, turns: [f64; 2]) -> Self {
-        let [at, to] = Segment::new(self.at.coords, self.to.coords).turned(turns).corners();
+        let [at, to] = Segment::new(self.at, self.to).turned(turns).ends();
         Self { at, to, ..*self }
     }
 

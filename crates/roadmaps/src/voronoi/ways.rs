@@ -37,7 +37,7 @@ impl Ways {
         let mut known = BTreeSet::new();
         for chord in chords {
             checkpoint();
-            let [a, b] = chord.ends.corners();
+            let [a, b] = chord.ends.ends();
             if (a - b).norm() < SAME || !mesh.is_clear(a, b) {
                 continue;
             }
@@ -109,8 +109,8 @@ impl Ways {
         let at = asked.at(end);
         if let Some(there) = diagram.retracted(at).filter(|there| mesh.is_clear(at, *there)) {
             let measure = Measure::from(Metric::Euclidean);
-            let distance = |k: usize| self.chords[k].1.ends.distance(measure, there.coords);
-            let is_met = |&k: &usize| self.chords[k].1.ends.corners().iter().any(|&p| mesh.is_clear(there, p));
+            let distance = |k: usize| self.chords[k].1.ends.distance(measure, there);
+            let is_met = |&k: &usize| self.chords[k].1.ends.ends().iter().any(|&p| mesh.is_clear(there, p));
             if let Some(chord) = nearest(self.chords.len(), distance).into_iter().find(is_met) {
                 let (nodes, Chord { ends, .. }) = self.chords[chord];
                 let is_it =
@@ -121,7 +121,7 @@ impl Ways {
                 let node = asked.add(there);
                 asked.join(end, node);
                 let [from, to] = ends.ends();
-                let along = (there.coords - from).dot(&(to - from));
+                let along = (there - from).dot(&(to - from));
                 return met.entry(chord).or_default().push((Ordered(along), node));
             }
         }

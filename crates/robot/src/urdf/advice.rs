@@ -58,7 +58,7 @@ fn speed(reduction: &Reduction, index: usize, joint: &Joint) -> Option<String> {
     let given = format!("joint \"{name}\": velocity=\"{velocity}\" in the URDF");
     let help = format!("[robot] velocity = {{ {} = {example} }} in the world file gives its top speed", key(name));
     if velocity == 0.0 {
-        return Some(format!("{given} is taken as not given: {help}"));
+        return Some(format!("{given} counts as missing: {help}"));
     }
     let degrees = if turns { format!(" ({} deg/s)", short(velocity.to_degrees())) } else { String::new() };
     (velocity > fastest)
@@ -69,10 +69,7 @@ fn speed(reduction: &Reduction, index: usize, joint: &Joint) -> Option<String> {
 fn slide(joint: &Joint) -> Option<String> {
     let JointRange::Interval { lower, upper } = joint.range else { return None };
     (!joint.joint_type.is_revolute() && upper - lower > 2.0 * LONGEST).then(|| {
-        format!(
-            "joint \"{}\" slides from {lower} to {upper} m: limits in millimetres are to be divided by 1000",
-            joint.name
-        )
+        format!("joint \"{}\" slides from {lower} to {upper} m: divide limits in millimetres by 1000", joint.name)
     })
 }
 
@@ -92,7 +89,7 @@ fn length(arm: &Arm) -> Option<String> {
 /// Returns the warning about shapes that reach far beyond the arm's joints.
 fn outreach(arm: &Arm) -> Option<String> {
     let usual = (MOST_OUTREACH * lengths(arm).iter().sum::<f64>()).max(USUAL_OUTREACH);
-    let reach = |part: &cplan_core::model::Part| part.shape.reach_from(Point::origin());
+    let reach = |part: &cplan_core::model::Part| part.shape.reach_from(Point::zeros());
     let parts: Vec<_> = arm.links.iter().flat_map(|link| &link.parts).filter(|part| reach(part) > usual).collect();
     let first = parts.first()?;
     let farthest = parts.iter().map(|part| reach(part)).fold(0.0, f64::max);
@@ -101,7 +98,7 @@ fn outreach(arm: &Arm) -> Option<String> {
     let others = if bodies.len() > 1 { format!(" (and {})", counted(bodies.len() - 1, "link")) } else { String::new() };
     Some(format!(
         "the shape of link \"{}\"{others} reaches {} m from its joint, far beyond the arm's own length: a mesh in millimetres needs \
-         scale=\"0.001 0.001 0.001\", other sizes are to be in metres",
+         scale=\"0.001 0.001 0.001\", other sizes must be in metres",
         first.body,
         short(farthest)
     ))
@@ -109,5 +106,5 @@ fn outreach(arm: &Arm) -> Option<String> {
 
 /// Returns the distances between the joints, and from the second one to the tip, metres.
 fn lengths(arm: &Arm) -> [f64; 2] {
-    [arm.offset.norm(), arm.tip.coords.norm()]
+    [arm.offset.norm(), arm.tip.norm()]
 }

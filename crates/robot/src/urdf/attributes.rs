@@ -111,7 +111,7 @@ impl Attributes<'_> {
         let mut found = children(node, name);
         let first = found.next();
         if let Some(second) = found.next() {
-            self.diagnostic(second, None, format!("a second <{name}>"), "keep the one that is meant");
+            self.diagnostic(second, None, format!("a second <{name}>"), "remove one of them");
         }
         if first.is_none() && required {
             self.diagnostic(node, None, format!("<{name}> is missing"), &format!("add a <{name}>"));
@@ -183,8 +183,8 @@ impl Attributes<'_> {
             match roll_pitch_yaw(&quaternion) {
                 Some([roll, pitch, yaw]) => copy += &format!(" rpy=\"{roll:?} {pitch:?} {yaw:?}\""),
                 None => {
-                    let message = "the quaternion has no length, or too great a one".to_owned();
-                    self.diagnostic(origin, Some("quat_xyzw"), message, "0 0 0 1 is no turn");
+                    let message = "the quaternion is zero or too large".to_owned();
+                    self.diagnostic(origin, Some("quat_xyzw"), message, "write 0 0 0 1 for no rotation");
                 }
             }
         }
@@ -282,7 +282,7 @@ impl Attributes<'_> {
         let (first, second) = (shapes.next(), shapes.next());
         if let Some(second) = second {
             let message = "the <geometry> has a second shape".into();
-            self.diagnostic(second, None, message, "give each shape a <collision> of its own");
+            self.diagnostic(second, None, message, "put each shape into its own <collision>");
         }
         let Some(shape) = first else {
             self.diagnostic(
@@ -306,7 +306,7 @@ impl Attributes<'_> {
                         shape,
                         Some("scale"),
                         "a scale of 0 flattens the mesh".into(),
-                        "scale=\"1 1 1\" leaves it as it is",
+                        "use scale=\"1 1 1\" for the original size",
                     );
                 }
                 return Some(shape);

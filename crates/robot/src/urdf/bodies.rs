@@ -10,9 +10,9 @@ use super::tree::Tree;
 use crate::error::{Diagnostic, InputError, quoted};
 use crate::settings::RobotSettings;
 use cplan_core::model::{Heights, Link, OutlineSource, Part, Plane, SelfObstacle};
-use cplan_geometry::{Convex, Point, Vector, separation};
+use cplan_geometry::{Convex, Point, Pose, separation};
 use cplan_text::counted;
-use nalgebra::{Isometry3, Translation2};
+use nalgebra::Isometry3;
 use std::collections::BTreeSet;
 
 /// Largest number of corners of an outline that stays one shape. The time of queries grows with them.
@@ -58,7 +58,7 @@ pub(super) struct Outlines {
 
 /// Returns the message about a link without outline, whose mesh cannot be read.
 fn left_out(unread: &Diagnostic) -> String {
-    format!("{}; the link is left out, and the arm may hit it", unread.message)
+    format!("{}; the link is ignored, so the arm may collide with it", unread.message)
 }
 
 /// Names the URDF links of an arm link whose visual geometry is used, if others have collision geometry.
@@ -106,7 +106,7 @@ impl Bodies<'_> {
         let links: [Link; 2] = links.try_into().expect("two links");
         if links.iter().all(|l| l.source == OutlineSource::None) {
             let message = format!(
-                "neither link \"{}\" nor link \"{}\" has collision or visual geometry: nothing of the arm can be hit",
+                "neither link \"{}\" nor link \"{}\" has collision or visual geometry: the arm cannot collide with anything",
                 links[0].name, links[1].name
             );
             let help = "add <collision> geometry to the URDF, or let bars between the joints stand in for the links, in the \
@@ -165,7 +165,7 @@ impl Bodies<'_> {
             match bar {
                 Some(radius) => {
                     for diagnostic in &unread {
-                        warnings.push(format!("{}; the bar stands in for it", diagnostic.message));
+                        warnings.push(format!("{}; the bar replaces it", diagnostic.message));
                     }
                     parts.push(self.bar_part(index, radius, &name));
                     source = OutlineSource::Bar;
@@ -200,12 +200,12 @@ impl Bodies<'_> {
         match source {
             OutlineSource::Collision => format!("outline from the collision geometry ({shapes})"),
             OutlineSource::Visual => {
-                format!("outline from the visual geometry, for want of collision geometry ({shapes})")
+                format!("outline from the visual geometry, because there is no collision geometry ({shapes})")
             }
             OutlineSource::Bar if parts.len() > 1 => {
                 format!("outline from the collision geometry and a bar ({shapes})")
             }
-            OutlineSource::Bar => "outline is a bar between the joints, as the world file asks".to_owned(),
+            OutlineSource::Bar => "outline is a bar between the joints, as the world file requests".to_owned(),
             OutlineSource::None => "no outline: it has no geometry".to_owned(),
         }
     }
@@ -234,7 +234,8 @@ impl Bodies<'_> {
     /// If it turns with the wrist and covers a different region at each angle.
     fn parts(&self, index: usize, shape: &PlacedShape, cuts: &[f64]) -> Result<Vec<Part>, Diagnostic> {
         let PlacedShape { link, number, is_visual, solid, pose, .. } = shape;
-        let to_link = Translation2::from(-self.joint_at(index).0.coords);
+        let joint = self.joint_at(index).0;
+        let to_link = Pose::translation(-joint);
         let body = &self.document.robot.links[*link].name;
         let part = |shape, inner, heights| Part {
             shape,
@@ -244,10 +245,10 @@ impl Bodies<'_> {
             heights,
             body: body.clone(),
         };
-        let Some(axis) = self.wrist_axis(*link).map(|axis| to_link * axis) else {
-            let inner = solid.inner(pose, self.plane).map(|inner| inner.at(&to_link.into()));
+        let Some(axis) = self.wrist_axis(*link).map(|axis| axis - joint) else {
+            let inner = solid.inner(pose, self.plane).map(|inner| inner.at(&to_link));
             let layers = solid.layers(pose, self.plane, cuts).into_iter();
-            let layers = layers.map(|(outline, heights)| (outline.at(&to_link.into()), heights));
+            let layers = layers.map(|(outline, heights)| (outline.at(&to_link), heights));
             let in_pieces = |(outline, heights): (Convex, Heights)| {
                 let pieces = if outline.core().len() > MOST_CORNERS { outline.cut_up() } else { vec![outline] };
                 pieces.into_iter().map(move |piece| (piece, heights))
@@ -257,15 +258,15 @@ impl Bodies<'_> {
                 .map(|(piece, heights)| part(piece, inner.clone(), heights))
                 .collect());
         };
-        let outline = solid.outline(pose, self.plane).at(&to_link.into());
-        let inner = solid.inner(pose, self.plane).map(|inner| inner.at(&to_link.into()));
+        let outline = solid.outline(pose, self.plane).at(&to_link);
+        let inner = solid.inner(pose, self.plane).map(|inner| inner.at(&to_link));
         match all_round(axis, &outline, inner.as_ref().unwrap_or(&outline)) {
             Some((outline, inner)) => Ok(vec![part(outline, inner, shape.heights)]),
             None => {
                 let message = format!(
-                    "link \"{body}\" turns with the wrist and is not about its axis, so that what it covers is another thing at each angle"
+                    "link \"{body}\" turns with the wrist, but its shape is not centred on the wrist's axis, so it covers another area at each angle"
                 );
-                let help = "give it <collision> geometry that covers it all round: a <cylinder> along the axis of the wrist's joint";
+                let help = "give it <collision> geometry that covers all angles: a <cylinder> along the axis of the wrist's joint";
                 Err(self.document.diagnostic_at(&shape.at, message).help(help))
             }
         }
@@ -296,7 +297,7 @@ impl Bodies<'_> {
             inner: None,
             number: 0,
             is_visual: false,
-            shape: capsule(Point::origin(), Point::from(Vector::from(to - from)), radius),
+            shape: capsule(Point::zeros(), to - from, radius),
             heights: Heights { lower: low.min(high) - radius, upper: low.max(high) + radius },
             body: body.to_owned(),
         }

@@ -145,7 +145,7 @@ impl Chooser<'_> {
             Some(names) => match names.get_ref().as_slice() {
                 [a, b] => settled([self.named(a, "joints")?, self.named(b, "joints")?]),
                 other => {
-                    let message = format!("[robot] joints: exactly two joints move, {} are named", other.len());
+                    let message = format!("[robot] joints: {} joints are named, but exactly two must be", other.len());
                     return Err(self.in_world(names, message).help("joints = [\"first\", \"second\"], base to tip"));
                 }
             },
@@ -203,15 +203,17 @@ impl Chooser<'_> {
             String::new()
         } else {
             format!(
-                "; besides, {}: an arm whose links are coupled by mimic joints (a parallelogram or other linkage) is no \
-                 serial two-joint arm and is refused",
+                "; also, {}: cplan refuses arms whose links are coupled by mimic joints (a parallelogram or other \
+                 linkage), because they are not serial two-joint arms",
                 mimics.join(", ")
             )
         };
         if candidates.len() < 2 {
-            let what = if list.is_empty() { "none".to_owned() } else { format!("only one, {}", list[0]) };
-            let message =
-                format!("cplan plans for two joints; of the robot's joints that can move there is {what}{coupled}");
+            let what = match list.first() {
+                None => "no movable joint".to_owned(),
+                Some(only) => format!("only one movable joint, {only}"),
+            };
+            let message = format!("cplan plans for two joints, but the robot has {what}{coupled}");
             return Err(self
                 .document
                 .source
@@ -219,10 +221,8 @@ impl Chooser<'_> {
                 .help("use a robot with two joints that move in one plane"));
         }
         if candidates.len() > pairing::MOST_TRIED {
-            let message = format!(
-                "the robot has {} joints that can move, and which two are to be planned for is not said{coupled}",
-                candidates.len()
-            );
+            let message =
+                format!("the robot has {} movable joints; which two should cplan plan for?{coupled}", candidates.len());
             let help = "name two of one chain in the world file: [robot] joints = [\"first\", \"second\"]; the others stand still";
             return Err(self.document.source.diagnostic(message).help(help));
         }
@@ -238,12 +238,10 @@ impl Chooser<'_> {
                  such a pair: {list}{coupled}"
             );
             let help =
-                "use a robot with two joints that move in one plane; `cplan inspect` says of each pair why it does not";
+                "use a robot with two joints that move in one plane; `cplan inspect` gives the reason for each pair";
             return Err(self.document.source.diagnostic(message).help(help));
         }
-        let message = format!(
-            "the robot has {count} joints that can move, and which two are to be planned for is not said: {list}{coupled}"
-        );
+        let message = format!("the robot has {count} movable joints; which two should cplan plan for? {list}{coupled}");
         let help = format!(
             "name two of one chain in the world file: {}; the others stand still (at `fixed` values)",
             pairing::choices(self.document, &planar)
@@ -266,7 +264,7 @@ impl Chooser<'_> {
                 && (carried || self.tree.carries(j, self.tree.child[chosen[1]]))
             {
                 let message =
-                    format!("is of type {}: where its link is does not follow from one value", type_name(joint));
+                    format!("is of type {}: one value does not determine the pose of its link", type_name(joint));
                 return Err(self
                     .document
                     .joint_diagnostic(j, &message)

@@ -99,7 +99,7 @@ impl Document {
             Err(error) => {
                 InputError::check(diagnostics)?;
                 let diagnostic = source.diagnostic(format!("is not a URDF that can be read: {error}"));
-                Err(diagnostic.help("check_urdf, of the package liburdfdom-tools, says what else it finds").into())
+                Err(diagnostic.help("check_urdf from the package liburdfdom-tools may find more").into())
             }
         }
     }
@@ -179,7 +179,7 @@ impl Reader<'_> {
                 continue;
             }
             let Some(name) = node.attribute("name").filter(|n| !n.trim().is_empty()) else {
-                self.diagnostic(node, format!("a <{kind}> has no name"), "give it a name of its own");
+                self.diagnostic(node, format!("a <{kind}> has no name"), "give it a unique name");
                 self.tree_is_sound = false;
                 continue;
             };

@@ -6,7 +6,6 @@ use super::reduction::Reduction;
 use super::tool::PARALLEL;
 use super::tree;
 use cplan_core::model::Plane;
-use cplan_geometry::Point;
 use cplan_handling::{HeldEffect, HeldJoint};
 use urdf_rs::JointType;
 
@@ -46,11 +45,9 @@ impl Reduction<'_> {
             JointType::Prismatic => Ok(HeldEffect::Lifts { sign: along.signum() }),
             JointType::Revolute | JointType::Continuous if self.tree.carries(self.chain.joints[1], child) => {
                 let elbow = self.at(plane, self.tree.child[self.chain.joints[1]]);
-                Ok(HeldEffect::Turns {
-                    axis: Point::from(project(plane, &self.poses[child].translation.vector) - elbow),
-                })
+                Ok(HeldEffect::Turns { axis: project(plane, &self.poses[child].translation.vector) - elbow })
             }
-            _ => Err("turns what is not carried by both of the arm's joints".into()),
+            _ => Err("turns links that the arm's two joints do not both carry".into()),
         }
     }
 }

@@ -24,10 +24,8 @@ pub(super) fn without_entities(source: &Source) -> Result<(), Diagnostic> {
     match source.text().find(ENTITY).filter(|at| source.text()[..*at].contains("<!DOCTYPE")) {
         None => Ok(()),
         Some(at) => {
-            let diagnostic = source.diagnostic_at(
-                at..at + ENTITY.len(),
-                "the document type defines entities, which a URDF has no use for",
-            );
+            let diagnostic = source
+                .diagnostic_at(at..at + ENTITY.len(), "the document type defines entities, which cplan does not read");
             Err(diagnostic.help("write their values where they are used, and remove the <!DOCTYPE ...>"))
         }
     }
@@ -61,7 +59,7 @@ pub(super) fn recognise(source: &Source, root: Node) -> Result<(), Diagnostic> {
         "robot" => {}
         "sdf" | "world" | "model" => {
             return Err(at(root, "this is an SDF file (Gazebo), not a URDF").help(
-                "use the robot's URDF, which SDF models are mostly written from, or convert it, e.g. with `sdf2urdf`",
+                "use the robot's URDF, from which most SDF models are made, or convert this file, e.g. with `sdf2urdf`",
             ));
         }
         "mujoco" => return Err(at(root, "this is a MuJoCo model, not a URDF").help("use the robot's URDF")),

@@ -31,8 +31,10 @@ pub(super) fn beside_the_arm(reduction: &Reduction) -> Vec<String> {
         ignored.push(format!("links that stand still, as [robot] own_body = false asks: {}", names(still)));
     }
     if !beside.is_empty() {
-        ignored
-            .push(format!("links that other joints move: {}; no obstacle unless the world lists them", names(beside)));
+        ignored.push(format!(
+            "links that other joints move: {}; they are obstacles only if the world lists them",
+            names(beside)
+        ));
     }
     let beside: Vec<&str> = document
         .robot

@@ -78,14 +78,16 @@ impl Limits<'_> {
         let [lower, upper] = self.softened(index, [lower, upper])?;
         let slides = joint.joint_type == JointType::Prismatic;
         if !slides && lower <= -UNLIMITED && upper >= UNLIMITED {
-            let note =
-                format!("joint \"{}\": limits from {lower} to {upper} are none; taken as continuous", joint.name);
+            let note = format!(
+                "joint \"{}\": limits from {lower} to {upper} are unlimited; the joint counts as continuous",
+                joint.name
+            );
             return Ok(Range::Taken(JointRange::Circle, note));
         }
         if slides && upper - lower > LONGEST_SLIDE {
             let (lower, upper) = (lower.max(-LARGEST), upper.min(LARGEST));
             if lower < upper {
-                let note = format!("joint \"{}\": its range is taken as {lower:e} to {upper:e} m", joint.name);
+                let note = format!("joint \"{}\": its range is cut to {lower:e} to {upper:e} m", joint.name);
                 return Ok(Range::Taken(JointRange::Interval { lower, upper }, note));
             }
         }
@@ -96,7 +98,7 @@ impl Limits<'_> {
             )));
         }
         if upper - lower > if slides { LONGEST_SLIDE } else { LONGEST_TURN } {
-            return Ok(Range::Unset(format!("has limits from {lower} to {upper}, a range too long to plan in")));
+            return Ok(Range::Unset(format!("has limits from {lower} to {upper}, a range too long for planning")));
         }
         Ok(Range::Known(JointRange::Interval { lower, upper }))
     }
@@ -179,7 +181,7 @@ impl Limits<'_> {
         let narrowed = [lower.max(soft_lower), upper.min(soft_upper)];
         if narrowed[0] >= narrowed[1] {
             let message = format!(
-                "joint \"{}\": its soft limits [{soft_lower}, {soft_upper}] leave nothing of its limits [{lower}, {upper}]",
+                "joint \"{}\": its soft limits [{soft_lower}, {soft_upper}] do not overlap its limits [{lower}, {upper}]",
                 joint.name
             );
             let help = format!("in the world file: [robot] limits = {{ {} = [{lower}, {upper}] }}", key(&joint.name));

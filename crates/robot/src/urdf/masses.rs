@@ -28,7 +28,7 @@ pub(super) fn check(settings: RobotSettings) -> Result<(), Diagnostic> {
         settings.table.effort.iter().find(|(_, effort)| !(effort.get_ref().is_finite() && *effort.get_ref() > 0.0));
     if let Some((joint, effort)) = bad {
         let message = format!("[robot] effort of \"{joint}\" must be positive, is {}", effort.get_ref());
-        return Err(settings.source.diagnostic_at(effort.span(), message).help("N m, or N of a joint that slides"));
+        return Err(settings.source.diagnostic_at(effort.span(), message).help("N m, or N for a joint that slides"));
     }
     let Some(given) = &settings.table.gravity else { return Ok(()) };
     let numbers: Vec<f64> = given.get_ref().iter().map(|number| *number.get_ref()).collect();
@@ -63,8 +63,8 @@ impl Bodies<'_> {
         let is_moved = torques.least_determinant() > NEGLIGIBLE * inertia[0][0] * inertia[1][1];
         let (message, help) = if is_moved {
             (
-                "the efforts of the joints are nothing beside what their velocities, masses and gravity ask for",
-                "look for a wrong unit: kg, m, N m (N of a joint that slides), rad/s (m/s), m/s2",
+                "the efforts of the joints are far too small for their velocities, masses and gravity",
+                "check the units: kg, m, N m (N for a joint that slides), rad/s (m/s), m/s2",
             )
         } else {
             ("one of the two joints moves no inertia", "give its link an <inertial> with <mass> and <inertia>")
@@ -83,7 +83,7 @@ impl Bodies<'_> {
         }
         let message = format!("joint \"{}\" has no effort", joint.name);
         let help = format!(
-            "effort=\"50\" in its <limit>, or in the world file: [robot] effort = {{ {} = 50 }} (N m, or N of a joint that slides)",
+            "effort=\"50\" in its <limit>, or in the world file: [robot] effort = {{ {} = 50 }} (N m, or N for a joint that slides)",
             key(&joint.name)
         );
         Err(self.document.diagnostic_at(place.limit.as_ref().unwrap_or(&place.at), message).help(help))
@@ -106,9 +106,9 @@ impl Bodies<'_> {
                 let message =
                     format!("link \"{}\" has a mass of {mass} kg and an inertia of {inertia} kg m2", link.name);
                 let at = &self.document.links[body].at;
-                return Err(self.document.diagnostic_at(at, message).help("no body has less than 0 of either"));
+                return Err(self.document.diagnostic_at(at, message).help("neither can be negative"));
             }
-            let center = (project(self.plane, &pose.translation.vector) - joint).into();
+            let center = project(self.plane, &pose.translation.vector) - joint;
             whole = joined(&whole, &Body { mass, center, inertia });
         }
         if whole.mass > 0.0 {

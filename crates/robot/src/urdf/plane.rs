@@ -55,7 +55,7 @@ pub(super) fn deviation(plane: &Plane, axes: [SpatialAxis; 2]) -> Option<String>
     };
     let off = axes.iter().map(off).fold(0.0, f64::max);
     (off > NOTICED).then(|| {
-        format!("the joints' axes are up to {off:.1e} rad off the plane that they are taken to move in ({off:.1e} m over a metre)")
+        format!("the joints' axes are up to {off:.1e} rad off the assumed plane of motion ({off:.1e} m over a metre)")
     })
 }
 
@@ -103,7 +103,7 @@ pub(super) fn joint_type_in(plane: &Plane, axis: SpatialAxis) -> JointType {
         let turn = axis.direction.dot(&plane.u.cross(&plane.v));
         return JointType::Revolute { sign: if turn > 0.0 { 1.0 } else { -1.0 } };
     }
-    JointType::Prismatic { direction: clean(project(plane, &axis.direction).coords.normalize()) }
+    JointType::Prismatic { direction: clean(project(plane, &axis.direction).normalize()) }
 }
 
 /// Removes rounding from a unit direction: within 1e-12 of an axis it becomes that axis.

@@ -163,7 +163,7 @@ impl<'a> Reduction<'a> {
             links: outlines.links,
             base,
             offset: elbow - base,
-            tip: Point::from(self.at(&plane, self.chain.tip) - elbow),
+            tip: self.at(&plane, self.chain.tip) - elbow,
             tip_name: self.tree.links[self.chain.tip].clone(),
             plane,
             dynamics: None,

@@ -68,7 +68,7 @@ impl Solid {
     pub fn outline(&self, pose: &Isometry3<f64>, plane: &Plane) -> Convex {
         let at = |p: &Point3<f64>| project(plane, &(pose * p).coords);
         let center = at(&Point3::origin());
-        let along = project(plane, &(pose * Vector3::z())).coords;
+        let along = project(plane, &(pose * Vector3::z()));
         match self {
             Solid::Box { half } => {
                 let corner = |i: u8| {
@@ -123,7 +123,7 @@ impl Solid {
         let Solid::Cylinder { radius, half } = self else { return None };
         let center = project(plane, &(pose * Point3::origin()).coords);
         let axis = pose * Vector3::z();
-        within_cylinder(center, project(plane, &axis).coords, axis.dot(&plane.normal).abs(), *radius, *half)
+        within_cylinder(center, project(plane, &axis), axis.dot(&plane.normal).abs(), *radius, *half)
     }
 
     /// Returns the extent along the plane's normal.
@@ -155,7 +155,7 @@ impl Solid {
 pub(super) fn capsule(a: Point, b: Point, radius: f64) -> Convex {
     let apart = (b - a).norm();
     if apart <= CORNER_ROUNDING {
-        return Convex::trusted(vec![nalgebra::center(&a, &b)], radius + apart / 2.0);
+        return Convex::trusted(vec![(a + b) * 0.5], radius + apart / 2.0);
     }
     Convex::trusted(vec![a, b], radius)
 }

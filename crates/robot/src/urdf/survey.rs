@@ -282,7 +282,7 @@ fn self_obstacle(own: &SelfObstacle) -> SelfObstacleEntry {
 
 fn reach(arm: &Arm) -> ReachEntry {
     let tip = arm.tip_at(Configuration::zeros());
-    let (upper, fore) = (arm.offset.norm(), arm.tip.coords.norm());
+    let (upper, fore) = (arm.offset.norm(), arm.tip.norm());
     ReachEntry {
         tip: [tip.x, tip.y],
         distances: arm.only_turns().then_some([(upper - fore).abs(), upper + fore]),

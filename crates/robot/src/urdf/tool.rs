@@ -138,11 +138,8 @@ impl Reduction<'_> {
             return diagnostic(&format!("is not carried by joint \"{second}\""), "name a joint of the tool");
         }
         if let Some(follower) = self.follower_with_shapes(chooser, index)? {
-            let why = format!("is mimicked by joint \"{follower}\", whose links would move otherwise than the tool");
-            return diagnostic(
-                &why,
-                "make the other joint fixed in a copy of the file, or take its links' geometry away",
-            );
+            let why = format!("is mimicked by joint \"{follower}\", whose links would not move with the tool");
+            return diagnostic(&why, "make the other joint fixed in a copy of the file, or remove its links' geometry");
         }
         let direction = self.poses[self.tree.child[index]] * tree::axis(joint);
         let along = direction.dot(&plane.normal);

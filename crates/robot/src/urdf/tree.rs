@@ -169,12 +169,11 @@ fn joints_above(document: &Document, links: &[String], child: &[usize]) -> Resul
             Some(first) => {
                 let other = &document.robot.joints[first].name;
                 let message = format!(
-                    "link \"{}\" is the child of two joints, \"{other}\" (line {}) and this one: the robot is no tree",
+                    "link \"{}\" is the child of two joints, \"{other}\" (line {}) and this one: the robot is not a tree",
                     links[*link],
                     document.joint_line(first)
                 );
-                let help =
-                    "a closed chain (parallelogram, delta) is no serial arm; else give one joint its own child link";
+                let help = "a closed chain (parallelogram, delta) is not a serial arm; otherwise give one joint its own child link";
                 diagnostics.push(document.diagnostic_at(&document.joints[j].child, message).help(help));
             }
         }

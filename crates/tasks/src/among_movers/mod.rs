@@ -114,7 +114,7 @@ fn out_of_reach(task: &Task, start: &State) -> Option<FailedStep> {
     let name = &task.objects[step.action.picked()?].name;
     Some(FailedStep {
         step: step.clone(),
-        reasons: vec![format!("\"{name}\" is never within the arm's reach when it is to be picked")],
+        reasons: vec![format!("\"{name}\" is never within the arm's reach in the window of its pick")],
         scene: Arc::new(start.scene(task, step.action.picked())),
         moving: start.moving.clone(),
         from: start.q,
@@ -218,7 +218,7 @@ impl<'a> Search<'a> {
             checkpoint();
             if self.motions >= told + NEWS {
                 told = self.motions;
-                progress(&format!("{} motions planned in time, {} states seen", self.motions, self.nodes.len()));
+                progress(&format!("{} motions planned in time, {} states examined", self.motions, self.nodes.len()));
             }
             if self.motions > most {
                 self.give_up(index, best.is_some());
@@ -406,12 +406,13 @@ impl<'a> Search<'a> {
             planned.map_err(|reason| Refusal::new(reason, false))?;
         let arrival = after_pause(time + trajectory.duration(), 0.0);
         if arrival > way.moment.map_or(way.arrival[1], |moment| moment.time) {
-            return Err(Refusal::new("it cannot stand still there within the time that it has", false));
+            return Err(Refusal::new("the arm cannot rest there for the required time", false));
         }
         let q = curve.curve().path().goal();
         let (scene, courses) = here.standing(candidate, arrival);
         let kept = stands(TimedScene { scene: &scene, courses: &courses }, q, step.dwell);
-        let kept = kept.ok_or_else(|| Refusal::new("something that moves comes while the arm stands there", false))?;
+        let kept =
+            kept.ok_or_else(|| Refusal::new("a moving obstacle or object arrives while the arm rests there", false))?;
         let leg = Leg {
             step: step.clone(),
             scene: self.legs.scene(task, state, step),

@@ -33,7 +33,7 @@ impl Passage {
 /// all are allowed if it is empty.
 pub(super) fn passages(arm: &Arm, object: &Object, grasp: Point, when: &[Interval], from: f64) -> Vec<Passage> {
     let legs = object.course.as_ref().map_or(&[][..], Course::legs);
-    let reach = (tip_reach(arm) + grasp.coords.norm()) * (1.0 + ROOM);
+    let reach = (tip_reach(arm) + grasp.norm()) * (1.0 + ROOM);
     let any = [[0.0, f64::INFINITY]];
     let when = if when.is_empty() { &any[..] } else { when };
     let mut all = Vec::new();
@@ -51,7 +51,7 @@ pub(super) fn passages(arm: &Arm, object: &Object, grasp: Point, when: &[Interva
 
 /// Returns the largest distance of the tip from the base, metres.
 fn tip_reach(arm: &Arm) -> f64 {
-    let ways = [arm.offset.norm(), arm.tip.coords.norm()];
+    let ways = [arm.offset.norm(), arm.tip.norm()];
     let of = |(joint, way): (usize, f64)| {
         let joint = &arm.joints[joint];
         match (joint.joint_type, joint.range) {
@@ -85,11 +85,11 @@ mod tests {
     #[test]
     fn a_belt_crosses_a_disc() {
         let course = Course::conveyor([1.0, -3.0], [0.0, 0.5]).unwrap();
-        let times = within(&course.legs()[0], Point::origin(), 2.0_f64.sqrt()).unwrap();
+        let times = within(&course.legs()[0], Point::zeros(), 2.0_f64.sqrt()).unwrap();
         assert!((times[0] - 4.0).abs() < 1e-12 && (times[1] - 8.0).abs() < 1e-12, "{times:?}");
-        assert_eq!(within(&course.legs()[0], Point::origin(), 0.9), None);
+        assert_eq!(within(&course.legs()[0], Point::zeros(), 0.9), None);
         let away = Course::conveyor([1.0, 3.0], [0.0, 0.5]).unwrap();
-        assert_eq!(within(&away.legs()[0], Point::origin(), 2.0), None);
+        assert_eq!(within(&away.legs()[0], Point::zeros(), 2.0), None);
     }
 
     #[test]
@@ -97,6 +97,6 @@ mod tests {
         let stop = |time, x| cplan_handling::Stop { time, at: Point::new(x, 0.0), angle: 0.0 };
         let course = Course::new(vec![stop(0.0, 9.0), stop(8.0, 1.0)], Vector::zeros()).unwrap();
         let last = course.legs()[1];
-        assert_eq!(within(&last, Point::origin(), 2.0), Some([8.0, f64::INFINITY]));
+        assert_eq!(within(&last, Point::zeros(), 2.0), Some([8.0, f64::INFINITY]));
     }
 }

@@ -104,8 +104,7 @@ impl<'a> Here<'a, '_> {
                     for candidate in &candidates.ways {
                         let before = ways.len();
                         self.arrivals(&movers, candidate, [0.0, f64::INFINITY], &mut ways);
-                        let reason =
-                            "something that moves is there, or comes while the arm stands, whenever it could arrive";
+                        let reason = "at all possible arrival times, a moving obstacle or object is there or arrives while the arm rests";
                         let is_barred = ways.len() == before;
                         refused.extend(is_barred.then(|| (Some(candidate.to), Refusal::new(reason, false))));
                     }
@@ -216,11 +215,13 @@ impl<'a> Here<'a, '_> {
         };
         let begins = format!("the step begins at {:.3} s", self.time);
         let reason = if !all.iter().any(is_reached) {
-            format!("no IK solution within the joint limits reaches \"{name}\" on its way")
+            format!("no IK solution within the joint limits reaches \"{name}\" along its path")
         } else if !left.iter().any(is_reached) {
             format!("\"{name}\" has passed: {begins}")
         } else {
-            format!("\"{name}\" passes before the arm can be there, or something that moves is there, too: {begins}")
+            format!(
+                "\"{name}\" passes before the arm can arrive, or another moving obstacle or object is there: {begins}"
+            )
         };
         Refusal::new(reason, false)
     }

@@ -8,7 +8,6 @@ use cplan_core::model::Scene;
 use cplan_core::space::Configuration;
 use cplan_geometry::Pose;
 use cplan_handling::{Action, Item, Step, Task};
-use nalgebra::Isometry2;
 use std::sync::Arc;
 
 /// Poses of all objects as far as they do not depend on IK solutions. Otherwise objects count as not turned.
@@ -34,7 +33,7 @@ fn follow(step: &Step, poses: &mut [Option<Pose>], held: &mut Option<(usize, Opt
         Action::Place { at, angle, .. } => {
             if let Some((object, pose)) = held.take() {
                 let turned = angle.or(pose.map(|pose| pose.rotation.angle())).unwrap_or(0.0);
-                poses[object] = Some(Isometry2::new(at.coords, turned));
+                poses[object] = Some(Pose::new(at, turned));
             }
         }
         Action::Move(_) => {}

@@ -196,7 +196,7 @@ impl<'a> Orders<'a> {
                 continue;
             }
             built[number] = true;
-            progress("building up an order pair by pair");
+            progress("building an order pair by pair");
             let first = origins.iter().position(|origin| matches!(origin, Some((group, _)) if *group == number));
             let entry = entered(&settled, legs, first.unwrap_or(0));
             let group = &mut self.groups[number];

@@ -66,14 +66,16 @@ fn verdict(explanation: &Explanation) -> String {
     match &explanation.outcome {
         Outcome::Unknown(reason) => format!("unknown: {reason}"),
         Outcome::Found(shaped) => match shaped.savings.len() {
-            0 if explanation.is_stopped => "there is a motion; what makes the shortest one longer is not known".into(),
-            0 => "there is a motion, and nothing alone makes the shortest one longer".into(),
-            n => format!("there is a motion; {} the shortest one longer", counted_makes(n)),
+            0 if explanation.is_stopped => {
+                "found: a path exists; the time was too short to find what lengthens it".into()
+            }
+            0 => "found: a path exists, and nothing alone makes the shortest path longer".into(),
+            n => format!("found: a path exists; {} the shortest path longer", counted_makes(n)),
         },
         Outcome::Infeasible(closed) => match closed.sets.first().filter(|set| !set.blockers.is_empty()) {
-            Some(set) => format!("there is no motion: proven; blocked by {}", set.describe(scene)),
-            None if closed.out_of_reach.is_some() => "there is no motion: the goal is out of reach".into(),
-            None => "there is no motion, and nothing that could be left out opens a way".into(),
+            Some(set) => format!("infeasible: proven; blocked by {}", set.describe(scene)),
+            None if closed.out_of_reach.is_some() => "infeasible: the goal is out of reach".into(),
+            None => "infeasible: there is no path, and no obstacle or limit whose removal opens one is known".into(),
         },
     }
 }
@@ -82,7 +84,7 @@ fn verdict(explanation: &Explanation) -> String {
 fn stopped(explanation: &Explanation) -> Option<String> {
     let limit = explanation.question.time_limit().filter(|_| explanation.is_stopped)?.as_secs_f64();
     let more = short((MORE_TIME * limit).max(TIME_LIMIT.as_secs_f64()));
-    Some(format!("after {limit} s, before all was looked at; --time {more} takes longer"))
+    Some(format!("after {limit} s, before the explanation was complete; --time {more} allows more time"))
 }
 
 fn counted_makes(n: usize) -> String {
@@ -133,21 +135,21 @@ fn infeasible(scene: &Scene, closed: &Closed) -> Vec<Line> {
             continue;
         }
         let boxes = set.proof.as_ref().map_or_else(
-            || "start or goal is not free among them".into(),
+            || "the start or the goal collides".into(),
             |proof| match proof.stuck().len() {
-                1 => "1 box of collisions proves it".into(),
-                n => format!("{n} boxes of collisions prove it"),
+                1 => "1 collision box proves it".into(),
+                n => format!("{n} collision boxes prove it"),
             },
         );
-        let also = if number == 0 { "" } else { ", enough by itself, too" };
+        let also = if number == 0 { "" } else { ", which also suffices alone" };
         let proven = if set.is_irreducible() { "" } else { "; not proven irreducible" };
         lines.push(("blocked by", format!("{}{also}; {boxes}{proven}", set.describe(scene))));
         for blocker in &set.blockers {
             let what = blocker.element.describe(scene);
             let known =
-                if blocker.without.is_some() { "a way is certified" } else { "it is not known whether there is a way" };
-            let others = if elements.len() == 1 { "with nothing else there" } else { "among the others alone" };
-            lines.push(("", format!("  without {what} {known} {others}")));
+                if blocker.without.is_some() { "a path is certified" } else { "it is unknown whether a path exists" };
+            let others = if elements.len() == 1 { "" } else { " past the others" };
+            lines.push(("", format!("  without {what}, {known}{others}")));
         }
     }
     for set in &closed.sets {
@@ -173,7 +175,7 @@ fn end_lines(scene: &Scene, blocked: &BlockedEnd) -> Vec<Line> {
             let (at, far) = (configuration(arm, nearest.configuration), nearest.distance);
             ("", format!("  nearest free: {at}; {far:.4} away in joint space, the tip moves by {tip:.4} m"))
         }
-        _ => ("", "  no free configuration was found anywhere".into()),
+        _ => ("", "  a search found no free configuration; that is not proven".into()),
     });
     lines
 }
@@ -182,7 +184,7 @@ fn end_lines(scene: &Scene, blocked: &BlockedEnd) -> Vec<Line> {
 fn misses(scene: &Scene, out: &OutOfReach) -> String {
     let OutOfReach { tip, nearest, at } = out;
     format!(
-        "within the limits the tip misses ({:.4}, {:.4}) m by {:.4} m: the nearest place is ({:.4}, {:.4}) m, at {}",
+        "within the limits, the tip misses ({:.4}, {:.4}) m by {:.4} m: its nearest position is ({:.4}, {:.4}) m, at {}",
         tip.x,
         tip.y,
         (tip - nearest).norm(),
@@ -199,19 +201,19 @@ fn opens(scene: &Scene, set: &BlockingSet, change: &Change) -> String {
     let how = match cure {
         Cure::Moved { direction: [x, y] } => format!("{what} moved towards ({x:.3}, {y:.3}) by"),
         Cure::Eroded => format!("{what} smaller on all sides by"),
-        Cure::Scaled { to } => format!("{what} scaled to {:.1} % about its middle, its farthest point by", 100.0 * to),
+        Cure::Scaled { to } => format!("{what} scaled to {:.1} % about its centre, its farthest point by", 100.0 * to),
         Cure::Widened => format!("{what} wider by"),
         Cure::Lowered => format!("{what} lowered by"),
     };
     let others: Vec<String> =
         set.elements().iter().filter(|other| *other != element).map(|other| other.describe(scene)).collect();
-    let others = if others.is_empty() { "nothing else".into() } else { format!("{} alone", others.join(", ")) };
+    let others = if others.is_empty() { "nothing else".into() } else { format!("only {}", others.join(", ")) };
     let nothing_else = if *among == Among::Set { format!(", with {others} in the way") } else { String::new() };
     let is_length =
         !matches!(element, Element::Limit { joint, .. } if scene.arm().joints[*joint].joint_type.is_revolute());
     let digits = if is_length && by.opens < 0.01 { 6 } else { 4 };
     let (open, shut) = (at_most(by.opens, digits), at_least(by.closed, digits));
-    format!("{how} {open} {unit} opens a way (certified), by {shut} {unit} does not (proven){nothing_else}")
+    format!("{how} {open} {unit} opens a path (certified), by {shut} {unit} does not (proven){nothing_else}")
 }
 
 /// Describes a bottleneck.
@@ -224,8 +226,8 @@ fn stuck(scene: &Scene, bottleneck: &Bottleneck) -> String {
     let between = listed(&between);
     let (open, shut) = (at_most(bottleneck.by.opens, 4), at_least(bottleneck.by.closed, 4));
     format!(
-        "at {at}, near ({}, {}) m: too narrow by {} m ({between}); a way opens when everything gives way by {open} m, not yet by \
-         {shut} m",
+        "at {at}, near ({}, {}) m: too narrow by {} m ({between}); a path opens if all shapes shrink by {open} m, but not \
+         by {shut} m",
         fixed(point.x, 4),
         fixed(point.y, 4),
         nonzero(lacking, 4)

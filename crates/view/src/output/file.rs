@@ -37,7 +37,7 @@ pub enum SaveError {
     #[error(transparent)]
     Write(#[from] WriteError),
     /// The plan has no trajectory or grid, and the format contains nothing else.
-    #[error("{file} is not written: there is no {content} to put into it")]
+    #[error("{file} is not written: the result has no {content}")]
     Empty {
         /// The name as given.
         file: String,

@@ -31,7 +31,7 @@ pub(super) fn told(plan: &Plan, problem: &MotionProblem, answer: &Answer<Motion>
 fn found(plan: &Plan, problem: &MotionProblem, answer: &Answer<Motion>) -> Vec<Line> {
     let mut lines = match &answer.outcome {
         Outcome::Found(motion) => motion_lines(problem, answer, motion),
-        Outcome::Infeasible(proof) => vec![("result", format!("there is no path; {}", proof.describe()))],
+        Outcome::Infeasible(proof) => vec![("result", format!("infeasible: there is no path; {}", proof.describe()))],
         Outcome::Unknown(unknown) => vec![("result", format!("unknown: {}", unknown.reason))],
     };
     let graph = plan.options().planner.graph().map(|graph| format!("{} graph", graph.name()));
@@ -83,10 +83,10 @@ fn exact(plan: &Plan, answer: &Answer<Motion>) -> Option<Line> {
     (plan.options().planner.is_exact() && is_found).then(|| {
         let length = path.length();
         let told = match answer.history[..] {
-            [] => "the path lies among the exact polygons and touches none".to_owned(),
+            [] => "the path was planned among the exact polygons and touches none".to_owned(),
             _ => format!(
-                "length {length:.4} among the exact polygons, but that path touches them, which is contact; the certified one keeps clear \
-                 of polygons grown by a little"
+                "length {length:.4} among the exact polygons, but that path touches them, which is contact; the certified \
+                 path avoids slightly grown polygons"
             ),
         };
         ("exact", told)
@@ -106,7 +106,7 @@ pub(super) fn blocked_by(problem: &MotionProblem, answer: &Answer<Motion>) -> Op
     let is_small = scene.pairs().len() <= FEW_PAIRS;
     let set = is_small.then(|| blocking_set(&Question::from(problem), Some(proof.clone()), [BOXES; 2]));
     let told = set.filter(BlockingSet::is_irreducible).map(|set| set.describe(scene));
-    Some(("blocked by", told.unwrap_or_else(|| "what `cplan explain` tells".into())))
+    Some(("blocked by", told.unwrap_or_else(|| "not known so quickly; `cplan explain` takes more time".into())))
 }
 
 /// Describes the clearance of the motion, and the nearest place.
@@ -118,17 +118,17 @@ fn clearance(scene: &Scene, curve: &CertifiedCurve) -> String {
             scene.describe(nearest.contact.pair),
             configuration(scene.arm(), nearest.at)
         ),
-        None => "nothing can be hit".into(),
+        None => "no obstacle within reach".into(),
     }
 }
 
 /// Describes how the motion avoids moving obstacles.
 pub(super) fn among_movers(arm: &Arm, timing: &Timing) -> Vec<Line> {
     let Timing { obstacles, ways, waits, clearance, free_until } = timing;
-    let kept = clearance
-        .map_or_else(|| "none of them can meet the arm".into(), |kept| format!("{} m proven", at_least(kept, 6)));
+    let kept =
+        clearance.map_or_else(|| "all of them out of reach".into(), |kept| format!("{} m proven", at_least(kept, 6)));
     let stays = free_until.map_or_else(|| "for ever".into(), |until| format!("until {until:.3} s"));
-    let tried = counted(*ways, "way");
+    let tried = counted(*ways, "route");
     let mut lines = vec![(
         "moving",
         format!("{}, {kept}; {tried} tried; at the goal the arm may stay {stays}", counted(*obstacles, "obstacle")),

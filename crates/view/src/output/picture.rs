@@ -166,7 +166,7 @@ fn motion_view(plan: &Plan, problem: &MotionProblem, answer: &Answer<Motion>, co
         Outcome::Found(motion) => {
             format!("{method}: length {:.4}, {}", motion.path.path().length(), kept(plan.clearance()))
         }
-        Outcome::Infeasible(proof) => format!("{method}: there is no path; {}", proof.describe()),
+        Outcome::Infeasible(proof) => format!("{method}: infeasible: there is no path; {}", proof.describe()),
         Outcome::Unknown(_) => method.to_string(),
     };
     View::of_picture(&Picture {
@@ -192,9 +192,9 @@ fn task_picture<'a>(plan: &'a Plan, task: &'a Task, answer: &'a TaskAnswer) -> T
     let (status, detail) = match plan.status() {
         Status::Found => {
             let kept = kept(plan.clearance());
-            ("done, certified", format!("{planner}: {steps} in {:.3} s, {kept}", answer.duration()))
+            ("found, certified", format!("{planner}: {steps} in {:.3} s, {kept}", answer.duration()))
         }
-        Status::Infeasible => ("proven", before()),
+        Status::Infeasible => ("infeasible: proven", before()),
         Status::Unknown => ("unknown", before()),
     };
     TaskPicture {
@@ -214,14 +214,14 @@ fn task_picture<'a>(plan: &'a Plan, task: &'a Task, answer: &'a TaskAnswer) -> T
 pub fn status(status: Status) -> &'static str {
     match status {
         Status::Found => "found, certified",
-        Status::Infeasible => "no path: proven",
+        Status::Infeasible => "infeasible: proven",
         Status::Unknown => "unknown",
     }
 }
 
 /// Describes the proven distance of a motion from obstacles.
 fn kept(clearance: Option<f64>) -> String {
-    clearance.map_or("nothing to hit".into(), |c| format!("proven clearance {} m", at_least(c, 6)))
+    clearance.map_or("no obstacle within reach".into(), |c| format!("proven clearance {} m", at_least(c, 6)))
 }
 
 /// Returns a title from workspace and robot.

@@ -26,7 +26,7 @@ pub(super) fn told(plan: &Plan, task: &Task, answer: &TaskAnswer) -> Told {
         Outcome::Found(motion) => motion_lines(&task.arm, answer, motion),
         Outcome::Infeasible(failed) | Outcome::Unknown(failed) => failure_lines(plan, answer, failed),
     };
-    found.push(("planner", format!("{}: {motions} planned, {states} seen", plan.options().planner.method())));
+    found.push(("planner", format!("{}: {motions} planned, {states} examined", plan.options().planner.method())));
     found.extend(field(plan.options()));
     Told { found, asked }
 }
@@ -47,7 +47,7 @@ fn row(task: &Task, leg: &Leg, repeated: bool) -> [String; 4] {
     let turn = leg.turn.map_or(String::new(), |(_, seconds)| format!(", turn in {seconds:.3} s"));
     let clearance = match leg.clearance() {
         clearance if clearance.is_finite() => format!("clearance {} m", nonzero(clearance, 4)),
-        _ => "nothing can be hit".into(),
+        _ => "no obstacle within reach".into(),
     };
     let number = format!("{}{cycle}", leg.step.number);
     [number, leg.step.action.describe(objects), carried, format!("{seconds:.3} s{turn}, {clearance}")]
@@ -58,7 +58,7 @@ fn failure_lines(plan: &Plan, answer: &TaskAnswer, failed: &FailedStep) -> Vec<L
     let mut lines = vec![("result", plan.reason().unwrap_or_default())];
     lines.extend(failed.reasons.iter().map(|reason| ("why", reason.clone())));
     let count = counted(answer.legs.len(), "step");
-    lines.push(("before it", format!("{count} can be done, in {:.3} s", answer.duration())));
+    lines.push(("before it", format!("{count} planned, {:.3} s", answer.duration())));
     lines
 }
 
@@ -68,22 +68,22 @@ fn motion_lines(arm: &Arm, answer: &TaskAnswer, motion: &TaskMotion) -> Vec<Line
     let trajectory = &motion.sequence.trajectory;
     let samples = trajectory.time.len();
     let still: f64 = answer.legs.iter().map(Leg::rest).sum();
-    let still = if still > 0.0 { format!(", {still:.3} s of it standing still") } else { String::new() };
+    let still = if still > 0.0 { format!(", {still:.3} s of it at rest") } else { String::new() };
     let proven = match answer.gap() {
         Some(gap) => format!(
             "proven: no sequence of motions takes less than {} s, so at most {} longer than the fastest",
             at_least(answer.least_seconds(), 3),
             percent(gap)
         ),
-        None => "nothing is proven of the fastest".into(),
+        None => "no lower bound on the duration is known".into(),
     };
     let choice = if motion.exact {
-        "no other postures, turns and order are faster with the motions of this planner"
+        "no other IK solutions, wrist turns or order are faster with the motions of this planner"
     } else {
-        "a good choice of postures, turns and order; not all were looked at"
+        "good IK solutions, wrist turns and order, not proven best: the search was not exhaustive"
     };
     let mut lines = vec![
-        ("result", format!("done and certified: {count}")),
+        ("result", format!("found and certified: {count}")),
         ("motion", format!("{:.3} s{still}, {samples} samples", trajectory.duration())),
     ];
     lines.extend(torque(arm, trajectory));
@@ -105,7 +105,7 @@ fn clearance(answer: &TaskAnswer) -> Option<Line> {
     let closest = match (least.turn, curve.nearest()) {
         (Some((turn, _)), _) if turn.clearance < curve.clearance() => "the object that is turned".to_owned(),
         (_, Some(nearest)) => least.scene.describe(nearest.contact.pair),
-        (_, None) => return Some(("clearance", "nothing can be hit".into())),
+        (_, None) => return Some(("clearance", "no obstacle within reach".into())),
     };
     let kept = at_least(least.clearance(), 6);
     Some(("clearance", format!("{kept} m proven; closest: {closest} in step {step}{file}{cycle}")))

@@ -137,7 +137,7 @@ pub fn reach_shape(arm: &Arm) -> Convex {
     }
     match arm.joints[1].joint_type {
         JointType::Revolute { .. } => {
-            Convex::trusted(vec![arm.elbow_at(first.0), arm.elbow_at(first.1)], arm.tip.coords.norm())
+            Convex::trusted(vec![arm.elbow_at(first.0), arm.elbow_at(first.1)], arm.tip.norm())
         }
         JointType::Prismatic { .. } => {
             let tip = |q1, q2| arm.tip_at(Configuration::new(q1, q2));

@@ -46,7 +46,7 @@ fn swept(scene: &Scene, shown: &[Configuration]) -> [Range; 2] {
     for q in sampled.chain(shown.iter().copied()) {
         include(arm.tip_at(q), 0.0);
         let mut shape =
-            |shape: &Convex, pose: &Pose| shape.core().iter().for_each(|p| include(pose * p, shape.radius()));
+            |shape: &Convex, pose: &Pose| shape.core().iter().for_each(|p| include(pose.point(*p), shape.radius()));
         for (link, pose) in arm.poses(q).iter().enumerate() {
             scene.own_parts(link).iter().for_each(|part| shape(&part.shape, pose));
         }

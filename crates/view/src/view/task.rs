@@ -230,8 +230,8 @@ fn placed(task: &Task, legs: &[Leg]) -> Vec<(usize, Obstacle)> {
     for leg in legs {
         let Some(Event::Release { object, pose }) = leg.event else { continue };
         let same = |known: &(usize, Pose)| {
-            let by = known.1.inv_mul(&pose);
-            known.0 == object && by.translation.vector.norm() <= SAME && by.rotation.angle().abs() <= SAME
+            let by = known.1.inverse_pose(&pose);
+            known.0 == object && by.translation.norm() <= SAME && by.rotation.angle().abs() <= SAME
         };
         if !seen.iter().any(same) {
             seen.push((object, pose));

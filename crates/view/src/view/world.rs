@@ -109,7 +109,7 @@ impl MoverView {
 
     /// Returns the origin of its frame at a time.
     pub fn origin(&self, time: f64) -> Point {
-        Point::from(self.course.pose(time).translation.vector)
+        self.course.pose(time).translation
     }
 }
 
@@ -263,11 +263,8 @@ impl WorldView {
 
 /// Rounds contours for the document.
 pub fn contours<'a>(all: impl IntoIterator<Item = &'a CObstacle>, grain: Grain) -> Vec<ContourView> {
-    let contour = |c: &CObstacle| ContourView {
-        obstacle: c.obstacle,
-        link: c.link,
-        contour: grain.configurations(c.contour.iter().map(|p| &p.coords)),
-    };
+    let contour =
+        |c: &CObstacle| ContourView { obstacle: c.obstacle, link: c.link, contour: grain.configurations(&c.contour) };
     all.into_iter().map(contour).collect()
 }
 
@@ -339,7 +336,7 @@ fn region(preference: &Preference, grain: Grain) -> RegionView {
         Region::Configurations(polygon) => (true, polygon),
         Region::Tip(polygon) => (false, polygon),
     };
-    let corner = |p: &Point| if joints { grain.configuration(p.coords).into() } else { grain.point(*p).coords };
+    let corner = |&p: &Point| if joints { grain.configuration(p).into() } else { grain.point(p) };
     let corners = Chain(polygon.corners().iter().map(corner).collect());
     RegionView { name: preference.name.clone(), epsilon: preference.epsilon, joints, corners }
 }

@@ -58,8 +58,8 @@ impl Description {
         let unused = keys.into_keys().filter(|key| !KEYS.contains(&key.as_str())).collect();
         let resolution = file.resolution.value;
         if !(resolution > 0.0 && resolution <= LARGEST) {
-            let message = format!("resolution: {resolution} is no length of a pixel's side");
-            return Err(diagnostic(source, &file.resolution, message).help("give metres a pixel, such as 0.05"));
+            let message = format!("resolution: {resolution} is not a valid length of a pixel's side");
+            return Err(diagnostic(source, &file.resolution, message).help("give metres per pixel, such as 0.05"));
         }
         let origin = <[f64; 3]>::try_from(file.origin.value.as_slice()).map_err(|_| {
             let message = format!("origin: expected three numbers, found {}", file.origin.value.len());
@@ -75,7 +75,7 @@ impl Description {
             Negate::Number(0) => false,
             Negate::Number(1) => true,
             Negate::Number(_) | Negate::Neither(_) => {
-                return Err(diagnostic(source, &file.negate, "negate: it is neither 0 nor 1")
+                return Err(diagnostic(source, &file.negate, "negate: the value is neither 0 nor 1")
                     .help("0 if dark is occupied, 1 if light is"));
             }
         };
@@ -95,9 +95,9 @@ impl Description {
                 return Err(diagnostic(
                     source,
                     mode,
-                    "mode: raw has costs for values, which do not say what is occupied",
+                    "mode: raw maps contain costs, which do not show which cells are occupied",
                 )
-                .help("save the map with mode trinary or scale, whose shades do (map_saver_cli --mode trinary)"));
+                .help("save the map with mode trinary or scale (map_saver_cli --mode trinary)"));
             }
             Some(mode) if mode.value != "trinary" && mode.value != "scale" => {
                 return Err(diagnostic(source, mode, format!("mode: \"{}\" is unknown", mode.value))
@@ -133,7 +133,7 @@ impl Description {
     pub fn notes(&self, has_unknown: bool) -> Vec<String> {
         let mut notes = Vec::new();
         if !self.unused.is_empty() {
-            notes.push(format!("keys that are not used: {}", quoted(&self.unused)));
+            notes.push(format!("unused keys: {}", quoted(&self.unused)));
         }
         if has_unknown && self.free > UNSEEN / 255.0 {
             notes.push(format!(

@@ -18,10 +18,9 @@ mod rectangles;
 pub use picture::{MOST_CELLS, Occupancy};
 pub use rectangles::{PixelRectangle, rectangles};
 
-use cplan_geometry::{Convex, Point, Pose};
+use cplan_geometry::{Convex, Point, Pose, Vector};
 use cplan_robot::{Diagnostic, InputError, LARGEST, Source, read_bounded};
 use description::Description;
-use nalgebra::{Isometry2, Vector2};
 use picture::{Broken, Judge, Picture};
 use std::path::{Path, PathBuf};
 
@@ -76,15 +75,15 @@ impl OccupancyMap {
         let extent = size[0].max(size[1]) as f64 * description.resolution;
         if x.abs().max(y.abs()) + 2.0 * extent > LARGEST {
             let message = format!(
-                "a picture of {} x {} pixels with a resolution of {} m reaches farther than {LARGEST:e} m",
+                "a picture of {} x {} pixels with a resolution of {} m extends beyond {LARGEST:e} m",
                 size[0], size[1], description.resolution
             );
             return Err(source
                 .diagnostic(message)
-                .help(format!("the resolution is in metres a pixel, and a map may reach {LARGEST:e} m"))
+                .help(format!("the resolution is in metres per pixel, and a map may extend to {LARGEST:e} m"))
                 .into());
         }
-        let pose = Isometry2::new(Vector2::new(x, y), yaw);
+        let pose = Pose::new(Vector::new(x, y), yaw);
         let notes = description.notes(picture.cells.contains(&Occupancy::Unknown));
         Ok(Self { size, resolution: description.resolution, pose, cells: picture.cells, notes, picture: Some(path) })
     }
@@ -92,7 +91,7 @@ impl OccupancyMap {
     /// Returns the occupancy at a place, or `None` outside the picture. A cell includes its lower and its left side.
     #[must_use]
     pub fn at(&self, place: Point) -> Option<Occupancy> {
-        let cell = self.pose.inverse_transform_point(&place) / self.resolution;
+        let cell = self.pose.inverse_point(place) / self.resolution;
         let [width, height] = self.size;
         if cell.x < 0.0 || cell.y < 0.0 || cell.x >= width as f64 || cell.y >= height as f64 {
             return None;
@@ -117,7 +116,7 @@ impl OccupancyMap {
     pub fn rectangles_of(&self, is_among: impl Fn(usize) -> bool, most: usize) -> Option<Vec<Convex>> {
         let [width, height] = self.size;
         let corner = |x: usize, y: usize| {
-            self.pose * Point::new(x as f64 * self.resolution, (height - y) as f64 * self.resolution)
+            self.pose.point(Point::new(x as f64 * self.resolution, (height - y) as f64 * self.resolution))
         };
         let piece = |r: &PixelRectangle| {
             let ([left, right], [top, bottom]) = (r.columns, r.rows);
@@ -144,7 +143,7 @@ fn picture(bytes: &[u8], judge: Judge) -> Result<Picture, Broken> {
             };
             Err(Broken::new(format!("is {format}, not a greymap (PGM)"), SAVE))
         }
-        [0xff, 0xd8, ..] => Err(Broken::new("is a JPEG, whose shades are not those that were drawn", SAVE)),
+        [0xff, 0xd8, ..] => Err(Broken::new("is a JPEG, which does not preserve the shades of pixels", SAVE)),
         [] => Err(Broken::new("is empty", SAVE)),
         _ => Err(Broken::new("is neither PGM nor PNG", SAVE)),
     }

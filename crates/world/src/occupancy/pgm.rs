@@ -5,7 +5,7 @@
 use super::picture::{Broken, Judge, Picture, Shade, checked_size};
 
 /// The hint of most diagnostics.
-const HELP: &str = "save the picture anew";
+const HELP: &str = "save the picture again";
 
 /// Reads a greymap.
 pub(super) fn read(bytes: &[u8], judge: Judge) -> Result<Picture, Broken> {
@@ -15,7 +15,7 @@ pub(super) fn read(bytes: &[u8], judge: Judge) -> Result<Picture, Broken> {
         [header.number(&"width")?, header.number(&"height")?, header.number(&"greatest value (maxval)")?];
     let count = checked_size(width, height)?;
     if !(1..=65535).contains(&most) {
-        return Err(Broken::new(format!("maxval is {most}, it must be from 1 to 65535"), HELP));
+        return Err(Broken::new(format!("maxval is {most}, but must be from 1 to 65535"), HELP));
     }
     // Once for every shade, not for every pixel.
     let shade = |value: usize| Shade { value: value as f64, white: most as f64 };
@@ -43,7 +43,8 @@ pub(super) fn read(bytes: &[u8], judge: Judge) -> Result<Picture, Broken> {
         let wide = most > 255;
         let needed = count * if wide { 2 } else { 1 };
         if raster.len() < needed {
-            let message = format!("ends early: {width} x {height} pixels take {needed} bytes, it has {}", raster.len());
+            let message =
+                format!("ends early: {width} x {height} pixels take {needed} bytes, but the file has {}", raster.len());
             return Err(Broken::new(message, HELP));
         }
         ended(start + needed, bytes)?;
@@ -61,10 +62,10 @@ fn ended(at: usize, bytes: &[u8]) -> Result<(), Broken> {
     if at >= bytes.len() {
         return Ok(());
     }
-    let message = format!("goes on after the picture that its header announces, at byte {}", at + 1);
+    let message = format!("continues after the picture of its header, at byte {}", at + 1);
     Err(Broken::new(
         message,
-        "correct width, height and maxval in the header, end its lines by one character, or save it anew",
+        "correct width, height and maxval in the header, end its lines by one character, or save the picture again",
     ))
 }
 
@@ -113,7 +114,7 @@ impl Words<'_> {
             _ => {
                 // Enough characters to recognise the word.
                 let shown: String = String::from_utf8_lossy(word).chars().take(20).collect();
-                Err(Broken::new(format!("{what}: {shown:?} is no whole number (byte {})", self.at + 1), HELP))
+                Err(Broken::new(format!("{what}: {shown:?} is not a whole number (byte {})", self.at + 1), HELP))
             }
         }
     }

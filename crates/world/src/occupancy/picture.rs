@@ -48,7 +48,7 @@ pub(super) type Judge<'a> = &'a dyn Fn(Option<Shade>) -> Occupancy;
 /// The number of pixels, if the program takes so many: before any memory is asked for.
 pub(super) fn checked_size(width: usize, height: usize) -> Result<usize, Broken> {
     if width == 0 || height == 0 {
-        return Err(Broken::new(format!("has no pixels: {width} x {height}"), "draw the map anew"));
+        return Err(Broken::new(format!("has no pixels: {width} x {height}"), "save the map again"));
     }
     match width.checked_mul(height) {
         Some(count) if count <= MOST_CELLS => Ok(count),

@@ -6,7 +6,7 @@ use std::io::Cursor;
 
 /// Reads a PNG.
 pub(super) fn read(bytes: &[u8], judge: Judge) -> Result<Picture, Broken> {
-    let broken = |error: DecodingError| Broken::new(format!("is a broken PNG: {error}"), "save the picture anew");
+    let broken = |error: DecodingError| Broken::new(format!("is a broken PNG: {error}"), "save the picture again");
     let mut decoder = Decoder::new(Cursor::new(bytes));
     // Palettes become colours, fewer than eight bits eight, a transparent colour an opacity.
     decoder.set_transformations(Transformations::EXPAND);
@@ -16,7 +16,7 @@ pub(super) fn read(bytes: &[u8], judge: Judge) -> Result<Picture, Broken> {
     if lacks_colors(bytes).map_err(broken)? {
         return Err(Broken::new(
             "is a broken PNG: a pixel has a colour that its palette lacks",
-            "save the picture anew",
+            "save the picture again",
         ));
     }
     let mut reader = decoder.read_info().map_err(broken)?;
@@ -36,7 +36,7 @@ pub(super) fn read(bytes: &[u8], judge: Judge) -> Result<Picture, Broken> {
     };
     let cells: Vec<_> = samples.chunks_exact(channels * bytes_each).take(count).map(cell).collect();
     if cells.len() < count {
-        return Err(Broken::new("is a broken PNG: pixels are missing", "save the picture anew"));
+        return Err(Broken::new("is a broken PNG: pixels are missing", "save the picture again"));
     }
     Ok(Picture { width, height, cells })
 }

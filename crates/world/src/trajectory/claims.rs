@@ -146,8 +146,8 @@ pub(super) fn json(source: &Source, arm: [&str; 2]) -> Result<Option<Claims>, In
     let claims = document.claims(order, unjudged);
     let numbers = [claims.length, claims.duration, claims.clearance.flatten(), claims.task.lower_bound];
     if let Some(value) = numbers.into_iter().flatten().find(|value| value.abs() > LARGEST) {
-        let diagnostic: Diagnostic = source.diagnostic(format!("{value:e} is too large to be meant"));
-        return Err(diagnostic.help("radians, metres and seconds are expected").into());
+        let diagnostic: Diagnostic = source.diagnostic(format!("{value:e} is too large"));
+        return Err(diagnostic.help("write values in radians, metres and seconds").into());
     }
     Ok(Some(claims))
 }

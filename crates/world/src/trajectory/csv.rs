@@ -97,9 +97,9 @@ fn number(source: &Source, name: &Field, field: &Field) -> Result<f64, Diagnosti
         Err(_) => Err(source
             .diagnostic_at(
                 field.range.clone(),
-                format!("{} is \"{}\", which is no number", quoted([&name.text]), field.text),
+                format!("{} is \"{}\", which is not a number", quoted([&name.text]), field.text),
             )
-            .help("write numbers with a decimal point and no unit; a unit stands in the header: elbow [deg]")),
+            .help("write numbers with a decimal point and no unit; write units in the header: elbow [deg]")),
     }
 }
 
@@ -142,8 +142,8 @@ impl Columns {
                     used.push(Column { index, meaning, unit });
                 }
                 _ => {
-                    let message = format!("the column \"{name}\" can be read in more than one way");
-                    let help = "name it after its joint, with .position, .velocity or .acceleration behind it";
+                    let message = format!("the column name \"{name}\" is ambiguous");
+                    let help = "name it after its joint, followed by .position, .velocity or .acceleration";
                     return Err(source.diagnostic_at(field.range.clone(), message).help(help));
                 }
             }
@@ -157,7 +157,7 @@ impl Columns {
         if let Some(missing) = (0..names.arm.len()).find(|index| !has(*index)) {
             let columns = quoted(header.iter().map(|field| &field.text));
             let message = format!("holds no positions of joint \"{}\"; its columns are {columns}", names.arm[missing]);
-            let help = format!("the arm's joints are {}: name the columns of positions so", quoted(names.arm));
+            let help = format!("the arm's joints are {}: give the columns of positions these names", quoted(names.arm));
             return Err(source.diagnostic_at(whole(header), message).help(help));
         }
         let mut notes = Vec::new();
@@ -167,7 +167,7 @@ impl Columns {
             notes.push(format!("converted to radians, metres and seconds: {}", quoted(converted)));
         }
         if !unknown.is_empty() {
-            notes.push(format!("columns that are not used: {}", quoted(unknown)));
+            notes.push(format!("unused columns: {}", quoted(unknown)));
         }
         Ok(Self { joints: joints.into_iter().map(str::to_owned).collect(), used, epoch: None, notes })
     }

@@ -71,11 +71,11 @@ impl Stamp {
 
 /// Reads a result of cplan, or another program's JSON.
 pub(super) fn json(source: &Source) -> Result<Samples, InputError> {
-    let help = "a result of cplan's (--output NAME.json), or a JointTrajectory, is expected; numbers must be finite";
+    let help = "write a result with cplan --output NAME.json, or a JointTrajectory; all numbers must be finite";
     // A list would be taken for the members of an object in their order.
     let begins = source.text().len() - source.text().trim_start().len();
     if source.text()[begins..].starts_with('[') {
-        let message = "is a list: an object { ... } is expected";
+        let message = "is a list, but must be an object { ... }";
         return Err(source.diagnostic_at(begins..begins + 1, message).help(help).into());
     }
     let document: Document =
@@ -96,7 +96,7 @@ pub(super) fn yaml(source: &Source) -> Result<Samples, InputError> {
     let text = source.text().trim_end();
     let text = text.strip_suffix("\n---").unwrap_or(text);
     let document: Document = serde_saphyr::from_str_with_options(text, options).map_err(|error| {
-        let help = "one trajectory_msgs/msg/JointTrajectory is expected, with joint_names and points";
+        let help = "write one trajectory_msgs/msg/JointTrajectory with joint_names and points";
         yaml_diagnostic(source, &error).help(help)
     })?;
     Ok(samples(source, document)?)
@@ -130,7 +130,7 @@ fn samples(source: &Source, document: Document) -> Result<Samples, Diagnostic> {
     Err(match status {
         Some(status) => source
             .diagnostic(format!("holds no path: its status is \"{status}\""))
-            .help("verify a result that found one"),
+            .help("verify a result with the status \"found\""),
         None => source
             .diagnostic("holds neither a path, nor a trajectory, nor the points of a JointTrajectory")
             .help("write it with cplan --output, or as a ROS 2 JointTrajectory with joint_names and points"),
@@ -143,7 +143,7 @@ fn own_rule(said: Option<&str>, notes: &mut Vec<String>) -> Option<Interpolation
         Some(INTERPOLATION) => Some(Interpolation::Quartic),
         Some(SMOOTH_INTERPOLATION) => Some(Interpolation::Cubic),
         Some(_) => {
-            notes.push("the file's `interpolation` is none that this version knows: not used".into());
+            notes.push("this version does not know the file's `interpolation` and ignores it".into());
             None
         }
         None => None,
@@ -169,12 +169,12 @@ impl Samples {
 fn named(source: &Source, names: Option<Vec<String>>, member: &str) -> Result<Vec<String>, Diagnostic> {
     let names = names.filter(|n| !n.is_empty()).ok_or_else(|| {
         source
-            .diagnostic(format!("\"{member}\" is missing: it is not said which value is which joint's"))
+            .diagnostic(format!("\"{member}\" is missing, so the joint of each value is unknown"))
             .help(format!("add \"{member}\" with the joints' names in the order of the values"))
     })?;
     match names.iter().enumerate().find(|(i, name)| names[..*i].contains(name)) {
         Some((_, twice)) => {
-            Err(source.diagnostic(format!("\"{member}\" names joint \"{twice}\" twice")).help("keep one"))
+            Err(source.diagnostic(format!("\"{member}\" names joint \"{twice}\" twice")).help("remove one of them"))
         }
         None => Ok(names),
     }
@@ -204,7 +204,7 @@ fn message(source: &Source, names: Option<Vec<String>>, points: Vec<Point>) -> R
     if let Some(first) = time.first().filter(|first| **first > 0.0) {
         samples
             .notes
-            .push(format!("the way to the first point, until {first} s, depends on where the arm is: not judged"));
+            .push(format!("the motion to the first point, until {first} s, is not judged, because it depends on the arm's current position"));
     }
     samples.time = Some(time).filter(|time| !time.is_empty());
     samples.joints = series(source, names, &positions, "positions of points")?;

@@ -83,7 +83,7 @@ fn load(path: &Path, topic: Option<&str>, scene: &LoadedScene) -> Result<LoadedR
     }
     if topic.is_some() {
         let diagnostic =
-            Diagnostic::new(path.display().to_string(), "has no topics: only recordings of ROS 2 (.mcap) have");
+            Diagnostic::new(path.display().to_string(), "has no topics: only recordings of ROS 2 (.mcap) have topics");
         return Err(diagnostic.help("leave --topic out").into());
     }
     read_recording(&Source::read_recording(path)?, scene)
@@ -144,7 +144,7 @@ impl<'a> Names<'a> {
                 None => {
                     let others = samples.joints.iter().chain(&chosen).map(|s| &s.name);
                     let message = format!("holds no positions of joint \"{name}\"; it holds {}", quoted(others));
-                    let help = format!("the arm's joints are {}: name the positions so", quoted(self.arm));
+                    let help = format!("the arm's joints are {}: give the positions these names", quoted(self.arm));
                     return Err(source.diagnostic(message).help(help));
                 }
             }
@@ -157,7 +157,7 @@ impl<'a> Names<'a> {
             (Some(a), Some(b)) => Some(both(a, b)),
             (None, None) => None,
             _ => {
-                notes.push(format!("{what} of only one joint: not used"));
+                notes.push(format!("{what} of only one joint are ignored"));
                 None
             }
         };
@@ -184,9 +184,7 @@ impl<'a> Names<'a> {
 fn rule(recording: &Recording) -> &'static str {
     match (recording.interpolation(), recording.times()) {
         (Interpolation::Cubic, _) => "between samples: the cubic that positions and velocities imply",
-        (Interpolation::Quartic, _) => {
-            "between samples: the polynomial of the fourth degree that the file's `interpolation` says"
-        }
+        (Interpolation::Quartic, _) => "between samples: the quartic of the file's `interpolation`",
         (Interpolation::Quintic, _) => {
             "between samples: the polynomial of the fifth degree that positions, velocities and accelerations imply, as \
              ROS 2's joint_trajectory_controller joins them"

@@ -13,10 +13,10 @@ const STILL: f64 = 1e-4;
 /// Returns the reason why motions of held joints cannot be judged in a scene, or `None`.
 pub(super) fn rigid(scene: &Scene) -> Option<&'static str> {
     if scene.attachment().is_some() {
-        return Some("something is carried, which would move with it");
+        return Some("the tool carries an object, which would move with the joint");
     }
     let has_bar = scene.arm().links.iter().any(|link| link.source == OutlineSource::Bar);
-    has_bar.then_some("a bar stands in for a link")
+    has_bar.then_some("a bar replaces a link")
 }
 
 impl Names<'_> {
@@ -41,22 +41,20 @@ impl Names<'_> {
             };
             let moves = |value: &f64| value.is_nan() || (value - joint.value).abs() > STILL;
             let Some(sample) = series.position.iter().position(moves) else {
-                notes.push(format!("joint \"{name}\" stands still at {}, as it should: ignored", joint.value));
+                notes.push(format!("joint \"{name}\" stays at {}, as in the world, and is ignored", joint.value));
                 continue;
             };
             if self.has_steps {
                 notes.push(format!(
-                    "joint \"{name}\" moves in the steps: judged as if it stayed at {}; its own motion is not judged",
+                    "joint \"{name}\" moves during the steps: its motion is not judged, and the arm is judged with the joint at {}",
                     joint.value
                 ));
                 continue;
             }
             if let Some(why) = self.why_not(joint, at_samples, &moved) {
                 let value = series.position[sample];
-                let message = format!(
-                    "joint \"{name}\" is at {value}, but the workspace holds it at {}, and it {why}",
-                    joint.value
-                );
+                let message =
+                    format!("joint \"{name}\" is at {value}, but the world holds it at {}, and it {why}", joint.value);
                 let help = format!(
                     "a joint that stands still elsewhere: [robot] fixed = {{ {name} = {value} }} in the world file; a motion of \
                      this one cannot be judged"
@@ -78,11 +76,10 @@ impl Names<'_> {
         };
         match &joint.effect {
             HeldEffect::Unjudged { why } => Some(why.clone()),
-            _ if !at_samples => Some("is given at other times than the arm's joints".into()),
-            HeldEffect::Turns { .. } => moved
-                .iter()
-                .find(also_turns)
-                .map(|other| format!("turns with joint \"{}\", which turns, too", other.joint.name)),
+            _ if !at_samples => Some("has samples at other times than the arm's joints".into()),
+            HeldEffect::Turns { .. } => {
+                moved.iter().find(also_turns).map(|other| format!("turns together with joint \"{}\"", other.joint.name))
+            }
             HeldEffect::Lifts { .. } => None,
         }
         .or_else(|| self.rigid.map(|why| format!("cannot move where {why}")))

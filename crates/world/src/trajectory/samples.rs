@@ -72,9 +72,8 @@ pub(super) fn misplaced(source: &Source, samples: &Samples, diagnostic: &Recordi
         RecordingError::Empty => placed.help("record at least one sample"),
         RecordingError::Count { .. } => placed.help("give every sample all of its values"),
         RecordingError::VelocityWithoutTime => placed.help("add the times, in seconds, or leave the velocities out"),
-        RecordingError::AccelerationWithoutVelocity => {
-            placed.help("add the velocities, or leave the accelerations out: no controller joins samples without them")
-        }
+        RecordingError::AccelerationWithoutVelocity => placed
+            .help("add the velocities, or leave the accelerations out: no controller interpolates without velocities"),
         RecordingError::Value { what, .. } => {
             placed.help(format!("a {what} is a finite number: radians or metres, and seconds"))
         }

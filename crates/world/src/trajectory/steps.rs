@@ -39,14 +39,14 @@ struct TurnMember {
 /// samples without times and velocities.
 pub(super) fn json(source: &Source, samples: &Samples) -> Result<Option<Vec<RecordedStep>>, InputError> {
     let document: Document = serde_json::from_str(source.text()).map_err(|error| {
-        let help = "steps are those of a task's result as cplan writes it: step, cycle, first_sample and last_sample";
+        let help = "write steps as in a task's result of cplan: step, cycle, first_sample and last_sample";
         json_diagnostic(source, &error).help(help)
     })?;
     let Some(steps) = document.steps else { return Ok(None) };
     let count = samples.joints.first().map_or(0, |joint| joint.position.len());
     if samples.time.is_none() || samples.joints.iter().any(|joint| joint.velocity.is_none()) {
-        let message = "has steps, but no trajectory with time, position and velocity that they could belong to";
-        return Err(source.diagnostic(message).help("verify the result of a whole task as cplan writes it").into());
+        let message = "has steps, but no trajectory with time, position and velocity";
+        return Err(source.diagnostic(message).help("verify the result of a whole task, written by cplan").into());
     }
     let read = |(index, member): (usize, &StepMember)| member.read(source, index, count);
     Ok(Some(steps.iter().enumerate().map(read).collect::<Result<_, _>>()?))
@@ -58,13 +58,13 @@ impl StepMember {
             |message: String, help: &str| Err(source.diagnostic(format!("steps[{index}]: {message}")).help(help));
         let (Some(first), Some(last)) = (self.first_sample, self.last_sample) else {
             return refuse(
-                "first_sample or last_sample is missing: it is not said which samples are the step's".into(),
-                "verify the result of a whole task as cplan writes it",
+                "first_sample or last_sample is missing, so the samples of the step are unknown".into(),
+                "verify the result of a whole task, written by cplan",
             );
         };
         if first > last || last >= count {
             let help = "the first and the last sample of the motion, counted from 0";
-            return refuse(format!("its samples are {first} to {last}, and the trajectory has {count}"), help);
+            return refuse(format!("its samples are {first} to {last}, but the trajectory has {count}"), help);
         }
         let turn = match &self.turn {
             None => None,

@@ -69,7 +69,7 @@ impl Replay<'_> {
     pub(super) fn nothing_moves(&self, what: &str) -> Result<(), CheckError> {
         let moves = |present: &Present| present.obstacle.course.is_some();
         match self.present.iter().flatten().any(moves) {
-            true => CheckError::fails(format!("the checker does not know {what} while something moves")),
+            true => CheckError::fails(format!("the checker does not judge {what} among moving obstacles or objects")),
             false => Ok(()),
         }
     }
@@ -84,7 +84,7 @@ impl Replay<'_> {
         (time, passing): (&Decimal, &Passing),
     ) -> Result<(), CheckError> {
         let (None, Some(present)) = (&self.held, self.present[self.task.first + object].take()) else {
-            return CheckError::fails("something is carried when an object is picked");
+            return CheckError::fails("an object is picked while the tool carries another");
         };
         let lying = present.obstacle.at_time(time).into_owned();
         if passing.window.as_ref().is_some_and(|[low, high]| time < low || high < time) {
@@ -92,7 +92,7 @@ impl Replay<'_> {
         }
         let near = Interval::from(&Decimal::power_of_ten(NEAR)).lower;
         if passing.at.as_ref().is_some_and(|at| length(&minus(&lying.at, at)).upper > near) {
-            return CheckError::fails("the object is not picked where it is to be then");
+            return CheckError::fails("the object is not at the position of its pick then");
         }
         let tip = self.chain.point_at(&On::Link(1), &self.tip, at);
         self.misses(length(&minus(&tip, &lying.placed(&grasp.each_ref().map(Interval::from)))).upper)?;
@@ -113,7 +113,9 @@ impl Replay<'_> {
 
     /// Releases the carried object.
     pub(super) fn release(&mut self, at: &Point, angle: Option<&Interval>, values: &Point) -> Result<(), CheckError> {
-        let Some(held) = self.held.take() else { return CheckError::fails("nothing is carried that could be placed") };
+        let Some(held) = self.held.take() else {
+            return CheckError::fails("an object is placed, but the tool carries none");
+        };
         let lying = self.chain.lying(&held.on, &held.hanging, values);
         self.misses(length(&minus(&lying.at, at)).upper)?;
         if let Some(angle) = angle {
@@ -130,11 +132,11 @@ impl Replay<'_> {
         let Some(by) = &done.turn else { return Ok(()) };
         self.nothing_moves("a turn of the wrist")?;
         let Some(mut held) = self.held.take_if(|held| held.carrying.may_turn && matches!(held.on, On::Level(_))) else {
-            return CheckError::fails("there is no wrist, or nothing that it is to turn");
+            return CheckError::fails("there is no wrist, or no object to turn");
         };
         let wrist = Chain::about(&self.chain.point_at(&On::Link(1), &self.tip, at));
         let Some(end) = fine(&(by * &Decimal::whole(SIXTY))).filter(|end| end.abs() < LARGEST_TURN << FINE) else {
-            return CheckError::fails("the wrist turns by more than a turn");
+            return CheckError::fails("the wrist turns by more than one revolution");
         };
         let time = [0, 1].map(Decimal::whole);
         let swept = Piece { knot: done.knots[1], curves: vec![vec![[0, 0], [end, 0]]], time };

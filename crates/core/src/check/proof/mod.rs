@@ -172,7 +172,7 @@ fn is_stuck(scene: &Scene, index: usize, stuck: &StuckBox, clearance: f64) -> Re
     let piece = scene.piece(stuck.pair).grown(clearance);
     let depth = penetration_depth(&part, &piece);
     let motion = farthest(scene, stuck, middle, half);
-    let scale = part.reach_from(scene.arm().base) + piece.reach_from(scene.arm().base) + scene.arm().base.coords.norm();
+    let scale = part.reach_from(scene.arm().base) + piece.reach_from(scene.arm().base) + scene.arm().base.norm();
     if depth > motion + ROUNDING * scale { Ok(()) } else { Err(ProofError::NotStuck { index, depth, motion }) }
 }
 
@@ -197,5 +197,5 @@ fn farthest(scene: &Scene, stuck: &StuckBox, q: Configuration, half: [f64; 2]) -
         (_, JointType::Prismatic { .. }, JointType::Revolute { .. }) => half[0] + a.norm() * chord(half[1]),
         (_, JointType::Prismatic { .. }, JointType::Prismatic { .. }) => half[0] + half[1],
     };
-    scene.part(stuck.pair).core().iter().map(|p| of_corner(p.coords)).fold(0.0, f64::max)
+    scene.part(stuck.pair).core().iter().map(|&p| of_corner(p)).fold(0.0, f64::max)
 }

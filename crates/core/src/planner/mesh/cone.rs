@@ -53,7 +53,7 @@ impl Cone {
     /// Returns the part of a segment that lies on the rays or on their lines before the root; exact for a point.
     pub fn part(&self, segment: &Segment) -> Option<Segment> {
         if segment.is_point() {
-            return self.holds(segment.corners()[0]).then_some(*segment);
+            return self.holds(segment.ends()[0]).then_some(*segment);
         }
         segment.left_of(self.right.from, self.right.to)?.left_of(self.left.to, self.left.from)
     }

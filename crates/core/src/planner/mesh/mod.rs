@@ -57,7 +57,7 @@ impl Mesh {
     /// Returns the triangles that hold any of a segment, each with the part in it. Linear, except for a point.
     pub fn parts_of(&self, segment: &Segment) -> Vec<(u32, Segment)> {
         if segment.is_point() {
-            let [at, _] = segment.corners();
+            let [at, _] = segment.ends();
             return self.triangles_at(at).map(|triangle| (triangle, *segment)).collect();
         }
         let part = |triangle: u32| {

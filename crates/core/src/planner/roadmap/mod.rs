@@ -145,7 +145,7 @@ impl Asked {
     /// Returns both ends of each edge.
     pub fn edges(&self) -> Vec<[Configuration; 2]> {
         let edges = self.roadmap.graph.raw_edges().iter();
-        edges.map(|edge| [edge.source(), edge.target()].map(|node| self.at(node).coords)).collect()
+        edges.map(|edge| [edge.source(), edge.target()].map(|node| self.at(node))).collect()
     }
 
     /// Searches the roadmap, and returns the expanded places, in order.
@@ -159,6 +159,6 @@ impl Asked {
             behind: |node: NodeIndex| measure.norm(graph[node] - graph[self.start]),
         };
         let Searched { way, expanded } = search(graph, how, &question);
-        (way, expanded.into_iter().map(|node| graph[node].coords).collect())
+        (way, expanded.into_iter().map(|node| graph[node]).collect())
     }
 }

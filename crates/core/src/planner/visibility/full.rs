@@ -44,7 +44,7 @@ impl VisibilityMap {
             let joined = seen.into_iter().map(|vertex| nodes[vertex as usize]).filter(|other| other < node);
             joined.for_each(|other| asked.join(*node, other));
             for part in goals {
-                let goal = asked.goal(Point::from(part.nearest(measure, root.coords)));
+                let goal = asked.goal(part.nearest(measure, root));
                 asked.join(*node, goal);
             }
         }
@@ -71,7 +71,7 @@ impl Sight<'_> {
                     let ahead = crossing.seen.filter(|&half_edge| is_within(cone, mesh.origin(half_edge)));
                     seen.extend(ahead.map(|half_edge| mesh.vertex(half_edge)));
                     let parts = terminals.parts_in(crossing.entry / 3).filter_map(|(_, part)| cone.part(part));
-                    goals.extend(parts.filter(|part| !part.is_point() || is_seen(cone, part.corners()[0])));
+                    goals.extend(parts.filter(|part| !part.is_point() || is_seen(cone, part.ends()[0])));
                 });
             }
         }

@@ -60,7 +60,7 @@ fn beside(dice: &mut Dice, a: Point, b: Point, most: i32) -> Point {
 
 /// Returns points; some are almost collinear, or coincide.
 fn points<const N: usize>(dice: &mut Dice, most: i32) -> [Point; N] {
-    let mut points = [Point::origin(); N];
+    let mut points = [Point::zeros(); N];
     for i in 0..N {
         points[i] = match i {
             0 | 1 => Point::new(coordinate(dice, most), coordinate(dice, most)),

@@ -76,7 +76,7 @@ impl<T: Number + Debug> Shape<T> {
         for (q, y) in other.points.iter().zip(&other.exact) {
             for (p, x) in self.points.iter().zip(&self.exact) {
                 // One subtraction, rounded to the nearest double.
-                rounded.push(Point::from(q - p));
+                rounded.push(q - p);
                 exact.push(exact::minus(y, x));
             }
         }

@@ -64,7 +64,10 @@ impl Ledger {
     fn gap(&mut self, at: &str, length: f64, lower_bound: Option<f64>, gap: Option<f64>) {
         let Some(bound) = lower_bound else { return };
         if bound.is_nan() || bound > length * (1.0 + AGAIN) {
-            self.note(&format!("{at}lower_bound"), format!("stated as {bound}, but there is a motion of {length}"));
+            self.note(
+                &format!("{at}lower_bound"),
+                format!("stated as {bound}, but a motion of length {length} exists"),
+            );
         }
         if bound > 0.0 {
             let is = length / bound - 1.0;
@@ -146,7 +149,10 @@ impl Ledger {
         let Some(nearest) = nearest else { return };
         let Some(stated) = stated else {
             let pair = scene.describe(nearest.pair);
-            return self.note("clearance", format!("stated as null, which is that nothing can be hit, but {pair} can"));
+            return self.note(
+                "clearance",
+                format!("stated as null, which means no obstacle within reach, but {pair} can meet"),
+            );
         };
         if let Some((distance, pair)) = nearer(timed, recording, stated, nearest.separation.distance, nearest.pair) {
             let pair = scene.describe(pair);

@@ -75,7 +75,7 @@ pub fn task_claims_kept(
             whole.extend(path.iter().skip(usize::from(shared)));
         }
         if *path != whole {
-            ledger.note("path", "it is not that of the steps, one after the other".into());
+            ledger.note("path", "it is not the sequence of the steps' paths".into());
         }
     }
     let lengths: Option<Vec<f64>> = steps.iter().map(|step| step.length).collect();
@@ -88,7 +88,7 @@ pub fn task_claims_kept(
         let is: Vec<usize> =
             (0..recorded.len()).flat_map(|step| std::iter::repeat_n(step, first(step + 1) - first(step))).collect();
         if *stated != is {
-            ledger.note("trajectory.step", "not the steps to which the samples belong".into());
+            ledger.note("trajectory.step", "differs from the steps to which the samples belong".into());
         }
     }
     if let Some(events) = &claims.task.events {
@@ -108,7 +108,10 @@ impl Ledger {
                 self.note(claim, why);
             }
             None if free.clearance.is_finite() => {
-                self.note(claim, "stated as null, which is that nothing can be hit, but the object can".into());
+                self.note(
+                    claim,
+                    "stated as null, which means no obstacle within reach, but the object can meet one".into(),
+                );
             }
             _ => {}
         }
@@ -116,7 +119,7 @@ impl Ledger {
 
     fn events(&mut self, task: &Task, stated: &[EventClaim], happened: &[Happening]) {
         if stated.len() != happened.len() {
-            self.note("events", format!("there are {}, but the gripper does {} things", stated.len(), happened.len()));
+            self.note("events", format!("there are {}, but the gripper acts {} times", stated.len(), happened.len()));
         }
         for (index, (event, is)) in stated.iter().zip(happened).enumerate() {
             self.within = format!("events[{index}].");
@@ -129,14 +132,14 @@ impl Ledger {
             self.place("tip", event.tip, is.tip);
             match (event.pose, is.pose) {
                 (Some((at, angle)), Some(pose)) => {
-                    self.place("pose.at", at, Point::from(pose.translation.vector));
+                    self.place("pose.at", at, pose.translation);
                     let is = pose.rotation.angle();
                     if angle_between(angle, is) > AT {
                         self.note("pose.angle", format!("stated as {angle}, but it is {is}"));
                     }
                 }
-                (Some(_), None) => self.note("pose", "is stated, but nothing is let go of".into()),
-                (None, Some(_)) => self.note("pose", "is missing: it is not said where the object lies".into()),
+                (Some(_), None) => self.note("pose", "is stated, but no object is released".into()),
+                (None, Some(_)) => self.note("pose", "is missing, so the object's position is unknown".into()),
                 (None, None) => {}
             }
         }

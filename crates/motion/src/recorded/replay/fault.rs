@@ -24,7 +24,7 @@ pub enum Fault {
         off: f64,
     },
     /// A moving object is picked at a time outside its window.
-    #[error("the object is picked at {time:.6} s, outside the times that are asked for")]
+    #[error("the object is picked at {time:.6} s, outside the required times")]
     When {
         /// The recorded time, seconds.
         time: f64,
@@ -36,7 +36,7 @@ pub enum Fault {
         off: f64,
     },
     /// The placed object does not have its required orientation.
-    #[error("the object is let go of {off:.6} rad from the angle asked for")]
+    #[error("the object is released {off:.6} rad from the required angle")]
     Angle {
         /// The difference, radians.
         off: f64,
@@ -64,10 +64,10 @@ pub enum Fault {
         least: f64,
     },
     /// The world has no wrist that could turn.
-    #[error("the wrist turns, but the world has none")]
+    #[error("the wrist turns, but the world has no wrist")]
     NoWrist,
     /// There is no carried object that a wrist could turn.
-    #[error("the wrist turns, but holds nothing level")]
+    #[error("the wrist turns, but holds no level object")]
     Nothing,
 }
 
@@ -75,7 +75,7 @@ pub enum Fault {
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum Departure {
     /// Another step was required.
-    #[error("steps[{index}] is step {number} (cycle {cycle}), where the world asks for {expected}")]
+    #[error("steps[{index}] is step {number} (cycle {cycle}), but the world requires {expected}")]
     Order {
         /// Index of the recorded step.
         index: usize,
@@ -87,7 +87,7 @@ pub enum Departure {
         expected: String,
     },
     /// The record ends before the task does.
-    #[error("after {count} steps the world asks for {expected}, but there are no more")]
+    #[error("after {count} steps the world requires {expected}, but the file ends")]
     Missing {
         /// The number of steps.
         count: usize,
@@ -95,7 +95,7 @@ pub enum Departure {
         expected: String,
     },
     /// A step begins before the previous one ends.
-    #[error("steps[{index}] begins with sample {first}, before sample {last}, with which the step before it ends")]
+    #[error("steps[{index}] begins with sample {first}, before the previous step ends with sample {last}")]
     Overlap {
         /// Index of the recorded step.
         index: usize,

@@ -76,11 +76,11 @@ impl State {
         let tip = arm.tip_at(q);
         let grip = match task.objects[object].holding {
             Holding::Rigid => Grip::rigid(arm, q, &lies),
-            Holding::Level => Grip::Level { angle: lies.rotation.angle(), point: lies.inverse() * tip },
+            Holding::Level => Grip::Level { angle: lies.rotation.angle(), point: lies.inverse().point(tip) },
         };
         let supports = supports.iter().chain(then).copied().collect();
         self.held = Some(Payload { object, grip, supports });
-        let off = (tip - lies * grasp).norm();
+        let off = (tip - lies.point(grasp)).norm();
         (off > AT).then_some(Fault::Tip { off })
     }
 
@@ -92,7 +92,7 @@ impl State {
         self.poses[object] = Some(pose);
         self.released = Some(object);
         let mut faults = Vec::new();
-        let off = (Point::from(pose.translation.vector) - at).norm();
+        let off = (pose.translation - at).norm();
         if off > AT {
             faults.push(Fault::Origin { off });
         }

@@ -24,8 +24,8 @@ struct Case {
 /// A thin segment, a capsule, a disc or a polygon; segments begin at the origin.
 fn shape(spread: f64) -> impl Strategy<Value = Convex> {
     let at = move || (-spread..spread, -spread..spread).prop_map(|(x, y)| Point::new(x, y));
-    let thin = at().prop_map(|end| Convex::trusted(vec![Point::origin(), end], 0.0));
-    let capsule = (at(), 0.01..0.2_f64).prop_map(|(end, radius)| Convex::trusted(vec![Point::origin(), end], radius));
+    let thin = at().prop_map(|end| Convex::trusted(vec![Point::zeros(), end], 0.0));
+    let capsule = (at(), 0.01..0.2_f64).prop_map(|(end, radius)| Convex::trusted(vec![Point::zeros(), end], radius));
     let disc = (at(), 0.05..0.3_f64).prop_map(|(center, radius)| Convex::trusted(vec![center], radius));
     let polygon = (prop::collection::vec(at(), 3..7), prop_oneof![Just(0.0), 0.0..0.1_f64])
         .prop_map(|(points, radius)| Convex::trusted(hull(&points), radius));
@@ -51,7 +51,7 @@ fn scene(turns: [bool; 2], ranges: [JointRange; 2], offset: Vector, part: Convex
         links: [link(vec![]), link(vec![part])],
         base: Point::new(0.1, -0.2),
         offset,
-        tip: Point::origin(),
+        tip: Point::zeros(),
         tip_name: "tip".into(),
         plane: Plane { u: Vector3::x(), v: Vector3::y(), normal: Vector3::z() },
         dynamics: None,
@@ -137,7 +137,7 @@ impl Case {
         let (part, piece) = (self.scene.part(pair), self.scene.piece(pair));
         let at = |k: usize| {
             let pose = self.scene.arm().pose(1, from + (to - from) * (k as f64 / SAMPLES as f64));
-            let placed: Vec<Point> = part.core().iter().map(|a| pose * a).collect();
+            let placed: Vec<Point> = part.core().iter().map(|&a| pose.point(a)).collect();
             apart(&placed, piece.core())
         };
         (0..=SAMPLES).map(at).fold(0.0, f64::max) - part.radius() - piece.radius()

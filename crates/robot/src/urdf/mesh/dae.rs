@@ -14,19 +14,19 @@ const MOST_POINTS: usize = 1 << 24;
 
 /// Reads the vertices of all geometries of the scene, metres.
 pub(super) fn read(bytes: &[u8]) -> Result<Vec<Point3<f64>>, String> {
-    let text = std::str::from_utf8(bytes).map_err(|_| "the file is no UTF-8 text".to_owned())?;
+    let text = std::str::from_utf8(bytes).map_err(|_| "the file is not UTF-8 text".to_owned())?;
     let options = ParsingOptions { allow_dtd: true, ..ParsingOptions::default() };
     let document = Document::parse_with_options(from_declaration(text), options)
-        .map_err(|error| format!("the file is no well-formed XML: {error}"))?;
+        .map_err(|error| format!("the file is not well-formed XML: {error}"))?;
     let root = document.root_element();
     if root.tag_name().name() != "COLLADA" {
-        return Err(format!("the file is no Collada: its root element is <{}>", root.tag_name().name()));
+        return Err(format!("the file is not Collada: its root element is <{}>", root.tag_name().name()));
     }
     let metres = child(root, "asset").and_then(|asset| child(asset, "unit")).and_then(|unit| unit.attribute("meter"));
     let metres: f64 = match metres {
         Some(text) => {
             let number = text.trim().parse().ok().filter(|x: &f64| *x > 0.0);
-            number.ok_or_else(|| format!("a unit of \"{text}\" metres makes no sense"))?
+            number.ok_or_else(|| format!("its unit, \"{text}\" metres, is not a positive number"))?
         }
         None => 1.0,
     };
@@ -87,21 +87,22 @@ impl<'a, 'i> Scene<'a, 'i> {
     fn children(&mut self, node: Node<'a, 'i>, pose: &Matrix4<f64>, depth: usize) -> Result<(), String> {
         self.nodes += 1;
         if depth > DEEPEST || self.nodes > MOST_NODES {
-            return Err("its nodes hold themselves, or too many others".into());
+            return Err("a node contains itself, or too many nodes".into());
         }
         for child in node.children().filter(Node::is_element) {
             match child.tag_name().name() {
                 "node" => self.children(child, &(pose * transform(child)?), depth + 1)?,
                 "instance_node" => {
-                    let target = self.target(child).ok_or("a node refers to none that the file has")?;
+                    let target = self.target(child).ok_or("a node refers to a node that the file does not have")?;
                     self.children(target, &(pose * transform(target)?), depth + 1)?;
                 }
                 "instance_geometry" => {
-                    let geometry = self.target(child).ok_or("a node shows a geometry that the file does not have")?;
+                    let geometry =
+                        self.target(child).ok_or("a node refers to a geometry that the file does not have")?;
                     self.geometry(geometry, pose)?;
                 }
                 "instance_controller" => {
-                    return Err("its meshes are bent by controllers, which cplan does not read".into());
+                    return Err("its meshes are deformed by controllers, which cplan does not read".into());
                 }
                 _ => {}
             }
@@ -119,10 +120,13 @@ impl<'a, 'i> Scene<'a, 'i> {
             let accessor = named(source, "accessor").next();
             let stride = accessor.and_then(|accessor| accessor.attribute("stride")?.trim().parse().ok()).unwrap_or(3);
             if stride < 3 || numbers.len() % stride != 0 {
-                return Err(format!("{} numbers of a mesh make no positions", numbers.len()));
+                return Err(format!(
+                    "a mesh has {} numbers for positions, which is not a multiple of three",
+                    numbers.len()
+                ));
             }
             if self.points.len() + numbers.len() / stride > MOST_POINTS {
-                return Err("its scene shows too many meshes".into());
+                return Err("its scene contains too many meshes".into());
             }
             self.points.extend(numbers.chunks(stride).map(|p| pose.transform_point(&Point3::new(p[0], p[1], p[2]))));
         }
@@ -133,7 +137,7 @@ impl<'a, 'i> Scene<'a, 'i> {
 /// Returns the numbers in an element's text.
 fn numbers(node: Node) -> Result<Vec<f64>, String> {
     let words = node.text().unwrap_or_default().split_whitespace();
-    words.map(|word| word.parse().map_err(|_| format!("\"{word}\" is no number"))).collect()
+    words.map(|word| word.parse().map_err(|_| format!("\"{word}\" is not a number"))).collect()
 }
 
 /// Returns the map from a node's coordinates to its parent's: its transformations, the first of them outermost.

@@ -87,7 +87,7 @@ fn too_far(vertex: &Point3<f64>, scale: [f64; 3], path: &Path) -> Unread {
         path.display()
     );
     let cure =
-        "give the scale that makes metres of its numbers, such as 0.001 for millimetres, or export the mesh again";
+        "give the scale that converts its numbers to metres, such as 0.001 for millimetres, or export the mesh again";
     Unread { message, cure }
 }
 
@@ -102,8 +102,8 @@ pub fn find(filename: &str, urdf: &Path) -> Result<PathBuf, String> {
     let mut places: Vec<String> = candidates(filename, urdf).map(|path| path.display().to_string()).collect();
     places.dedup();
     Err(match places.is_empty() {
-        false => format!("mesh \"{filename}\" is not there; looked at {}", places.join(", ")),
-        true => format!("mesh \"{filename}\" is not there: near the URDF is no package of that name"),
+        false => format!("mesh \"{filename}\" does not exist; cplan looked for {}", places.join(", ")),
+        true => format!("mesh \"{filename}\" does not exist: there is no package of that name near the URDF"),
     })
 }
 

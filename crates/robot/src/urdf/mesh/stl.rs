@@ -24,7 +24,7 @@ pub(super) fn read(mut bytes: Vec<u8>) -> Result<Mesh, String> {
     } else if bytes.starts_with(b"solid") {
         text(&String::from_utf8_lossy(&bytes))?
     } else {
-        return Err("the file is no STL: its length does not fit its number of triangles".into());
+        return Err("the file is not an STL file: its length does not fit its number of triangles".into());
     };
     if mesh.points.is_empty() { Err("the mesh has no triangle".into()) } else { Ok(mesh) }
 }

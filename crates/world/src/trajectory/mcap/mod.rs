@@ -59,7 +59,7 @@ fn states(source: &Source, mut topic: Topic, names: &Names) -> Result<Samples, D
     }
     let mut samples = table.samples(names, &others)?;
     if repeated > 0 {
-        samples.notes.push(format!("{repeated} messages repeat the ones before them; taken once"));
+        samples.notes.push(format!("{repeated} messages repeat earlier ones and are ignored"));
     }
     Ok(Samples { what: format!("message on {}", topic.name).into(), ..samples })
 }
@@ -85,8 +85,7 @@ fn motions(source: &Source, mut topic: Topic, names: &Names) -> Result<Samples, 
         if begin < end.nanoseconds {
             let what =
                 format!("a motion on {name} begins at {begin} ns, before the last one ends at {}", end.nanoseconds);
-            let help =
-                "record one motion after the other, or verify the states that were recorded with them: --topic NAME";
+            let help = "record one motion after the other, or verify the recorded states instead: --topic NAME";
             return Err(source.diagnostic(what).help(help));
         }
         // Samples need distinct times: a nanosecond is the least that messages tell apart.
@@ -94,9 +93,10 @@ fn motions(source: &Source, mut topic: Topic, names: &Names) -> Result<Samples, 
         let differing = table.joints.iter().enumerate().find(|(k, _)| end.values[0][*k] != first.values[0][*k]);
         if let Some((_, joint)) = differing {
             if first.nanoseconds <= begin {
-                let what =
-                    format!("joint \"{joint}\" stands elsewhere when a motion begins than where the last one ended");
-                let help = "record all motions, or verify the states that were recorded with them: --topic NAME";
+                let what = format!(
+                    "joint \"{joint}\" is at another value when a motion begins than when the previous motion ended"
+                );
+                let help = "record all motions, or verify the recorded states instead: --topic NAME";
                 return Err(source.diagnostic(what).help(help));
             }
             // The controller leads the arm from where it stands to the first point.
@@ -209,7 +209,7 @@ impl<'a> Table<'a> {
             let all = others.len() + rows.len();
             let joints = quoted(names.arm);
             notes.push(format!(
-                "{} of {all} messages on {} do not name both of {joints}: not used",
+                "{} of {all} messages on {} do not name both of {joints} and are ignored",
                 others.len(),
                 self.topic
             ));

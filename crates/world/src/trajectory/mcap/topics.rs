@@ -96,7 +96,7 @@ pub(super) fn choose(
         Some([only]) => *only,
         Some(several) => {
             let message = format!("holds the arm's joints on several topics: {}", list(several));
-            let help = format!("say which one is judged: --topic {}", topics[several[0]].name);
+            let help = format!("choose the topic to judge: --topic {}", topics[several[0]].name);
             return Err(source.diagnostic(message).help(help));
         }
         None => {
@@ -126,7 +126,7 @@ pub(super) fn choose(
         unused.into_iter().filter(|t| !SHOWN.contains(&t.schema.as_str())).map(|t| t.name).collect();
     unused.dedup();
     if !unused.is_empty() {
-        notes.push(format!("topics that are not used: {}", quoted(unused)));
+        notes.push(format!("unused topics: {}", quoted(unused)));
     }
     Ok((topic, notes))
 }
@@ -134,7 +134,7 @@ pub(super) fn choose(
 /// Returns the note about a topic with joint values that is not judged.
 fn not_judged(other: &Topic, judged: &Topic) -> String {
     let why = match (judged.kind, other.kind) {
-        (Some(Kind::Trajectory), Some(Kind::State)) => "is what a controller plays",
+        (Some(Kind::Trajectory), Some(Kind::State)) => "is the one that a controller executes",
         _ => "is judged",
     };
     let name = other.name.rsplit('/').next().unwrap_or_default();
@@ -144,8 +144,12 @@ fn not_judged(other: &Topic, judged: &Topic) -> String {
 }
 
 fn broken(source: &Source, topic: &Topic) -> Diagnostic {
-    let message =
-        format!("a message on {} at {} ns is no {} in CDR", topic.name, topic.broken.unwrap_or_default(), topic.schema);
+    let message = format!(
+        "a message on {} at {} ns is not a {} in CDR",
+        topic.name,
+        topic.broken.unwrap_or_default(),
+        topic.schema
+    );
     source.diagnostic(message).help("the recording is damaged, or of another type")
 }
 
@@ -155,7 +159,7 @@ pub(super) fn unreadable(source: &Source, error: &McapError) -> Diagnostic {
         McapError::UnsupportedCompression(_) => {
             "record it uncompressed, or with zstd or lz4 (mcap compress -o NEW.mcap OLD.mcap --compression zstd)"
         }
-        _ => "it is damaged, cut off, or no recording: record it anew, or repair it (mcap recover)",
+        _ => "it is damaged, truncated, or not a recording: record it again, or repair it (mcap recover)",
     };
     source.diagnostic(format!("cannot be read as MCAP: {error}")).help(help)
 }

@@ -1,0 +1,14 @@
+//! Headings of option groups in the help, the same in all commands.
+
+/// Options that replace the query of the world file.
+pub const QUERY: &str = "Query";
+/// Options for files and printed text.
+pub const OUTPUT: &str = "Output";
+/// Options for planners.
+pub const PLANNER: &str = "Planner";
+/// Options of `cplan explore` alone.
+pub const EXPLORATION: &str = "Exploration";
+/// Options of `cplan compare` alone.
+pub const COMPARISON: &str = "Comparison";
+/// Options of `cplan converge` alone.
+pub const RELAXATION: &str = "Relaxation";
