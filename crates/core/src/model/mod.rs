@@ -14,6 +14,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod additions;
 mod arm;
 mod attachment;
 mod carried;
@@ -36,6 +37,7 @@ mod stuck_along;
 mod tip_area;
 mod workspace;
 
+pub use additions::{Additions, LooseObstacle};
 pub use arm::{Arm, Plane};
 pub use attachment::{AttachedPart, Attachment, Grip};
 pub use carried::Carried;
@@ -50,9 +52,9 @@ pub use obstruction::Obstruction;
 pub use outcome::{Outcome, Status};
 pub use preference::{Preference, Region};
 pub use problem::{Goal, MotionProblem, MotionProblemError};
-pub use scene::{Additions, Contact, Pair, Scene};
+pub use scene::{Contact, Pair, Scene};
 pub use scene_error::{LARGEST, LONGEST_TURN, SceneError, are_small, check_range, is_pose, is_small};
 pub use self_obstacle::{Carrier, SelfObstacle};
 pub use stuck_along::BlockedStretch;
 pub use tip_area::area_goals;
-pub use workspace::{Heights, LooseObstacle, Obstacle, RESTING_TOLERANCE, Shape, Workspace};
+pub use workspace::{Heights, Obstacle, RESTING_TOLERANCE, Shape, Workspace};

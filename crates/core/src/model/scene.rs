@@ -4,7 +4,8 @@ use super::pairing::{Meet, Pairing, Reading, numbered};
 use super::scene_error::{check, check_clearance};
 use super::scene_record::SceneRecord;
 use super::{
-    Arm, Attachment, Carrier, Heights, Joint, Link, LooseObstacle, Obstacle, Part, SceneError, SelfObstacle, Workspace,
+    Additions, Arm, Attachment, Carrier, Heights, Joint, Link, LooseObstacle, Obstacle, Part, SceneError, SelfObstacle,
+    Workspace,
 };
 use crate::space::{Configuration, JointRange};
 use cplan_geometry::{Convex, Pose, Separation, separation};
@@ -31,18 +32,6 @@ pub struct Contact {
     pub pair: Pair,
     /// Their signed distance and its direction.
     pub separation: Separation,
-}
-
-/// What a scene can have beyond an arm and a workspace.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct Additions {
-    /// Loose obstacles. Everything but the methods that name them ignores them.
-    pub loose: Vec<LooseObstacle>,
-    /// Shapes that link 2 carries along. No clearance is kept between them and their supports: in every distance, a
-    /// support counts as farther away by the clearance.
-    pub attachment: Option<Attachment>,
-    /// Obstacles that link 2 itself is free to meet, by their number; loose obstacles are numbered after the static ones.
-    pub allowed_contacts: Vec<usize>,
 }
 
 /// Arm and workspace, with the pairs of shapes that can meet at all. Every module that asks about collisions asks

@@ -162,17 +162,6 @@ pub struct Workspace {
     pub preferences: Vec<Preference>,
 }
 
-/// An obstacle without a place: only others know where it is. Planners, configuration spaces, paths and proofs ignore it;
-/// a scene lists the pairs that can meet.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct LooseObstacle {
-    /// Name, heights and shape, in its own frame.
-    pub obstacle: Obstacle,
-    /// Angle of that frame in the plane, radians, if it is the same at all its places.
-    pub angle: Option<f64>,
-}
-
 impl Obstacle {
     /// Creates a simple polygon of either orientation, at all heights. Corners in metres, in order around the shape.
     ///
