@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
 /// Shapes that link 2 carries along beyond its own parts, such as an object in a gripper. They may touch some
-/// obstacles, their supports, and keep no clearance from them.
+/// obstacles, their supports, and keep no clearance from them. Their mass counts as link 2's own.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Attachment {
