@@ -64,13 +64,8 @@ fn spaces(c: &mut Criterion) {
         let [disc, star] = SHAPES.map(|(name, radii)| (name, polygon(ring(count, radii))));
         for (name, (shape, pieces)) in [disc, star, ("zigzag", wall(zigzag(count)))] {
             let obstacle = Obstacle { name: name.into(), shape, pieces, heights: Heights::ALL };
-            let workspace = Workspace {
-                name: name.into(),
-                obstacles: vec![obstacle],
-                clearance: 0.0,
-                preferences: Vec::new(),
-                movers: Vec::new(),
-            };
+            let workspace =
+                Workspace { name: name.into(), obstacles: vec![obstacle], clearance: 0.0, preferences: Vec::new() };
             let range = JointRange::Interval { lower: -2.8, upper: 2.8 };
             let scene = common::placed(common::rr([range; 2]), workspace);
             group.throughput(Throughput::Elements(count as u64));

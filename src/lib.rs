@@ -76,9 +76,10 @@ pub mod model {
     pub use cplan_core::model::*;
     pub use cplan_dynamics::{Torques, TorquesAt, keep_efforts};
     pub use cplan_handling::{
-        Action, BlendsClaim, Claims, Driver, Drives, EventClaim, HeldEffect, HeldJoint, HeldMotion, Holding, Item,
-        Object, OptimumClaim, RecordedStep, RecordedTurn, RobotJoint, RobotJoints, Step, StepClaims, Stroke, Task,
-        TaskClaims, TaskError, ToolJoint, Wrist,
+        Action, BlendsClaim, Claims, Course, CourseError, Driver, Drives, EventClaim, HeldEffect, HeldJoint,
+        HeldMotion, Holding, Item, LATEST, Leg, Mover, Object, OptimumClaim, Payload, RecordedStep, RecordedTurn,
+        RobotJoint, RobotJoints, Step, StepClaims, Stop, Stroke, Task, TaskClaims, TaskError, TimedScene,
+        TimedWorkspace, ToolJoint, Wrist,
     };
     pub use cplan_robot::AssumedLimits;
     pub use cplan_world::{Mount, Sensor};

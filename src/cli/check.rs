@@ -63,7 +63,7 @@ fn time(text: &str) -> Result<f64, String> {
 pub fn run(args: &CheckArgs) -> Result<u8, Failure> {
     let sinks = sinks::sinks(&[], &args.picture)?;
     let mut loaded = input::load_scene(args.files.robot(), &args.files.world)?.keeping(args.clearance)?;
-    loaded.scene = loaded.scene.frozen(args.time);
+    loaded.scene = loaded.timed().frozen(args.time);
     sinks::spare_inputs(sinks.iter().map(Sink::path), &loaded.files())?;
     loaded.robot.warnings.iter().for_each(|w| sinks::say(&format!("warning: {w}")));
     let scene = &loaded.scene;

@@ -102,7 +102,7 @@ pub fn hint(files: &Files, query: &QueryArgs) -> Option<String> {
     };
     let words = ["cplan".to_owned(), "explain".to_owned()].into_iter().chain(files.words()).chain(query.words());
     let command = words.map(|word| for_a_shell(&word)).collect::<Vec<_>>().join(" ");
-    (has_ends && loaded.scene.workspace().movers.is_empty()).then(|| format!("see the blockers: {command}"))
+    (has_ends && loaded.courses.is_empty()).then(|| format!("see the blockers: {command}"))
 }
 
 /// An explanation of a world's motion or task.

@@ -7,6 +7,7 @@ use super::inspect_text::text;
 use super::sinks::{self, Sink};
 use crate::draw::{AxesFrame, Picture, View};
 use crate::input::{self, Diagnostic, InputError, Inspection, RobotFile};
+use crate::model::TimedScene;
 use crate::motion::write_whole;
 use crate::space::Configuration;
 use clap::{Args, ValueHint};
@@ -142,7 +143,7 @@ fn view(inspection: &Inspection) -> Option<View> {
         } else {
             "planning is not possible".into()
         },
-        ..Picture::new(scene, Configuration::zeros())
+        ..Picture::new(TimedScene { scene, courses: &inspection.courses }, Configuration::zeros())
     };
     let frame = |f: &input::Frame| AxesFrame { name: f.name.clone(), at: f.at, axes: f.axes };
     Some(View::of_arm(&picture, &inspection.frames.iter().map(frame).collect::<Vec<_>>()))

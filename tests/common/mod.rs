@@ -138,10 +138,7 @@ pub fn asked(scene: Scene, start: Configuration, goals: impl Into<GoalSet>) -> M
 
 pub fn scene(arm: Arm, pieces: Vec<Convex>) -> Scene {
     let obstacles = pieces.into_iter().enumerate().map(|(i, p)| obstacle(&format!("o{i}"), p)).collect();
-    placed(
-        arm,
-        Workspace { name: "test".into(), obstacles, clearance: 0.0, preferences: Vec::new(), movers: Vec::new() },
-    )
+    placed(arm, Workspace { name: "test".into(), obstacles, clearance: 0.0, preferences: Vec::new() })
 }
 
 /// The benchmark problems with published truths: a 2R arm on the torus among four polygons.

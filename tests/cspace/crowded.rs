@@ -68,10 +68,7 @@ fn arm() -> Arm {
 
 fn scene(obstacle: Obstacle) -> Scene {
     let obstacles = vec![obstacle];
-    placed(
-        arm(),
-        Workspace { name: "crowded".into(), obstacles, clearance: 0.0, preferences: Vec::new(), movers: Vec::new() },
-    )
+    placed(arm(), Workspace { name: "crowded".into(), obstacles, clearance: 0.0, preferences: Vec::new() })
 }
 
 fn to_segment(p: Point, [a, b]: [Point; 2]) -> f64 {

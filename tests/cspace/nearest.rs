@@ -112,8 +112,7 @@ fn the_short_way_round_the_circle_counts() {
 #[test]
 fn an_arm_that_is_buried_has_no_way_out() {
     let obstacles = vec![obstacle("rock", disc(Point::zeros(), 5.0))];
-    let workspace =
-        Workspace { name: String::new(), obstacles, clearance: 0.0, preferences: Vec::new(), movers: Vec::new() };
+    let workspace = Workspace { name: String::new(), obstacles, clearance: 0.0, preferences: Vec::new() };
     assert_eq!(nearest_free(&placed(rr([JointRange::Circle; 2]), workspace), q(0.0, 0.0)), None);
 }
 

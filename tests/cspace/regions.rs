@@ -45,7 +45,7 @@ fn scene(joints: [Joint; 2], offset: Vector, links: [Vec<Convex>; 2], pieces: Ve
             heights: Heights::ALL,
         })
         .collect();
-    placed(arm, Workspace { name: "test".into(), obstacles, clearance, preferences: Vec::new(), movers: Vec::new() })
+    placed(arm, Workspace { name: "test".into(), obstacles, clearance, preferences: Vec::new() })
 }
 
 fn polygon(corners: &[(f64, f64)]) -> Convex {

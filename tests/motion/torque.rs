@@ -7,7 +7,9 @@ use super::common::random::times;
 use super::common::{all_kinds, arm, dice, joint, link, rectangle, scene};
 use cplan::check::certify;
 use cplan::geometry::{Point, Pose, Vector};
-use cplan::model::{Arm, Body, Dynamics, Grip, Heights, JointType, Payload, Scene, Torques};
+use cplan::model::{
+    Arm, Body, Dynamics, Grip, Heights, Holding, JointType, Object, Payload, Scene, Shape, Task, Torques,
+};
 use cplan::motion::{Drive, Objective, TimingError, Trajectory};
 use cplan::space::{Configuration, JointRange, Path};
 
@@ -280,19 +282,30 @@ fn a_slide_as_in_the_book() {
 
 #[test]
 fn what_is_carried_counts() {
-    let payload = |grip, mass| Payload {
-        object: "block".into(),
+    let block = Object {
+        name: "block".into(),
+        shape: Shape::Pieces,
         pieces: vec![rectangle(-1.0, 1.0, -0.5, 0.5)],
         heights: Heights::ALL,
-        grip,
-        mass,
-        supports: vec![],
+        lift: 0.0,
+        holding: Holding::Rigid,
+        at: Pose::identity(),
+        course: None,
+        mass: 6.0,
     };
     let bare = gantry([24.0, 30.0], [4.0, 2.0], Vector::zeros());
     let rigid = Grip::Rigid(Pose::translation(Vector::new(0.5, 0.0)));
     let carrying = |arm: &Arm, grip| {
-        let workspace = scene(arm.clone(), vec![]).workspace().clone();
-        Scene::handling(arm.clone(), workspace, Some(payload(grip, 6.0)), &[]).expect("a scene")
+        let task = Task {
+            arm: arm.clone(),
+            workspace: scene(arm.clone(), vec![]).workspace().clone().into(),
+            objects: vec![block.clone()],
+            start: Configuration::zeros(),
+            items: vec![],
+            wrist: None,
+            stroke: None,
+        };
+        task.scene(&[None], &[], Some(&Payload { object: 0, grip, supports: vec![] }), [])
     };
     let time = driven(&carrying(&bare, rigid), &[[0.0, 0.0], [4.0, 0.0]]).expect("a motion");
     // 12 kg instead of 6.

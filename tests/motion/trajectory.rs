@@ -60,10 +60,7 @@ fn scene(obstacle: bool) -> Scene {
         heights: Heights::ALL,
     };
     let obstacles = if obstacle { vec![far] } else { vec![] };
-    placed(
-        arm,
-        Workspace { name: "room".into(), obstacles, clearance: 0.0, preferences: Vec::new(), movers: Vec::new() },
-    )
+    placed(arm, Workspace { name: "room".into(), obstacles, clearance: 0.0, preferences: Vec::new() })
 }
 
 fn certified(scene: &Scene, waypoints: &[[f64; 2]]) -> CertifiedPath {

@@ -10,7 +10,7 @@ use cplan::engine::task::{Event, Leg, TaskAnswer};
 use cplan::geometry::{Point, Pose, Vector};
 use cplan::model::{
     Action, Arm, Course, Goal, Heights, Holding, Item, JointType, Mover, Object, Obstacle, Scene, Shape, Step, Stop,
-    Task, Workspace,
+    Task, TimedWorkspace,
 };
 use cplan::space::Configuration;
 
@@ -23,6 +23,7 @@ pub fn drawn(kind: &str, seed: u64) -> Option<Task> {
     workspace.obstacles.truncate(dice.below(4));
     let count = 1 + dice.below(2_usize);
     let still = placed(arm.clone(), workspace.clone());
+    let mut workspace = TimedWorkspace::from(workspace);
     workspace.movers = (0..dice.below(3_usize))
         .map(|_| {
             let halfway = somewhere(&mut dice, &still);
@@ -195,7 +196,7 @@ impl Replayed<'_> {
     /// Returns the distance at a time to shapes that must not be touched, minus the clearance; link 2 may touch some
     /// objects.
     fn room(&self, q: V, time: f64, touched: [Option<usize>; 2]) -> (f64, String) {
-        let Task { arm, workspace: Workspace { obstacles, movers, clearance, .. }, objects, .. } = self.task;
+        let Task { arm, workspace: TimedWorkspace { obstacles, movers, clearance, .. }, objects, .. } = self.task;
         let frames = frames(arm, q);
         // Obstacles with their heights, and the number of the object.
         let moved: Vec<Obstacle> = movers.iter().map(|mover| at(mover, time)).collect();

@@ -4,16 +4,19 @@ use crate::common::dice::Dice;
 use crate::common::{disc, rectangle};
 use crate::oracle::Oracle;
 use crate::world::{KINDS, world};
-use cplan::Problem;
 use cplan::geometry::{Convex, Point, Vector};
-use cplan::model::{Course, Heights, MotionProblem, Mover, Obstacle, Scene, Shape, Stop};
+use cplan::model::{Arm, Course, Heights, Mover, Obstacle, Scene, Shape, Stop, TimedWorkspace, Workspace};
 use cplan::motion::Trajectory;
-use cplan::space::Configuration;
+use cplan::space::{Configuration, GoalSet};
+use cplan::{Problem, ProblemError};
 
 /// A world with moving obstacles.
 pub struct Moving {
     pub name: String,
-    pub problem: MotionProblem,
+    pub arm: Arm,
+    workspace: TimedWorkspace,
+    start: Configuration,
+    goals: GoalSet,
 }
 
 impl Moving {
@@ -23,16 +26,16 @@ impl Moving {
         let standing = world(kind, seed)?;
         let mut dice = Dice::new(seed.wrapping_mul(0x9e37_79b9).wrapping_add(u64::from(kind.as_bytes()[1])));
         let (start, goals) = (standing.start(), standing.goals().clone());
-        let (arm, mut workspace) = standing.into_scene().into_parts();
+        let (arm, workspace) = standing.into_scene().into_parts();
+        let mut workspace = TimedWorkspace::from(workspace);
         workspace.obstacles.truncate(5);
         let reach = arm.reach();
         // Halfway along the motion, obstacles block most.
         let halfway = arm.tip_at((start + goals.pieces()[0].ends()[0]) / 2.0);
         let count = movers.unwrap_or_else(|| 2 + dice.below(4));
         workspace.movers = (0..count).map(|_| mover(&mut dice, arm.base, reach, halfway)).collect();
-        let scene = Scene::new(arm, workspace).expect("a scene");
-        let problem = MotionProblem::new(scene, start, goals).ok()?;
-        Some(Self { name: format!("{kind} {seed}"), problem })
+        let drawn = Self { name: format!("{kind} {seed}"), arm, workspace, start, goals };
+        drawn.among(drawn.workspace.clone()).ok().map(|_| drawn)
     }
 
     /// Returns the worlds of these seeds, for all kinds.
@@ -40,45 +43,45 @@ impl Moving {
         seeds.flat_map(|seed| KINDS.iter().filter_map(move |kind| Self::drawn(kind, seed, None)))
     }
 
+    fn among(&self, workspace: TimedWorkspace) -> Result<Problem, ProblemError> {
+        Problem::new(self.arm.clone(), workspace, self.start, self.goals.clone())
+    }
+
     pub fn asked(&self) -> Problem {
-        self.problem.clone().into()
+        self.among(self.workspace.clone()).expect("a problem")
     }
 
     /// Returns the problem without moving obstacles.
     pub fn standing(&self) -> Problem {
-        let (arm, mut workspace) = self.problem.scene().clone().into_parts();
-        workspace.movers.clear();
-        let scene = Scene::new(arm, workspace).expect("a scene");
-        MotionProblem::new(scene, self.problem.start(), self.problem.goals().clone()).expect("a problem").into()
+        self.among(TimedWorkspace { movers: Vec::new(), ..self.workspace.clone() }).expect("a problem")
     }
 
     /// Returns the distance to all obstacles at a time, minus the clearance to keep.
     pub fn room(&self, q: Configuration, time: f64) -> f64 {
-        let (arm, mut workspace) = self.problem.scene().clone().into_parts();
-        workspace.obstacles.extend(std::mem::take(&mut workspace.movers).iter().map(|mover| at(mover, time)));
-        Oracle::new(&Scene::new(arm, workspace).expect("a scene")).room(q)
+        self.frozen(&self.workspace.obstacles, time).room(q)
     }
 
     /// Returns only the moving obstacles, at a time.
     pub fn movers_at(&self, time: f64) -> Oracle {
-        let (arm, mut workspace) = self.problem.scene().clone().into_parts();
-        workspace.obstacles = std::mem::take(&mut workspace.movers).iter().map(|mover| at(mover, time)).collect();
-        Oracle::new(&Scene::new(arm, workspace).expect("a scene"))
+        self.frozen(&[], time)
+    }
+
+    fn frozen(&self, standing: &[Obstacle], time: f64) -> Oracle {
+        let moved = self.workspace.movers.iter().map(|mover| at(mover, time));
+        let obstacles = standing.iter().cloned().chain(moved);
+        let workspace = Workspace { clearance: self.workspace.clearance, ..Workspace::new(obstacles) };
+        Oracle::new(&Scene::new(self.arm.clone(), workspace).expect("a scene"))
     }
 
     /// Returns the world with moving obstacles that are faster between stops by this factor.
-    pub fn hurried(self, times: f64) -> Self {
-        let (start, goals) = (self.problem.start(), self.problem.goals().clone());
-        let (arm, mut workspace) = self.problem.into_scene().into_parts();
-        for mover in &mut workspace.movers {
+    pub fn hurried(mut self, times: f64) -> Self {
+        for mover in &mut self.workspace.movers {
             let first = mover.course.stops()[0].time;
             let sooner = |stop: &Stop| Stop { time: first + (stop.time - first) / times, ..*stop };
             let stops = mover.course.stops().iter().map(sooner).collect();
             mover.course = Course::new(stops, mover.course.velocity()).expect("a course");
         }
-        let scene = Scene::new(arm, workspace).expect("a scene");
-        let problem = MotionProblem::new(scene, start, goals).expect("as free as before");
-        Self { problem, ..self }
+        self
     }
 
     /// Returns, for each interval between stops of each moving obstacle, its beginning, its end, and the greatest speed
@@ -96,13 +99,12 @@ impl Moving {
             let last = [stops[stops.len() - 1].time, f64::INFINITY, mover.course.velocity().norm()];
             stops.windows(2).map(leg).chain([last]).collect::<Vec<_>>()
         };
-        self.problem.scene().workspace().movers.iter().flat_map(of).collect()
+        self.workspace.movers.iter().flat_map(of).collect()
     }
 
     /// Returns the time after which nothing moves any more, or no moving obstacle is near.
     pub fn horizon(&self) -> f64 {
-        let movers = &self.problem.scene().workspace().movers;
-        movers.iter().flat_map(|m| m.course.stops()).map(|stop| stop.time).fold(0.0, f64::max) + 8.0
+        self.workspace.movers.iter().flat_map(|m| m.course.stops()).map(|stop| stop.time).fold(0.0, f64::max) + 8.0
     }
 }
 

@@ -19,7 +19,8 @@ fn motions_that_know_nothing_of_what_moves_are_judged_as_they_are() {
         let time = trajectory.time.iter().map(|time| 100.0 + time).collect();
         let recording = Recording::new(rows(&trajectory.position), Some(time), Some(rows(&trajectory.velocity)));
         let recording = recording.expect("a recording");
-        let scene = world.problem.scene();
+        let problem = world.asked();
+        let scene = problem.scene();
         let pieces = recording.pieces();
         let least = (0..LOOKS).map(|look| {
             let at = look as f64 / LOOKS as f64 * pieces.len() as f64;
@@ -27,7 +28,7 @@ fn motions_that_know_nothing_of_what_moves_are_judged_as_they_are() {
             world.room(piece.at(share), piece.time(share) - 100.0)
         });
         let least = least.fold(f64::INFINITY, f64::min);
-        match check_collision(scene, &recording, scene.workspace().clearance) {
+        match check_collision(problem.timed(), &recording, scene.workspace().clearance) {
             CollisionCheck::Free { clearance, .. } => {
                 free += 1;
                 let proven = clearance - scene.workspace().clearance;

@@ -1,13 +1,13 @@
 //! A path that is proven impossible at any timing is also impossible for brute force.
 
 use crate::common::random::{seeds, usual};
-use crate::common::{asked, obstacle, placed, q, rectangle, rr};
+use crate::common::{obstacle, placed, q, rectangle, rr};
 use crate::drawn::{Moving, at as moved};
 use crate::oracle::Oracle;
 use cplan::geometry::{Point, Vector};
-use cplan::model::{Course, Mover, Stop, Workspace};
+use cplan::model::{Course, Mover, Stop, TimedWorkspace, Workspace};
 use cplan::space::{Configuration, JointRange, Path};
-use cplan::{Options, Outcome, plan};
+use cplan::{Options, Outcome, Problem, plan};
 
 /// Number of places on the path; longest time between two checks, in seconds (`STEP`); largest movement between them,
 /// in metres (`GOES`).
@@ -67,13 +67,13 @@ fn what_is_in_the_way_for_a_moment_refutes_every_timing() {
         obstacle: obstacle("bar", rectangle(0.4, 0.6, -1.0, 1.0)),
         course: Course::new(stops, Vector::zeros()).expect("a course"),
     };
-    let workspace = Workspace { movers: vec![mover.clone()], ..Workspace::new([]) };
-    let scene = placed(rr([JointRange::Interval { lower: -1.5, upper: 1.5 }; 2]), workspace);
+    let workspace = TimedWorkspace { movers: vec![mover.clone()], ..Workspace::new([]).into() };
+    let arm = rr([JointRange::Interval { lower: -1.5, upper: 1.5 }; 2]);
     let (start, goal) = (q(-0.5, 0.2), q(0.6, -0.3));
-    let plan = plan(&asked(scene.clone(), start, goal).into(), &Options::default()).expect("a plan");
+    let problem = Problem::new(arm.clone(), workspace, start, goal).expect("a problem");
+    let plan = plan(&problem, &Options::default()).expect("a plan");
     let Outcome::Unknown(reason) = plan.outcome() else { panic!("{:?}", plan.status()) };
     assert!(reason.contains("no timing avoids the moving obstacles (proven)"), "{reason}");
-    let (arm, _) = scene.into_parts();
     let there = |time: f64| Oracle::new(&placed(arm.clone(), Workspace::new([moved(&mover, time)])));
     for place in 0..=100 {
         let posture = start + (goal - start) * (f64::from(place) / 100.0);
@@ -101,7 +101,7 @@ fn looks(world: &Moving) -> Vec<f64> {
 /// Returns true if steps between places and between checks lead along the path, within the joints' speeds.
 fn gets_through(world: &Moving, path: &Path) -> bool {
     let at = |k: usize| -> Configuration { path.part(path.length() * k as f64 / PLACES as f64, f64::MAX).start() };
-    let speeds = world.problem.scene().arm().joints.each_ref().map(|joint| joint.velocity);
+    let speeds = world.arm.joints.each_ref().map(|joint| joint.velocity);
     let places: Vec<Configuration> = (0..=PLACES).map(at).collect();
     let takes =
         |a: Configuration, b: Configuration| (0..2).map(|j| (b - a)[j].abs() / speeds[j]).fold(0.0_f64, f64::max);

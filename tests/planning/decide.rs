@@ -25,13 +25,8 @@ fn ring(count: usize, folding: f64) -> MotionProblem {
     let ends = points.windows(2).filter(|w| w[0].y.abs() > 0.5);
     let pieces = ends.map(|w| wall(w[0], w[1])).collect();
     let obstacle = Obstacle { name: "ring".into(), shape: Shape::Pieces, pieces, heights: Heights::ALL };
-    let workspace = Workspace {
-        name: "ring".into(),
-        obstacles: vec![obstacle],
-        clearance: 0.0,
-        preferences: Vec::new(),
-        movers: Vec::new(),
-    };
+    let workspace =
+        Workspace { name: "ring".into(), obstacles: vec![obstacle], clearance: 0.0, preferences: Vec::new() };
     let scene = placed(rr([JointRange::Circle, JointRange::Interval { lower: -folding, upper: folding }]), workspace);
     asked(scene, q(0.0, 0.0), q(3.0, 0.0))
 }

@@ -208,6 +208,7 @@ fn what_no_world_says_is_no_task() {
         "place": "x:1:1", "speed": 1.0, "dwell": 0.0}});
     assert!(refused(first, place).contains("the tool carries none"));
     assert!(refused("/asked/task/objects/0/lift", json!(-1.0)).contains("lift"));
+    assert!(refused("/asked/task/objects/0/mass", json!(-1.0)).contains("mass"));
     assert!(refused("/asked/task/objects/0/at/rotation", json!([2.0, 0.0])).contains("pose must be finite"));
     assert!(refused("/asked/task/start", json!([100.0, 0.0])).contains("outside the limits"));
     assert!(refused("/asked/task/items", json!([])).contains("no steps"));
@@ -252,7 +253,7 @@ fn a_scene_with_a_payload_is_data_too() {
     assert!(again == motion);
     // Otherwise the payload would shrink.
     let mut halved = serde_json::to_value(&*leg.scene).unwrap();
-    *halved.pointer_mut("/payload/grip").unwrap() =
+    *halved.pointer_mut("/attachment/grip").unwrap() =
         json!({"rigid": {"rotation": [0.5, 0.0], "translation": [0.0, 0.0]}});
     assert!(serde_json::from_value::<Scene>(halved).unwrap_err().to_string().contains("grip"));
 }

@@ -1,6 +1,6 @@
 //! The choice of IK solutions and order against trying all of them.
 
-use crate::common::{arm, disc, joint, link, obstacle, placed, q, rectangle};
+use crate::common::{arm, disc, joint, link, obstacle, q, rectangle};
 use cplan::engine::task::{TaskAnswer, plan, rest_to_rest};
 use cplan::engine::{Method, Options};
 use cplan::geometry::{Point, Pose, Vector};
@@ -31,7 +31,7 @@ fn cell(limits: [[f64; 2]; 2]) -> (Arm, Workspace) {
     );
     let pieces = [disc(Point::new(1.2, 0.5), 0.08), disc(Point::new(-0.6, 1.2), 0.1), rectangle(0.3, 0.6, -1.3, -1.1)];
     let obstacles = pieces.into_iter().map(|piece| obstacle("post", piece)).collect();
-    (arm, Workspace { name: "cell".into(), obstacles, clearance: 0.0, preferences: Vec::new(), movers: Vec::new() })
+    (arm, Workspace { name: "cell".into(), obstacles, clearance: 0.0, preferences: Vec::new() })
 }
 
 /// Returns a flat object far below the arm, which nothing can hit.
@@ -70,6 +70,7 @@ fn task(limits: [[f64; 2]; 2], spots: &[[Point; 2]], free: bool) -> Task {
         if free { vec![Item::AnyOrder(pairs)] } else { pairs.into_iter().flatten().map(Item::Step).collect() };
     let home = q(0.0, 0.3);
     items.push(Item::Step(step(Action::Move(Goal::Joints(home)), 2 * spots.len() + 1)));
+    let workspace = workspace.into();
     Task { arm, workspace, objects, start: home, items, wrist: None, stroke: None }
 }
 
@@ -162,7 +163,7 @@ fn the_fastest_of_all_ik_solutions_and_orders_is_found() {
                     let there = Step { dwell: 0.0, ..step(Action::Move(Goal::Joints(to)), 1) };
                     let blocked = |q: Configuration| {
                         let poses: Vec<_> = task.objects.iter().map(|o| Some(o.at)).collect();
-                        let scene = placed(task.arm.clone(), task.obstacles(&poses));
+                        let scene = task.scene(&poses, &[], None, []);
                         !scene.obstructions(q).is_empty()
                     };
                     if blocked(from) || blocked(to) {
@@ -206,7 +207,7 @@ fn a_large_group_gets_a_good_order() {
     let (arm, _) = cell(limits);
     let free = |at: &Point| {
         let empty = task(limits, &[], false);
-        let scene = placed(empty.arm.clone(), empty.workspace.clone());
+        let scene = empty.workspace.clone().scene(empty.arm.clone()).expect("a scene");
         ik_solutions(&arm, *at).iter().any(|q| scene.obstructions(*q).is_empty())
     };
     let spots: Vec<[Point; 2]> = spots(3, 30, &arm).into_iter().filter(|pair| pair.iter().all(free)).take(12).collect();

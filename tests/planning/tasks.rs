@@ -9,7 +9,7 @@ use cplan::Outcome;
 use cplan::engine::task::{TaskAnswer, plan};
 use cplan::engine::{Method, Options};
 use cplan::input::{self, Overrides};
-use cplan::model::{Action, Goal, Holding, Item, Object, Step, Task, Workspace, inverse, within};
+use cplan::model::{Action, Goal, Holding, Item, Object, Step, Task, TimedWorkspace, inverse, within};
 use cplan::space::Configuration;
 use std::path::{Path, PathBuf};
 
@@ -73,7 +73,7 @@ fn holding_level_or_rigid_makes_the_difference() {
     let [level, rigid] = ["slot_level", "slot_rigid"].map(shipped);
     let differ = |task: &Task| Task {
         objects: task.objects.iter().map(|o| Object { holding: Holding::Rigid, ..o.clone() }).collect(),
-        workspace: Workspace { name: String::new(), ..task.workspace.clone() },
+        workspace: TimedWorkspace { name: String::new(), ..task.workspace.clone() },
         items: Vec::new(),
         ..task.clone()
     };

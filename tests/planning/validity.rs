@@ -12,8 +12,8 @@ use cplan::geometry::{
     Convex, ConvexError, Orientation, Point, Polygon, PolygonError, RingError, SimplePolygon, Vector, orientation,
 };
 use cplan::model::{
-    Arm, Body, Dynamics, Grip, Heights, JointType, MotionProblem, MotionProblemError, Payload, Preference, Region,
-    Scene, SceneError, Workspace,
+    Additions, Arm, AttachedPart, Attachment, Body, Dynamics, Grip, Heights, JointType, MotionProblem,
+    MotionProblemError, Preference, Region, Scene, SceneError, Workspace,
 };
 use cplan::space::{GoalSet, JointRange, Segment};
 use std::f64::consts::PI;
@@ -79,8 +79,7 @@ fn arm(change: impl Fn(&mut Arm)) -> Arm {
 /// Returns a workspace with one obstacle and a change.
 fn workspace(change: impl Fn(&mut Workspace)) -> Workspace {
     let obstacles = vec![obstacle("post", disc(Point::new(0.9, 0.9), 0.1))];
-    let mut workspace =
-        Workspace { name: "room".into(), obstacles, clearance: 0.0, preferences: Vec::new(), movers: Vec::new() };
+    let mut workspace = Workspace { name: "room".into(), obstacles, clearance: 0.0, preferences: Vec::new() };
     change(&mut workspace);
     workspace
 }
@@ -184,32 +183,27 @@ fn no_arm_weighs_less_than_nothing() {
 
 #[test]
 fn nothing_is_carried_that_cannot_be() {
-    let payload = |grip, heights, supports| Payload {
-        object: "part".into(),
-        pieces: vec![rectangle(-0.1, 0.1, -0.1, 0.1)],
-        heights,
-        grip,
-        mass: 0.0,
-        supports,
-    };
+    let shape = rectangle(-0.1, 0.1, -0.1, 0.1);
+    let parts = vec![AttachedPart { shape, number: 0, on_supports: false, is_evidence: true }];
+    let carried =
+        |grip, heights, supports| Attachment { name: "part".into(), heights, grip, parts: parts.clone(), supports };
     let level = |angle| Grip::Level { angle, point: Point::zeros() };
     let cases = [
-        (payload(level(NAN), Heights::ALL, vec![]), vec![], SceneError::Grip { object: "part".into() }),
-        (payload(level(0.0), Heights::ALL, vec![1]), vec![], SceneError::NoObstacle { number: 1, count: 1 }),
-        (payload(level(0.0), Heights::ALL, vec![]), vec![7], SceneError::NoObstacle { number: 7, count: 1 }),
+        (carried(level(NAN), Heights::ALL, vec![]), vec![], SceneError::Grip { object: "part".into() }),
+        (carried(level(0.0), Heights::ALL, vec![1]), vec![], SceneError::NoObstacle { number: 1, count: 1 }),
+        (carried(level(0.0), Heights::ALL, vec![]), vec![7], SceneError::NoObstacle { number: 7, count: 1 }),
         (
-            payload(level(0.0), Heights { lower: 1.0, upper: 0.5 }, vec![]),
+            carried(level(0.0), Heights { lower: 1.0, upper: 0.5 }, vec![]),
             vec![],
             SceneError::Heights { of: "part".into(), lower: 1.0, upper: 0.5 },
         ),
-        (
-            Payload { mass: -1.0, ..payload(level(0.0), Heights::ALL, vec![]) },
-            vec![],
-            SceneError::Dynamics { what: "\"part\" of -1 kg".into() },
-        ),
     ];
-    for (payload, allowed_contacts, error) in cases {
-        let made = Scene::handling(arm(|_| ()), workspace(|_| ()), Some(payload), &allowed_contacts);
+    for (carried, allowed_contacts, error) in cases {
+        let made = Scene::with(
+            arm(|_| ()),
+            workspace(|_| ()),
+            Additions { attachment: Some(carried), allowed_contacts, ..Additions::default() },
+        );
         assert_eq!(made, Err(error));
     }
 }

@@ -11,7 +11,7 @@
 //! section 7.1). Revolute joints have torques in N m, prismatic joints have forces in N. Friction, gears and the
 //! inertia of the rotors are not included.
 
-use cplan_core::model::{Arm, Body, Dynamics, Grip, JointType, Payload, Scene};
+use cplan_core::model::{Arm, Body, Dynamics, JointType, Scene};
 use cplan_core::space::Configuration;
 use cplan_geometry::{Convex, Point, Vector, perpendicular};
 
@@ -92,36 +92,21 @@ pub fn keep_efforts(arm: &mut Arm) {
     arm.dynamics = Some(dynamics);
 }
 
-/// Returns the body that a payload adds to link 2, in the link's frame. A payload that a wrist keeps level does not
-/// turn: its mass acts at the tip.
-fn carried(arm: &Arm, payload: &Payload) -> Body {
-    match payload.grip {
-        Grip::Rigid(in_link) => {
-            let body = spread(payload.mass, &payload.pieces);
-            Body { center: in_link.point(body.center), ..body }
-        }
-        Grip::Level { .. } => Body { mass: payload.mass, center: arm.tip, inertia: 0.0 },
-    }
-}
-
 /// An arm with everything its joints move, to compute the torques of its motions.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Torques<'a> {
     /// The arm.
     pub arm: &'a Arm,
-    /// Masses of the arm and its payload, and the efforts.
+    /// Masses of the arm and what it carries, and the efforts.
     pub dynamics: Dynamics,
 }
 
 impl<'a> Torques<'a> {
-    /// Returns the torques of a scene's arm and load. Returns `None` if motions need not respect its efforts.
+    /// Returns the torques of a scene's arm. Returns `None` if motions need not respect its efforts.
     #[must_use]
     pub fn limited(scene: &'a Scene) -> Option<Self> {
         let arm = scene.arm();
-        let mut dynamics = arm.dynamics.filter(|dynamics| dynamics.limits)?;
-        if let Some(payload) = scene.payload() {
-            dynamics.bodies[1] = joined(&dynamics.bodies[1], &carried(arm, payload));
-        }
+        let dynamics = arm.dynamics.filter(|dynamics| dynamics.limits)?;
         Some(Self { arm, dynamics })
     }
 

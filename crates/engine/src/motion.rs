@@ -2,6 +2,7 @@
 
 use super::fastest::fastest;
 use cplan_core::model::{MotionProblem, Outcome};
+use cplan_handling::Course;
 use cplan_motion::{Fastest, Objective, Timed, TimingError};
 use cplan_movers::{Demand, InTime, Timing, in_time};
 use cplan_solver::{Answer, BoundedPath, Options};
@@ -29,6 +30,7 @@ impl Motion {
     /// Times the motion along a path. With moving obstacles there may be no timing; then returns the reason, in words.
     fn along(
         problem: &MotionProblem,
+        courses: &[Course],
         path: BoundedPath,
         options: &Options,
     ) -> Result<Result<Self, String>, TimingError> {
@@ -37,10 +39,10 @@ impl Motion {
             Objective::Time => fastest(problem, &path, options)?,
         };
         let mut timing = None;
-        if !problem.scene().workspace().movers.is_empty() {
+        if !courses.is_empty() {
             // The fastest motion may take another path than the shortest, to another goal.
             let taken = timed.curve.straight().clone();
-            match in_time(problem, &taken, timed, options, &Demand::ALONE)? {
+            match in_time(problem, courses, &taken, timed, options, &Demand::ALONE)? {
                 Ok(found) => {
                     let InTime { timed: waiting, figures } = found;
                     // The bound is unchanged, but the duration now includes the waits.
@@ -63,12 +65,13 @@ impl Motion {
 /// Fails if the motion lasts too long, or has too many samples.
 pub(super) fn driven(
     problem: &MotionProblem,
+    courses: &[Course],
     answer: Answer,
     options: &Options,
 ) -> Result<Answer<Motion>, TimingError> {
     let Answer { method, outcome, path_kind, history, run, space, stages } = answer;
     let outcome = match outcome {
-        Outcome::Found(path) => match Motion::along(problem, path, options)? {
+        Outcome::Found(path) => match Motion::along(problem, courses, path, options)? {
             Ok(motion) => Outcome::Found(motion),
             Err(reason) => Outcome::Unknown(reason.into()),
         },

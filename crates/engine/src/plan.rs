@@ -7,7 +7,7 @@ use super::result::{MessageError, Messages};
 use cplan_core::check::CheckedProof;
 use cplan_core::cspace::has_exact_polygons;
 use cplan_core::model::{Arm, MotionProblem, Outcome, Status};
-use cplan_handling::{RobotJoints, Task};
+use cplan_handling::{Course, RobotJoints, Task};
 use cplan_motion::{TimingError, Trajectory};
 use cplan_solver::{Answer, NamedJoints, Options, Replay, solve};
 use cplan_tasks::{FailedStep, TaskAnswer, TaskMotion, TaskReplay};
@@ -122,7 +122,7 @@ pub fn plan_with(problem: &Problem, options: &Options, progress: &mut dyn FnMut(
     }
     let mut clock = Clock::after(problem.read_in().map(|time| ("load", time)).into_iter().collect());
     let detail = match problem.content() {
-        MotionOrTask::Motion(motion) => plan_motion(motion, options, &mut clock, progress)?,
+        MotionOrTask::Motion(motion) => plan_motion(motion, problem.timed().courses, options, &mut clock, progress)?,
         MotionOrTask::Task(task, _) => plan_task(task, &named(problem, options), options, &mut clock, progress)?,
     };
     Ok(Plan { problem: problem.clone(), options: *options, detail: Box::new(detail), clock })
@@ -147,6 +147,7 @@ fn lack(options: &Options, problem: &Problem) -> Option<String> {
 /// Plans a single motion.
 fn plan_motion(
     motion: &MotionProblem,
+    courses: &[Course],
     options: &Options,
     clock: &mut Clock,
     progress: &mut dyn FnMut(&str),
@@ -166,7 +167,7 @@ fn plan_motion(
             options.levels
         ));
     }
-    let answer = driven(&problem, answer, options)?;
+    let answer = driven(&problem, courses, answer, options)?;
     if let Some(motion) = answer.outcome.found().filter(|_| options.accelerations) {
         motion.timed.trajectory.check_accelerations().map_err(MessageError::from)?;
     }

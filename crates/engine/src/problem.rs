@@ -1,8 +1,8 @@
 //! Problems: a motion, or a sequence of steps, of a robot in a world.
 
-use cplan_core::model::{Arm, MotionProblem, MotionProblemError, Scene, SceneError, Workspace};
+use cplan_core::model::{Arm, MotionProblem, MotionProblemError, Scene, SceneError};
 use cplan_core::space::{Configuration, GoalSet};
-use cplan_handling::{RobotJoints, Task};
+use cplan_handling::{Course, RobotJoints, Task, TimedScene, TimedWorkspace};
 use cplan_interrupt::Instant;
 use cplan_robot::{InputError, RobotFile, RobotReport};
 use cplan_world::{self, Loaded, LoadedScene, LoadedTask, Overrides};
@@ -17,6 +17,8 @@ use thiserror::Error;
 #[derive(Debug, Clone)]
 pub struct Problem {
     content: Arc<MotionOrTask>,
+    /// The trajectories of the scene's loose obstacles.
+    courses: Arc<[Course]>,
     robot: Arc<RobotReport>,
     notes: Arc<[String]>,
     /// Time that reading took.
@@ -78,15 +80,17 @@ impl Problem {
     ///
     /// # Errors
     /// Fails if numbers of the arm or the workspace are invalid, or if the start or a goal is outside the limits or not
-    /// free.
+    /// free. Moving obstacles are at their places at time 0.
     pub fn new(
         arm: Arm,
-        workspace: Workspace,
+        workspace: impl Into<TimedWorkspace>,
         start: impl Into<Configuration>,
         goals: impl Into<GoalSet>,
     ) -> Result<Self, ProblemError> {
-        let scene = Scene::new(arm, workspace)?;
-        Ok(MotionProblem::new(scene, start.into(), goals)?.into())
+        let workspace = workspace.into();
+        let courses = workspace.courses();
+        let problem = motion_among(workspace.scene(arm)?, &courses, start.into(), goals)?;
+        Ok(Self { courses: courses.into(), ..problem.into() })
     }
 
     /// Returns the same problem, with the time since `begun` as the time of reading.
@@ -138,28 +142,54 @@ impl Problem {
         &self.notes
     }
 
-    pub(super) fn read(content: MotionOrTask, robot: RobotReport, notes: Vec<String>) -> Self {
-        Self { content: Arc::new(content), robot: Arc::new(robot), notes: notes.into(), read_in: None }
+    /// Returns the scene with its trajectories.
+    #[must_use]
+    pub fn timed(&self) -> TimedScene<'_> {
+        TimedScene { scene: self.scene(), courses: &self.courses }
+    }
+
+    pub(super) fn read(content: MotionOrTask, courses: Vec<Course>, robot: RobotReport, notes: Vec<String>) -> Self {
+        let (content, courses, robot) = (Arc::new(content), courses.into(), Arc::new(robot));
+        Self { content, courses, robot, notes: notes.into(), read_in: None }
+    }
+}
+
+/// Creates a motion problem. At time 0, no moving obstacle may be at the start.
+///
+/// # Errors
+/// Same as for [`MotionProblem::new`].
+pub(super) fn motion_among(
+    scene: Scene,
+    courses: &[Course],
+    start: Configuration,
+    goals: impl Into<GoalSet>,
+) -> Result<MotionProblem, MotionProblemError> {
+    let problem = MotionProblem::new(scene, start, goals)?;
+    let scene = problem.scene();
+    match (TimedScene { scene, courses }).obstructions(start, 0.0).first() {
+        Some(found) => Err(MotionProblemError::StartBlocked { why: scene.explain(found) }),
+        None => Ok(problem),
     }
 }
 
 impl From<Loaded> for Problem {
-    fn from(Loaded { problem, robot, notes }: Loaded) -> Self {
-        Self::read(MotionOrTask::Motion(problem), robot, notes)
+    fn from(Loaded { problem, courses, robot, notes }: Loaded) -> Self {
+        Self::read(MotionOrTask::Motion(problem), courses, robot, notes)
     }
 }
 
 impl From<LoadedTask> for Problem {
     fn from(LoadedTask { task, scene, robot, notes }: LoadedTask) -> Self {
-        Self::read(MotionOrTask::Task(task, scene), robot, notes)
+        let courses = task.courses_at_first();
+        Self::read(MotionOrTask::Task(task, scene), courses, robot, notes)
     }
 }
 
 impl From<MotionProblem> for Problem {
-    /// Creates the problem for an arm that has no moving joints other than its two.
+    /// Creates the problem for an arm that has no moving joints other than its two. Loose obstacles are ignored.
     fn from(motion: MotionProblem) -> Self {
         let names = motion.scene().arm().joints.each_ref().map(|joint| joint.name.clone());
         let robot = RobotReport { joints: RobotJoints::planned(&names), ..RobotReport::default() };
-        Self::read(MotionOrTask::Motion(motion), robot, Vec::new())
+        Self::read(MotionOrTask::Motion(motion), Vec::new(), robot, Vec::new())
     }
 }

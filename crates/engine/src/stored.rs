@@ -9,9 +9,10 @@
 //! was changed, or written by another version.
 
 use super::plan::{Plan, plan};
-use super::problem::{MotionOrTask, Problem};
-use cplan_core::model::{MotionProblem, Scene};
-use cplan_handling::{Driver, RobotJoints, Task, TaskError, ToolJoint};
+use super::problem::{MotionOrTask, Problem, ProblemError, motion_among};
+use cplan_core::model::{Additions, Arm, Attachment, MotionProblem, Scene};
+use cplan_core::space::{Configuration, GoalSet};
+use cplan_handling::{Course, Driver, Mover, RobotJoints, Task, TaskError, TimedWorkspace, ToolJoint};
 use cplan_robot::RobotReport;
 use cplan_solver::Options;
 use serde::de::Error;
@@ -32,14 +33,58 @@ struct ProblemRecord<'a> {
 #[derive(Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 enum TargetRecord<'a> {
-    Motion(Cow<'a, MotionProblem>),
+    Motion(MotionRecord),
     Task(Cow<'a, Task>),
+}
+
+/// The stored form of a motion.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct MotionRecord {
+    scene: SceneRecord,
+    start: Configuration,
+    goals: GoalSet,
+}
+
+/// The stored form of a scene with its trajectories.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SceneRecord {
+    arm: Arm,
+    workspace: TimedWorkspace,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    attachment: Option<Attachment>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    allowed_contacts: Vec<usize>,
+}
+
+impl MotionRecord {
+    fn new(motion: &MotionProblem, courses: &[Course]) -> Self {
+        let scene = motion.scene();
+        let Additions { loose, attachment, allowed_contacts } = scene.additions().clone();
+        let (arm, workspace) = scene.clone().into_parts();
+        let movers = loose.into_iter().zip(courses.iter().cloned());
+        let movers = movers.map(|(loose, course)| Mover { obstacle: loose.obstacle, course }).collect();
+        let workspace = TimedWorkspace { movers, ..workspace.into() };
+        let scene = SceneRecord { arm, workspace, attachment, allowed_contacts };
+        Self { scene, start: motion.start(), goals: motion.goals().clone() }
+    }
+
+    /// Returns the motion, and the trajectories of its loose obstacles.
+    fn motion(self) -> Result<(MotionProblem, Vec<Course>), ProblemError> {
+        let Self { scene: SceneRecord { arm, mut workspace, attachment, allowed_contacts }, start, goals } = self;
+        workspace.hold_shapes();
+        let courses = workspace.courses();
+        let (workspace, additions) = workspace.into_parts();
+        let scene = Scene::with(arm, workspace, Additions { attachment, allowed_contacts, ..additions })?;
+        Ok((motion_among(scene, &courses, start, goals)?, courses))
+    }
 }
 
 impl Serialize for Problem {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let asked = match self.content() {
-            MotionOrTask::Motion(motion) => TargetRecord::Motion(Cow::Borrowed(motion)),
+            MotionOrTask::Motion(motion) => TargetRecord::Motion(MotionRecord::new(motion, self.timed().courses)),
             MotionOrTask::Task(task, _) => TargetRecord::Task(Cow::Borrowed(task)),
         };
         ProblemRecord { asked, robot: self.robot().clone(), notes: self.notes().to_vec() }.serialize(serializer)
@@ -54,8 +99,11 @@ impl<'de> Deserialize<'de> for Problem {
                 "the robot's joints need finite numbers within their ranges, and planned ones are 0 and 1",
             ));
         }
-        let content = match asked {
-            TargetRecord::Motion(motion) => MotionOrTask::Motion(motion.into_owned()),
+        let (content, courses) = match asked {
+            TargetRecord::Motion(record) => {
+                let (motion, courses) = record.motion().map_err(D::Error::custom)?;
+                (MotionOrTask::Motion(motion), courses)
+            }
             TargetRecord::Task(task) => {
                 let mut task = task.into_owned();
                 task.hold_shapes();
@@ -63,10 +111,11 @@ impl<'de> Deserialize<'de> for Problem {
                 if robot.joints.stroke.is_some() && robot.joints.stroke != task.stroke {
                     return Err(D::Error::custom("the robot's stroke is not the task's"));
                 }
-                MotionOrTask::Task(task, scene.map_err(D::Error::custom)?)
+                let (scene, courses) = (scene.map_err(D::Error::custom)?, task.courses_at_first());
+                (MotionOrTask::Task(task, scene), courses)
             }
         };
-        Ok(Self::read(content, robot, notes))
+        Ok(Self::read(content, courses, robot, notes))
     }
 }
 

@@ -295,8 +295,7 @@ impl Survey {
             .iter()
             .map(|&layer| obstacle("seen", layer, &|cell| is_seen(cell) && self.truth[cell] == Some(layer)));
         let obstacles = std::iter::once(unknown).chain(seen).filter(|obstacle| !obstacle.pieces.is_empty()).collect();
-        let workspace =
-            Workspace { name: String::new(), obstacles, clearance, preferences: Vec::new(), movers: Vec::new() };
+        let workspace = Workspace { name: String::new(), obstacles, clearance, preferences: Vec::new() };
         Scene::trusted(arm.clone(), workspace)
     }
 }

@@ -1,6 +1,8 @@
 //! Descriptions of tasks, and records of their execution.
 //!
-//! - [`Task`]: objects, and the steps in which an arm picks, carries and places them.
+//! - [`Task`]: objects, and the steps in which an arm picks, carries and places them. A [`Payload`] is an object while
+//!   the arm carries it.
+//! - Obstacles that move: a [`TimedWorkspace`] has [`Mover`]s, a [`TimedScene`] their trajectories.
 //! - The tool: a [`Stroke`] that lowers it, a [`Wrist`] that turns it, and all other joints of the robot
 //!   ([`RobotJoints`], [`HeldJoint`]).
 //! - Records of motions: a [`Recording`] holds samples, [`Piece`]s of polynomials join them, and [`Claims`] hold the
@@ -12,19 +14,25 @@ mod bernstein;
 mod claims;
 mod held;
 mod interpolation;
+mod mover;
+mod payload;
 mod piece;
 mod recording;
 mod robot_joints;
 mod stroke;
 mod task;
 mod task_error;
+mod timed;
 
 pub use claims::{BlendsClaim, Claims, EventClaim, OptimumClaim, RecordedStep, RecordedTurn, StepClaims, TaskClaims};
 pub use held::{HeldEffect, HeldJoint, HeldMotion};
 pub use interpolation::{INTERPOLATION, Interpolation, SMOOTH_INTERPOLATION};
+pub use mover::{Course, CourseError, LATEST, Leg, Mover, Stop};
+pub use payload::Payload;
 pub use piece::{Derivative, Piece, State};
 pub use recording::{Recording, RecordingError};
 pub use robot_joints::{Driver, Drives, RobotJoint, RobotJoints};
 pub use stroke::{Stroke, ToolJoint};
 pub use task::{Action, Holding, Item, Object, Step, Task, Wrist};
 pub use task_error::TaskError;
+pub use timed::{TimedScene, TimedWorkspace};

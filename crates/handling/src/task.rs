@@ -1,7 +1,7 @@
 //! Tasks: objects, and the steps to execute with them.
 
-use super::Stroke;
-use cplan_core::model::{Arm, Course, Goal, Grip, Heights, Mover, Obstacle, Payload, Shape, Workspace};
+use super::{Course, Mover, Payload, Stroke, TimedWorkspace};
+use cplan_core::model::{Arm, Goal, Heights, Obstacle, Shape};
 use cplan_core::space::Configuration;
 use cplan_geometry::{Convex, Interval, Point, Pose};
 use cplan_text::short;
@@ -130,7 +130,7 @@ pub struct Task {
     /// The arm without a load.
     pub arm: Arm,
     /// The static obstacles and the moving obstacles of the world.
-    pub workspace: Workspace,
+    pub workspace: TimedWorkspace,
     /// The objects that the arm can carry.
     pub objects: Vec<Object>,
     /// Start configuration, within the joint limits and free.
@@ -144,20 +144,6 @@ pub struct Task {
 }
 
 impl Task {
-    /// Returns the arm and the extent of an object in its hand while the tool is lowered to pick or place the object.
-    /// Returns `None` if the tool is not lowered. Without a stroke, only the final pose of a placed object is
-    /// considered: the path that lowers it to there is unknown.
-    pub fn lowered(&self, object: usize, is_placed: bool) -> Option<(Arm, Heights)> {
-        let object = &self.objects[object];
-        match &self.stroke {
-            Some(stroke) => {
-                let depth = Some(stroke.depth(object)).filter(|depth| *depth != 0.0)?;
-                Some((stroke.swept(&self.arm, depth), object.handled_heights()))
-            }
-            None => (is_placed && object.lift != 0.0).then(|| (self.arm.clone(), object.heights)),
-        }
-    }
-
     /// Returns the number of an object as an obstacle: objects follow the workspace's own obstacles.
     #[must_use]
     pub fn obstacle_number(&self, object: usize) -> usize {
@@ -167,7 +153,7 @@ impl Task {
     /// Returns the workspace with the objects at their poses. A carried object has no pose and becomes an obstacle
     /// without pieces, so that numbers stay the same.
     #[must_use]
-    pub fn obstacles(&self, poses: &[Option<Pose>]) -> Workspace {
+    pub fn obstacles(&self, poses: &[Option<Pose>]) -> TimedWorkspace {
         let mut workspace = self.workspace.clone();
         workspace.obstacles.extend(self.objects.iter().zip(poses).map(|(object, pose)| object.lying(pose.as_ref())));
         workspace
@@ -175,10 +161,29 @@ impl Task {
 
     /// Returns the same workspace with moving objects. They follow the workspace's own moving obstacles.
     #[must_use]
-    pub fn surroundings(&self, poses: &[Option<Pose>], moving: &[usize]) -> Workspace {
+    pub fn surroundings(&self, poses: &[Option<Pose>], moving: &[usize]) -> TimedWorkspace {
         let mut workspace = self.obstacles(poses);
         workspace.movers.extend(moving.iter().filter_map(|&object| self.objects[object].moving()));
         workspace
+    }
+
+    /// Returns the trajectories of the moving obstacles of [`Task::surroundings`], on the clock of the task.
+    #[must_use]
+    pub fn courses(&self, moving: &[usize]) -> Vec<Course> {
+        let objects = moving.iter().filter_map(|&object| self.objects[object].course.clone());
+        self.workspace.courses().into_iter().chain(objects).collect()
+    }
+
+    /// Returns the same on a clock that begins at a time of the task's.
+    #[must_use]
+    pub fn courses_since(&self, moving: &[usize], begin: f64) -> Vec<Course> {
+        self.courses(moving).iter().map(|course| course.since(begin)).collect()
+    }
+
+    /// Returns the same for the objects that move initially.
+    #[must_use]
+    pub fn courses_at_first(&self) -> Vec<Course> {
+        self.courses(&self.moving_at_first().collect::<Vec<_>>())
     }
 
     /// Returns the number of an object as an obstacle while `moving` objects move.
@@ -242,13 +247,6 @@ impl Object {
             Obstacle { name: self.name.clone(), shape, pieces, heights: self.heights }
         };
         self.course.clone().map(|course| Mover { obstacle: obstacle(), course })
-    }
-
-    /// Returns the object as a payload that may touch `supports`.
-    #[must_use]
-    pub fn carried(&self, grip: Grip, supports: Vec<usize>) -> Payload {
-        let (object, pieces) = (self.name.clone(), self.pieces.clone());
-        Payload { object, pieces, heights: self.carried_heights(), grip, mass: self.mass, supports }
     }
 
     /// Returns its extent along the plane's normal over all heights from where it lies to where it is carried.

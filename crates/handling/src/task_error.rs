@@ -1,8 +1,8 @@
 //! Checks that an arm, objects and steps form a task.
 
-use super::{Action, Holding, Item, Object, Step, Stroke, Task};
+use super::{Action, Holding, Item, LATEST, Object, Step, Stroke, Task, TimedScene};
 use cplan_core::model::{
-    Goal, LARGEST, LATEST, MotionProblem, MotionProblemError, Scene, SceneError, are_small, is_pose, is_small,
+    Goal, LARGEST, MotionProblem, MotionProblemError, Scene, SceneError, are_small, is_pose, is_small,
 };
 use std::collections::BTreeSet;
 use std::f64::consts::TAU;
@@ -73,7 +73,7 @@ impl Task {
         let at_first: Vec<_> = self.objects.iter().map(Object::standing_at_first).collect();
         let moving: Vec<usize> = self.moving_at_first().collect();
         self.objects.iter().try_for_each(check_object)?;
-        let scene = Scene::new(self.arm.clone(), self.surroundings(&at_first, &moving))?;
+        let scene = self.surroundings(&at_first, &moving).scene(self.arm.clone())?;
         if let Some((mover, why)) = self.unmoved() {
             return Err(TaskError::Moves { mover, why });
         }
@@ -95,7 +95,7 @@ impl Task {
             turned: self.objects.iter().map(angle_at_first).collect(),
         };
         self.items.iter().try_for_each(|item| state.item(item))?;
-        let first = scene.frozen(0.0);
+        let first = TimedScene { scene: &scene, courses: &self.courses(&moving) }.frozen(0.0);
         Ok(MotionProblem::new(first, self.start, self.start).map(|_| scene)?)
     }
 

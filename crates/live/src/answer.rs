@@ -5,9 +5,10 @@ use super::contours::Contours;
 use super::pace::Pace;
 use super::protocol::{About, AnswerReply, Pair};
 use super::result;
-use cplan_core::model::{Goal, Scene};
+use cplan_core::model::Goal;
 use cplan_core::space::{Configuration, Measure, Metric, Segment};
 use cplan_engine::Problem;
+use cplan_handling::TimedScene;
 use cplan_interrupt::{Instant, Interrupt, Interrupted};
 use cplan_solver::Options;
 use cplan_world::{Loaded, LoadedScene, Overrides};
@@ -132,7 +133,7 @@ impl Answering<'_> {
             [_, Some(Goal::Joints(q))] => vec![Segment::point(q)],
             _ => Vec::new(),
         };
-        let shown = self.bare(&loaded.scene, (at, &goal), "not planned")?;
+        let shown = self.bare(loaded.timed(), (at, &goal), "not planned")?;
         let refusal = blocked::refusal(loaded, error, at);
         Ok(AnswerReply { toml: self.toml, start, view: shown.view, ..refusal })
     }
@@ -150,7 +151,7 @@ impl Answering<'_> {
             Some(Err(Interrupted::Set)) => Err(Interrupted::Set),
             None | Some(Err(Interrupted::TimeUp)) => {
                 let reason = Some("not decided among moving obstacles".into());
-                let shown = self.bare(problem.scene(), ends.both(), "planning")?;
+                let shown = self.bare(problem.timed(), ends.both(), "planning")?;
                 Ok(ends.put_into(AnswerReply { reason, ..shown }))
             }
         }
@@ -164,7 +165,7 @@ impl Answering<'_> {
     pub fn in_full(self, loaded: Loaded, tell: &mut dyn FnMut(AnswerReply)) -> Result<AnswerReply, Interrupted> {
         let (ends, problem) = (Ends::of(&loaded), Problem::from(loaded));
         let Self { options, contours, deadlines, think, .. } = self;
-        match deadlines.plan.run(|| result::bare(problem.scene(), ends.both(), "planning", contours)) {
+        match deadlines.plan.run(|| result::bare(problem.timed(), ends.both(), "planning", contours)) {
             Ok(shown) => tell(ends.put_into(shown)),
             Err(Interrupted::TimeUp) => {}
             Err(Interrupted::Set) => return Err(Interrupted::Set),
@@ -174,14 +175,19 @@ impl Answering<'_> {
             Ok(Err(error)) => Ok(refused(About::Options, error)),
             Err(stopped) => {
                 let AnswerReply { verdict, reason, .. } = deadlines.late(stopped)?;
-                let shown = self.bare(problem.scene(), ends.both(), "unknown")?;
+                let shown = self.bare(problem.timed(), ends.both(), "unknown")?;
                 Ok(ends.put_into(AnswerReply { verdict, reason, toml: self.toml, ..shown }))
             }
         }
     }
 
     /// Answers with the configuration space without a path, if there is time for it.
-    fn bare(&self, scene: &Scene, ends: (Configuration, &[Segment]), status: &str) -> Result<AnswerReply, Interrupted> {
+    fn bare(
+        &self,
+        scene: TimedScene,
+        ends: (Configuration, &[Segment]),
+        status: &str,
+    ) -> Result<AnswerReply, Interrupted> {
         match self.deadlines.show.run(|| result::bare(scene, ends, status, self.contours)) {
             Err(Interrupted::TimeUp) => Ok(AnswerReply::default()),
             shown => shown,

@@ -84,7 +84,7 @@ fn own(scene: &Scene) -> Vec<CObstacle> {
     if scene.arm().self_obstacles.is_empty() {
         return Vec::new();
     }
-    let workspace = Workspace { obstacles: Vec::new(), movers: Vec::new(), ..scene.workspace().clone() };
+    let workspace = Workspace { obstacles: Vec::new(), ..scene.workspace().clone() };
     output::contours(&Scene::trusted(scene.arm().clone(), workspace))
 }
 

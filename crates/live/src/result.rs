@@ -6,6 +6,7 @@ use cplan_core::cspace::CObstacle;
 use cplan_core::model::{Scene, Status};
 use cplan_core::space::{Configuration, Segment};
 use cplan_engine::{Detail, Problem, plan};
+use cplan_handling::TimedScene;
 use cplan_solver::Options;
 use cplan_view::output;
 use cplan_view::output::{replayed, view_with};
@@ -13,8 +14,8 @@ use cplan_view::{Picture, View};
 use serde_json::value::RawValue;
 
 /// Returns a scene with its configuration space but without a path, and the reason in a word or two.
-pub fn bare(scene: &Scene, ends: (Configuration, &[Segment]), status: &str, contours: &Contours) -> AnswerReply {
-    let contours = contours.of(scene);
+pub fn bare(scene: TimedScene, ends: (Configuration, &[Segment]), status: &str, contours: &Contours) -> AnswerReply {
+    let contours = contours.of(scene.scene);
     let (start, goals) = ends;
     let picture = Picture { status: status.into(), ..picture(scene, start, goals, &contours) };
     AnswerReply { view: drawn(&View::of_picture(&picture)), ..AnswerReply::default() }
@@ -26,16 +27,18 @@ pub fn bare(scene: &Scene, ends: (Configuration, &[Segment]), status: &str, cont
 /// The reason, if the requested trajectory cannot be made.
 pub fn quick(problem: &Problem, options: &Options, contours: &Contours) -> Result<AnswerReply, String> {
     let plan = plan(problem, &Options { bounded: false, ..*options }).map_err(|error| error.to_string())?;
+    let timed = problem.timed();
     let Some((problem, answer)) = plan.motion() else {
         return Err("steps are not planned while something moves".into());
     };
-    let contours = contours.of(problem.scene());
+    let timed = TimedScene { scene: problem.scene(), ..timed };
+    let contours = contours.of(timed.scene);
     let mut picture = Picture {
         trace: Some(&answer.run.trace),
         proof: answer.outcome.infeasible(),
         status: output::status(plan.status()).into(),
         ending: Some(plan.status()),
-        ..picture(problem.scene(), problem.start(), problem.goals().pieces(), &contours)
+        ..picture(timed, problem.start(), problem.goals().pieces(), &contours)
     };
     let mut figures = Figures { clearance: plan.clearance(), ..Figures::of_size(answer.run.size) };
     if let Some(path) = answer.path() {
@@ -47,12 +50,12 @@ pub fn quick(problem: &Problem, options: &Options, contours: &Contours) -> Resul
 }
 
 fn picture<'a>(
-    scene: &'a Scene,
+    scene: TimedScene<'a>,
     start: Configuration,
     goals: &'a [Segment],
     c_obstacles: &'a [CObstacle],
 ) -> Picture<'a> {
-    let title = vec![output::title_of(scene), arm_of(scene)];
+    let title = vec![output::title_of(scene.scene), arm_of(scene.scene)];
     Picture { title, goals, c_obstacles, ..Picture::new(scene, start) }
 }
 

@@ -2,10 +2,11 @@
 //! joint space.
 
 use cplan_core::check::{Deviation, Posture};
-use cplan_core::model::{Leg, Mover, Pair, Scene};
+use cplan_core::model::{Pair, Scene};
 use cplan_geometry::{
     Convex, Interval, Point, Pose, Vector, cross, merge_in_place, separation, separation_at, sliding,
 };
+use cplan_handling::{Leg, TimedScene};
 use cplan_interrupt::checkpoint;
 use std::cell::OnceCell;
 
@@ -221,23 +222,23 @@ impl Stretch {
 impl<'a> Movers<'a> {
     /// Prepares the movers of a scene, from which this clearance must be kept, metres.
     #[must_use]
-    pub fn new(scene: &'a Scene, clearance: f64) -> Self {
+    pub fn new(timed: TimedScene<'a>, clearance: f64) -> Self {
+        let TimedScene { scene, courses } = timed;
         let mut stretches = Vec::new();
         // Index of the first stretch of each piece.
         let mut first = Vec::new();
-        for (mover, Mover { course, .. }) in scene.workspace().movers.iter().enumerate() {
+        for (mover, course) in (0..scene.loose().len()).zip(courses) {
             let of = |piece: &Convex| {
                 let begins = stretches.len();
                 stretches.extend(course.legs().iter().map(|leg| Stretch::new(piece, *leg)));
                 begins
             };
-            first.push(scene.pieces_of_mover(mover).map(of).collect::<Vec<_>>());
+            first.push(scene.pieces_of_loose(mover).map(of).collect::<Vec<_>>());
         }
-        let standing = scene.workspace().obstacles.len();
         let mut meetings = Vec::new();
-        for &pair in scene.moving_pairs() {
-            let mover = pair.obstacle - standing;
-            let legs = scene.workspace().movers[mover].course.legs();
+        for &pair in timed.moving_pairs() {
+            let Some((mover, course)) = scene.loose_index(pair).zip(timed.course(pair)) else { continue };
+            let legs = course.legs();
             meetings.extend(legs.iter().enumerate().map(|(leg, Leg { from, to, .. })| Meeting {
                 pair,
                 within: [*from, *to],

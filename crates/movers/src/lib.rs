@@ -18,9 +18,9 @@ pub use blocked::Movers;
 pub use schedule::{Demand, Wait};
 
 use cplan_core::check::{CertifiedPath, Nearest, certify};
-use cplan_core::model::{MotionProblem, Outcome, Scene};
+use cplan_core::model::{MotionProblem, Outcome};
 use cplan_core::space::{Configuration, GoalSet, Segment};
-use cplan_handling::{Interpolation, Recording};
+use cplan_handling::{Course, Interpolation, Recording, TimedScene};
 use cplan_motion::recorded::{CollisionCheck, certify_in_time, met_in_time};
 use cplan_motion::{Limits, Timed, TimingError, Trajectory};
 use cplan_solver::{Options, solve};
@@ -63,21 +63,23 @@ pub struct Timing {
     pub free_until: Option<f64>,
 }
 
-/// Returns the earliest motion along the paths tried: first along the certified path, and then along others. `first` is
-/// the motion along the certified path without moving obstacles, at the demand's speed. If there is no motion, returns
-/// the reason in words.
+/// Returns the earliest motion along the paths tried: first along the certified path, and then along others. The loose
+/// obstacles of the problem's scene have these trajectories. `first` is the motion along the certified path without
+/// moving obstacles, at the demand's speed. If there is no motion, returns the reason in words.
 ///
 /// # Errors
 /// Fails if a path cannot be timed.
 pub fn in_time(
     problem: &MotionProblem,
+    courses: &[Course],
     certified: &CertifiedPath,
     first: Timed,
     options: &Options,
     demand: &Demand,
 ) -> Result<Result<InTime, String>, TimingError> {
     let scene = problem.scene();
-    let movers = Movers::new(scene, scene.workspace().clearance);
+    let timed = TimedScene { scene, courses };
+    let movers = Movers::new(timed, scene.workspace().clearance);
     let mut around = problem.clone();
     let mut way = Some((certified.clone(), first));
     // Motions in the order in which they were found, each better than the one before.
@@ -117,7 +119,7 @@ pub fn in_time(
         if ways == WAYS || found.last().is_some_and(is_best) {
             break;
         }
-        let Some(next) = around_what_is_met(&around, &whole.trajectory) else { break };
+        let Some(next) = around_what_is_met(&around, courses, &whole.trajectory) else { break };
         around = next;
         let planner = options.planner.with_gap(options.planner.gap().unwrap_or(GAP));
         let looser = Options { bounded: false, planner, ..*options };
@@ -126,12 +128,11 @@ pub fn in_time(
         let whole = options.drive.along(scene, &other, demand.speed)?;
         way = Some((other, whole));
     }
-    let certified = found.into_iter().rev().find_map(|found| certified_in_time(scene, found, ways));
-    Ok(certified.ok_or_else(|| reason(ways, refuted, scene)))
+    let certified = found.into_iter().rev().find_map(|found| certified_in_time(timed, found, ways));
+    Ok(certified.ok_or_else(|| reason(ways, refuted, courses.len())))
 }
 
-fn reason(ways: usize, refuted: usize, scene: &Scene) -> String {
-    let movers = scene.workspace().movers.len();
+fn reason(ways: usize, refuted: usize, movers: usize) -> String {
     let moves = if movers == 1 { "an obstacle moves".into() } else { format!("{movers} obstacles move") };
     let tried = if ways == 1 { "the one route tried".into() } else { format!("the {ways} routes tried") };
     let known = match refuted {
@@ -146,13 +147,13 @@ fn reason(ways: usize, refuted: usize, scene: &Scene) -> String {
 }
 
 /// Certifies a motion in both forms in which consumers join its samples.
-fn certified_in_time(scene: &Scene, found: Scheduled, ways: usize) -> Option<InTime> {
+fn certified_in_time(timed: TimedScene, found: Scheduled, ways: usize) -> Option<InTime> {
     let Scheduled { timed: Timed { curve, trajectory }, waits, free_until } = found;
     let (mut clearance, mut nearest) = (f64::INFINITY, None);
     // Without blends, both forms are the same motion.
     let is_curved = curve.radii().iter().any(|radius| *radius > 0.0);
     for recording in recordings(&trajectory)?.into_iter().take(if is_curved { 2 } else { 1 }) {
-        match certify_in_time(scene, &recording, scene.workspace().clearance) {
+        match certify_in_time(timed, &recording, timed.scene.workspace().clearance) {
             CollisionCheck::Free { clearance: proven, nearest: seen } => {
                 clearance = clearance.min(proven);
                 nearest = seen.map(|seen| Nearest { at: seen.moment.at, contact: seen.contact });
@@ -161,7 +162,7 @@ fn certified_in_time(scene: &Scene, found: Scheduled, ways: usize) -> Option<InT
         }
     }
     let curve = curve.among_movers(clearance, nearest);
-    let obstacles = scene.workspace().movers.len();
+    let obstacles = timed.courses.len();
     let [clearance, free_until] = [clearance, free_until].map(|value| Some(value).filter(|value| value.is_finite()));
     let figures = Timing { obstacles, ways, waits, clearance, free_until };
     Some(InTime { timed: Timed { curve, trajectory }, figures })
@@ -169,11 +170,11 @@ fn certified_in_time(scene: &Scene, found: Scheduled, ways: usize) -> Option<InT
 
 /// Returns the distance that the arm provably keeps from moving obstacles while it stands at `q` for some seconds, from
 /// the beginning of the scene's clock. `None` if that is not more than the clearance.
-pub fn stands(scene: &Scene, q: Configuration, seconds: f64) -> Option<f64> {
+pub fn stands(timed: TimedScene, q: Configuration, seconds: f64) -> Option<f64> {
     let times = if seconds > 0.0 { vec![0.0, seconds] } else { vec![0.0] };
     let (positions, velocities) = (vec![q; times.len()], vec![Configuration::zeros(); times.len()]);
     let standing = Recording::new(positions, Some(times), Some(velocities)).ok()?;
-    match certify_in_time(scene, &standing, scene.workspace().clearance) {
+    match certify_in_time(timed, &standing, timed.scene.workspace().clearance) {
         CollisionCheck::Free { clearance, .. } => Some(clearance),
         CollisionCheck::Collision { .. } | CollisionCheck::Undecided(_) => None,
     }
@@ -190,13 +191,14 @@ fn recordings(trajectory: &Trajectory) -> Option<[Recording; 2]> {
 
 /// Returns the same problem, in which the first mover that the motion meets becomes a static obstacle at the place of
 /// contact. `None` if the motion meets nothing, or if the start or all goals are blocked then.
-fn around_what_is_met(problem: &MotionProblem, trajectory: &Trajectory) -> Option<MotionProblem> {
+fn around_what_is_met(problem: &MotionProblem, courses: &[Course], trajectory: &Trajectory) -> Option<MotionProblem> {
     let scene = problem.scene();
     let [cubic, _] = recordings(trajectory)?;
-    let met = met_in_time(scene, &cubic, scene.workspace().clearance)?;
-    let mover = scene.mover(met.contact.pair)?.at(met.moment.time);
-    let scene = scene.with_standing(mover);
+    let timed = TimedScene { scene, courses };
+    let met = met_in_time(timed, &cubic, scene.workspace().clearance)?;
+    let scene = scene.with_standing(timed.obstacle(met.contact.pair, met.moment.time)?);
     let is_open = |goal: &&Segment| !goal.is_point() || scene.obstructions(goal.ends()[0]).is_empty();
     let goals: GoalSet = problem.goals().pieces().iter().filter(is_open).copied().collect();
-    MotionProblem::new(scene, problem.start(), goals).ok()
+    let is_clear = TimedScene { scene: &scene, courses }.obstructions(problem.start(), 0.0).is_empty();
+    MotionProblem::new(scene, problem.start(), goals).ok().filter(|_| is_clear)
 }

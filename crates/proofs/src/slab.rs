@@ -266,13 +266,7 @@ mod tests {
         let obstacle = Obstacle { name: "o".into(), shape, pieces: vec![piece], heights: Heights::ALL };
         Scene::trusted(
             arm,
-            Workspace {
-                name: "w".into(),
-                obstacles: vec![obstacle],
-                clearance: 0.0,
-                preferences: Vec::new(),
-                movers: Vec::new(),
-            },
+            Workspace { name: "w".into(), obstacles: vec![obstacle], clearance: 0.0, preferences: Vec::new() },
         )
     }
 

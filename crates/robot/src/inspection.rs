@@ -3,6 +3,7 @@
 use super::error::InputError;
 use cplan_core::model::{OutlineSource, Scene};
 use cplan_geometry::Point;
+use cplan_handling::Course;
 use nalgebra::Vector3;
 use serde::Serialize;
 use std::path::PathBuf;
@@ -52,6 +53,9 @@ pub struct Inspection {
     /// The arm among the world's obstacles, for a picture. Missing ranges and outlines are replaced by assumed ones.
     #[serde(skip)]
     pub scene: Option<Scene>,
+    /// The trajectories of the scene's loose obstacles.
+    #[serde(skip)]
+    pub courses: Vec<Course>,
     /// Paths of the files that were read: the URDF, the files of its xacro, its meshes, and those of the world.
     #[serde(skip)]
     pub files: Vec<PathBuf>,

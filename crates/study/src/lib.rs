@@ -167,7 +167,7 @@ impl Study {
             false => cplan_world::scene_from(urdf, world)?,
         };
         if !self.may_overlap
-            && let Some(why) = overlap(&self.base.world.workspace, &scene.world.workspace)
+            && let Some(why) = overlap(&self.base.world.workspace.obstacles, &scene.world.workspace.obstacles)
         {
             let source = self.world.source();
             return Err(source.diagnostic(why).help("if overlaps are allowed, set overlap = true in the study").into());

@@ -1,15 +1,14 @@
 //! Obstacles that stand in each other, as no two things can.
 
-use cplan_core::model::{Obstacle, Workspace};
+use cplan_core::model::Obstacle;
 use cplan_geometry::{Bounds, BoxTree, Convex, separation};
 
 /// Depths up to this, metres, are touching: what numbers in files and moving shapes round.
 const TOUCHING: f64 = 1e-9;
 
-/// Describes two obstacles that overlap in a layout but not in the files. Examines only pairs in which at least one
+/// Describes two obstacles that overlap `now`, in a layout, but not `before`, in the files. Examines only pairs in which at least one
 /// differs from the files.
-pub(super) fn overlap(files: &Workspace, layout: &Workspace) -> Option<String> {
-    let [before, now] = [&files.obstacles, &layout.obstacles];
+pub(super) fn overlap(before: &[Obstacle], now: &[Obstacle]) -> Option<String> {
     let differs = |k: usize| before.get(k) != Some(&now[k]);
     let moved: Vec<usize> = (0..now.len()).filter(|&k| differs(k)).collect();
     // A study may move nothing but the robot.
@@ -67,9 +66,9 @@ mod tests {
     #[test]
     fn what_overlaps_is_what_middles_say() {
         let mut numbers = Draws::nth(5, 0);
-        let files = Workspace::new([square("a", [9.0, 0.0]), square("b", [0.0, 0.0])]);
+        let files = [square("a", [9.0, 0.0]), square("b", [0.0, 0.0])];
         let round = |name: &str, at: [f64; 2]| Obstacle::circle(name, at, 0.5).unwrap();
-        let discs = Workspace::new([round("a", [9.0, 0.0]), round("b", [0.0, 0.0])]);
+        let discs = [round("a", [9.0, 0.0]), round("b", [0.0, 0.0])];
         let mut overlapping = [0; 2];
         for k in 0..400 {
             // Some of them touch, or are a hair apart.
@@ -77,9 +76,9 @@ mod tests {
                 0 => (numbers.unit() * 5.0).floor() * 0.5 - 1.0,
                 _ => numbers.unit() * 3.0 - 1.5,
             });
-            let said = overlap(&files, &Workspace::new([square("a", [x, y]), square("b", [0.0, 0.0])]));
+            let said = overlap(&files, &[square("a", [x, y]), square("b", [0.0, 0.0])]);
             assert_eq!(said.is_some(), x.abs() < 1.0 && y.abs() < 1.0, "{x} {y}");
-            let disc = overlap(&discs, &Workspace::new([round("a", [x, y]), round("b", [0.0, 0.0])]));
+            let disc = overlap(&discs, &[round("a", [x, y]), round("b", [0.0, 0.0])]);
             assert_eq!(disc.is_some(), x.hypot(y) < 1.0, "{x} {y}");
             overlapping[0] += usize::from(said.is_some());
             overlapping[1] += usize::from(disc.is_some());
@@ -90,26 +89,26 @@ mod tests {
     #[test]
     fn only_what_the_files_do_not_have_counts() {
         let [a, b, c] = [square("a", [0.0, 0.0]), square("b", [0.5, 0.0]), square("c", [5.0, 0.0])];
-        let files = Workspace::new([a.clone(), b.clone(), c.clone()]);
+        let files = [a.clone(), b.clone(), c.clone()];
         assert_eq!(overlap(&files, &files), None);
         // The first two stand in each other from the beginning.
-        let moved = Workspace::new([square("a", [0.1, 0.0]), b.clone(), c.clone()]);
+        let moved = [square("a", [0.1, 0.0]), b.clone(), c.clone()];
         assert_eq!(overlap(&files, &moved), None);
-        let into = Workspace::new([a.clone(), b.clone(), square("c", [1.2, 0.0])]);
+        let into = [a.clone(), b.clone(), square("c", [1.2, 0.0])];
         assert_eq!(overlap(&files, &into).as_deref(), Some("\"c\" stands in \"b\""));
-        let touching = Workspace::new([a.clone(), b.clone(), square("c", [1.5, 0.0])]);
+        let touching = [a.clone(), b.clone(), square("c", [1.5, 0.0])];
         assert_eq!(overlap(&files, &touching), None);
         // Above it there is room.
         let mut above = into.clone();
-        above.obstacles[2].heights = Heights { lower: 1.0, upper: 2.0 };
-        (0..2).for_each(|k| above.obstacles[k].heights = Heights { lower: 0.0, upper: 1.0 });
+        above[2].heights = Heights { lower: 1.0, upper: 2.0 };
+        (0..2).for_each(|k| above[k].heights = Heights { lower: 0.0, upper: 1.0 });
         assert_eq!(overlap(&files, &above), None);
-        above.obstacles[2].heights.lower = 0.9;
+        above[2].heights.lower = 0.9;
         assert_eq!(overlap(&files, &above).as_deref(), Some("\"b\" stands in \"c\""));
         // A wall has no inside, and goes through nothing all the same.
         let wall = |y: f64| Obstacle::polyline("wall", [[-2.0, y], [2.0, y]]).unwrap();
-        let files = Workspace::new([wall(3.0), a.clone()]);
-        assert_eq!(overlap(&files, &Workspace::new([wall(0.5), a.clone()])), None);
-        assert!(overlap(&files, &Workspace::new([wall(0.4), a])).is_some());
+        let files = [wall(3.0), a.clone()];
+        assert_eq!(overlap(&files, &[wall(0.5), a.clone()]), None);
+        assert!(overlap(&files, &[wall(0.4), a]).is_some());
     }
 }

@@ -51,6 +51,8 @@ pub struct Leg {
     pub step: Step,
     /// The world during the motion, with the payload.
     pub scene: Arc<Scene>,
+    /// The objects that still move ([`cplan_handling::Task::courses`]).
+    pub moving: Arc<[usize]>,
     /// The object that is carried during the motion.
     pub carried: Option<usize>,
     /// The motion, on a clock of its own.

@@ -35,6 +35,8 @@ pub struct FailedStep {
     pub reasons: Vec<String>,
     /// The world after the earlier steps, as for the motion that fails, with the payload.
     pub scene: Arc<Scene>,
+    /// The objects that still move then.
+    pub moving: Arc<[usize]>,
     /// Configuration of the arm after the earlier steps.
     pub from: Configuration,
     /// The IK solutions that were tried from there. Empty if no IK solution within the joint limits reaches the target.
@@ -92,7 +94,8 @@ pub(super) fn farthest<'s>(
         }
     }
     let (reasons, scene) = (reasons(arm, &tried), scene(from, step));
-    (FailedStep { step: step.clone(), reasons, scene, from: from.q, ik_solutions }, node)
+    let moving = from.moving.clone();
+    (FailedStep { step: step.clone(), reasons, scene, moving, from: from.q, ik_solutions }, node)
 }
 
 /// A motion that was tried, and why it is refused.

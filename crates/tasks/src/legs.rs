@@ -1,13 +1,13 @@
 //! The motions of a task, each planned once.
 
 use super::least_time::rest_to_rest;
-use super::state::{Candidate, Held, State};
+use super::state::{Candidate, State};
 use super::stroke::{ToolStroke, stroke};
 use cplan_core::check::{CertifiedPath, CheckedProof, certify};
 use cplan_core::model::{Grip, MotionProblem, Outcome, Scene};
 use cplan_core::space::{Configuration, Path};
 use cplan_geometry::Pose;
-use cplan_handling::{Step, Task};
+use cplan_handling::{Payload, Step, Task};
 use cplan_motion::recorded::{WristTurn, wrist_turn};
 use cplan_motion::{Timed, TorqueLimit, single};
 use cplan_proofs::{Connectivity, slab_connectivity};
@@ -257,14 +257,13 @@ impl Legs {
         // The object is no obstacle to itself: it has no pose before its release, or after its grasp.
         let left = from.left(task, candidate, candidate.to);
         let with = if left.held.is_some() { &left } else { from };
-        let Some(held @ Held { grip: Grip::Level { point, .. }, .. }) = &with.held else {
+        let Some(held @ Payload { grip: Grip::Level { point, .. }, .. }) = &with.held else {
             return Err(unproven("the tool holds no object to turn"));
         };
         let Some(wrist) = task.wrist else {
             return Err(unproven("the arm has no wrist that could turn the object"));
         };
-        let (arm, workspace) = (&task.arm, task.obstacles(&with.poses));
-        let found = wrist_turn(arm, &workspace, &held.payload(task), *point, candidate.to, turn);
+        let found = wrist_turn(task, &task.obstacles(&with.poses), held, *point, candidate.to, turn);
         let way = found.ok_or_else(|| unproven("the object cannot be turned there, in either direction"))?;
         let turning = single((way.to - way.from).abs(), wrist.velocity, wrist.acceleration);
         Ok((way, turning.last().map_or(0.0, |[seconds, ..]| *seconds)))

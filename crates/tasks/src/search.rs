@@ -241,6 +241,7 @@ impl<'a, 'l> Search<'a, 'l> {
                 legs.push(Leg {
                     step: candidate.step.clone(),
                     scene: self.legs.scene(self.task, from, candidate.step),
+                    moving: from.moving.clone(),
                     carried: from.held.as_ref().map(|held| held.object),
                     timed: motion.timed.clone(),
                     turn: motion.turn,

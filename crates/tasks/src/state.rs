@@ -2,10 +2,10 @@
 
 use super::answer::Event;
 use super::ik_solutions::{goal_ik_solutions, ik_solutions};
-use cplan_core::model::{Grip, Payload, Scene};
+use cplan_core::model::{Grip, Scene};
 use cplan_core::space::Configuration;
 use cplan_geometry::Pose;
-use cplan_handling::{Action, Holding, Item, Object, Step, Task};
+use cplan_handling::{Action, Holding, Item, Object, Payload, Step, Task};
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
@@ -20,15 +20,6 @@ pub(super) struct Progress {
     pub half: Option<usize>,
 }
 
-/// The payload, and how it is held.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct Held {
-    pub object: usize,
-    pub grip: Grip,
-    /// The obstacles on which it rested and will rest, by number, ascending.
-    pub supports: Vec<usize>,
-}
-
 /// The state of arm and objects.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct State {
@@ -38,7 +29,8 @@ pub(super) struct State {
     pub poses: Arc<[Option<Pose>]>,
     /// The objects that still move, in order.
     pub moving: Arc<[usize]>,
-    pub held: Option<Held>,
+    /// The payload, with the obstacles on which it rested and will rest as its supports, ascending.
+    pub held: Option<Payload>,
     /// The object just released.
     pub released: Option<usize>,
 }
@@ -105,8 +97,8 @@ impl State {
         };
         self.poses.iter().flatten().for_each(&mut pose);
         match &self.held {
-            Some(Held { grip: Grip::Rigid(in_link), .. }) => pose(in_link),
-            Some(Held { grip: Grip::Level { angle, .. }, .. }) => key.push(grains(normalized(*angle))),
+            Some(Payload { grip: Grip::Rigid(in_link), .. }) => pose(in_link),
+            Some(Payload { grip: Grip::Level { angle, .. }, .. }) => key.push(grains(normalized(*angle))),
             None => {}
         }
         key.extend(self.held.iter().map(|held| held.object as i64));
@@ -122,14 +114,10 @@ impl State {
         state
     }
 
-    /// Returns the scene of this state, with moving obstacles on the clock of the task. Link 2 may touch the object
+    /// Returns the scene of this state. Link 2 may touch the object
     /// just released, and one other: the object that it moves to, or the one that it released before.
-    pub fn scene(&self, task: &Task, allowed_contacts: Option<usize>) -> Scene {
-        let allowed_contacts: Vec<usize> =
-            self.released.into_iter().chain(allowed_contacts).map(|o| task.number_among(&self.moving, o)).collect();
-        let payload = self.held.as_ref().map(|held| held.payload(task));
-        let workspace = task.surroundings(&self.poses, &self.moving);
-        Scene::handling_trusted(task.arm.clone(), workspace, payload, &allowed_contacts)
+    pub fn scene(&self, task: &Task, touched: Option<usize>) -> Scene {
+        task.scene(&self.poses, &self.moving, self.held.as_ref(), self.released.into_iter().chain(touched))
     }
 
     /// Returns the candidates for each of the steps that can be next.
@@ -174,7 +162,7 @@ impl State {
                 let event = Some(Event::Grasp { object: *object });
                 for &to in &reach.configurations {
                     match task.objects[*object].holding {
-                        Holding::Rigid => add(to, None, event, Some(Payload::rigid_grip(arm, to, &lies))),
+                        Holding::Rigid => add(to, None, event, Some(Grip::rigid(arm, to, &lies))),
                         Holding::Level => {
                             let angle = lies.rotation.angle();
                             add(to, None, event, Some(Grip::Level { angle, point: *grasp }));
@@ -236,7 +224,7 @@ impl State {
                 Arc::make_mut(&mut poses)[object] = None;
                 after.moving = self.moving.iter().copied().filter(|&other| other != object).collect();
                 let supports = supports(candidate.step, self.progress.place(task, candidate));
-                after.held = candidate.grip.map(|grip| Held { object, grip, supports });
+                after.held = candidate.grip.map(|grip| Payload { object, grip, supports });
             }
             Some(Event::Release { object, pose }) => {
                 Arc::make_mut(&mut poses)[object] = Some(pose);
@@ -284,13 +272,6 @@ impl Progress {
         let done = self.done | 1 << pair;
         let all = matches!(&task.items[self.item], Item::AnyOrder(pairs) if done.count_ones() as usize == pairs.len());
         if all { next } else { Self { done, half: None, ..self } }
-    }
-}
-
-impl Held {
-    /// Returns the payload of the arm.
-    pub fn payload(&self, task: &Task) -> Payload {
-        task.objects[self.object].carried(self.grip, self.supports.clone())
     }
 }
 

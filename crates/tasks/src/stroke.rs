@@ -5,7 +5,7 @@ use super::least_time::rest_to_rest;
 use super::legs::{Refusal, unobstructed};
 use super::state::{Candidate, State};
 use cplan_core::check::certify;
-use cplan_core::model::{Arm, Grip, Heights, Scene};
+use cplan_core::model::{Grip, Scene};
 use cplan_core::space::Path;
 use cplan_handling::{Step, Stroke, Task};
 use cplan_motion::single;
@@ -37,9 +37,7 @@ pub(super) fn least_rest(task: &Task, step: &Step, object: Option<usize>) -> f64
 /// lies, even without a stroke.
 pub(super) fn stroke(task: &Task, from: &State, candidate: &Candidate) -> Result<Option<ToolStroke>, Refusal> {
     let Some(event) = candidate.event else { return Ok(None) };
-    let is_placed = matches!(event, Event::Release { .. });
-    let Some((arm, heights)) = task.lowered(event.object(), is_placed) else { return Ok(None) };
-    let scene = lowered(task, from, candidate, arm, heights);
+    let Some(scene) = lowered(task, from, candidate, event) else { return Ok(None) };
     let when = if task.stroke.is_some() { "while the tool is lowered" } else { "lying there" };
     unobstructed(&scene, candidate.to, when)?;
     let there = Path::new(vec![candidate.to, candidate.to]);
@@ -53,20 +51,18 @@ pub(super) fn stroke(task: &Task, from: &State, candidate: &Candidate) -> Result
     Ok(Some(ToolStroke { raised, lowered, seconds, clearance: certified.clearance() }))
 }
 
-/// Returns the scene with the arm, and its payload, while the tool is lowered. A pick rises with its object, and a
-/// place is lowered with it. In the other direction the hand is empty, and meets no more obstacles.
-fn lowered(task: &Task, from: &State, candidate: &Candidate, arm: Arm, heights: Heights) -> Scene {
+/// Returns the scene with the arm, and its payload, while the tool is lowered, if it is. A pick rises with its object,
+/// and a place is lowered with it. In the other direction the hand is empty, and meets no more obstacles.
+fn lowered(task: &Task, from: &State, candidate: &Candidate, event: Event) -> Option<Scene> {
     let left = from.left(task, candidate, candidate.to);
     // The wrist turns after a pick, and before a place.
     let (with, turn) = if left.held.is_some() { (&left, 0) } else { (from, 1) };
-    let payload = with.held.as_ref().map(|held| {
-        let mut payload = held.payload(task);
-        payload.heights = heights;
+    let payload = with.held.clone().map(|mut payload| {
         if let (Grip::Level { angle, .. }, Some(turned)) = (&mut payload.grip, candidate.turn) {
             *angle = turned[turn];
         }
         payload
     });
-    let allowed_contacts: Vec<usize> = with.released.iter().map(|&object| task.obstacle_number(object)).collect();
-    Scene::handling_trusted(arm, task.obstacles(&with.poses), payload, &allowed_contacts)
+    let is_placed = matches!(event, Event::Release { .. });
+    task.lowered_scene(event.object(), is_placed, &with.poses, payload.as_ref(), with.released)
 }

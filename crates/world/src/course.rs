@@ -2,8 +2,8 @@
 
 use super::reader::Reader;
 use super::schema::NotNegative;
-use cplan_core::model::{Course, CourseError, Stop};
 use cplan_geometry::{Pose, Vector};
+use cplan_handling::{Course, CourseError, Stop};
 use cplan_robot::{AngleOrLength, Diagnostic, Number, Numbers, Two, Written};
 use schemars::JsonSchema;
 use serde::Deserialize;

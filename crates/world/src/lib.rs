@@ -70,7 +70,7 @@ pub use values::{JointValues, Overrides, TipPoint};
 pub use world::{World, in_toml_words, world_schema};
 
 use cplan_core::model::{Arm, Goal, MotionProblem, Scene};
-use cplan_handling::RobotJoints;
+use cplan_handling::{Course, RobotJoints, TimedScene};
 use cplan_robot::{Diagnostic, InputError, Inspection, RobotFile, RobotReport, RobotTable, Source};
 use std::path::{Path, PathBuf};
 
@@ -80,6 +80,8 @@ pub struct LoadedScene {
     /// The arm among its obstacles, with the world's clearance. Objects are at their initial places, after the static
     /// obstacles.
     pub scene: Scene,
+    /// The trajectories of its loose obstacles: moving obstacles and objects.
+    pub courses: Vec<Course>,
     /// The world file.
     pub world: World,
     /// The arm before the world's placement of the robot.
@@ -93,6 +95,8 @@ pub struct LoadedScene {
 pub struct Loaded {
     /// Scene, start and goals; start and goals are within the limits and free.
     pub problem: MotionProblem,
+    /// The trajectories of the scene's loose obstacles.
+    pub courses: Vec<Course>,
     /// Report on how the robot was read.
     pub robot: RobotReport,
     /// Notes for the user about the goal: blocked IK solutions, joints whose value does not matter.
@@ -133,9 +137,12 @@ pub fn scene_of(arm: Arm, world: Source) -> Result<LoadedScene, InputError> {
         pair.check(&world.source, &arm.joints)?;
     }
     let joints = RobotJoints::planned(&arm.joints.each_ref().map(|joint| joint.name.clone()));
-    let scene = Scene::new(standing(&arm, &world), world.at_first())
+    let at_first = world.at_first();
+    let courses = at_first.courses();
+    let scene = at_first
+        .scene(standing(&arm, &world))
         .map_err(|error| refused(error.to_string(), "use finite numbers and sizes above 0"))?;
-    Ok(LoadedScene { scene, world, arm, robot: RobotReport { joints, ..RobotReport::default() } })
+    Ok(LoadedScene { scene, courses, world, arm, robot: RobotReport { joints, ..RobotReport::default() } })
 }
 
 /// Reads a world alone.
@@ -173,20 +180,32 @@ impl LoadedScene {
         for pair in &world.in_degrees {
             pair.check(&world.source, &self.scene.arm().joints)?;
         }
-        let scene = Scene::trusted(standing(&self.arm, &world), world.at_first());
-        Ok(Self { scene, world, arm: self.arm.clone(), robot: self.robot.clone() })
+        Ok(Self::assembled(world, self.arm.clone(), self.robot.clone()))
+    }
+
+    /// Puts an arm into its world, without checks.
+    fn assembled(world: World, arm: Arm, robot: RobotReport) -> Self {
+        let at_first = world.at_first();
+        let courses = at_first.courses();
+        Self { scene: at_first.scene_trusted(standing(&arm, &world)), courses, world, arm, robot }
+    }
+
+    /// Returns the scene with its trajectories, on the clock of the world.
+    #[must_use]
+    pub fn timed(&self) -> TimedScene<'_> {
+        TimedScene { scene: &self.scene, courses: &self.courses }
     }
 }
 
 /// Returns the arm in its world.
 fn among(world: World, urdf: Source) -> Result<LoadedScene, InputError> {
-    let (arm, mut robot) = cplan_robot::load(urdf, world.robot_settings())?;
+    let (arm, robot) = cplan_robot::load(urdf, world.robot_settings())?;
     for pair in &world.in_degrees {
         pair.check(&world.source, &arm.joints)?;
     }
-    let scene = Scene::trusted(standing(&arm, &world), world.at_first());
-    robot.warnings.extend(nearness::warning(&scene));
-    Ok(LoadedScene { scene, world, arm, robot })
+    let mut loaded = LoadedScene::assembled(world, arm, robot);
+    loaded.robot.warnings.extend(nearness::warning(&loaded.scene));
+    Ok(loaded)
 }
 
 /// Returns the arm at the world's placement.
@@ -212,10 +231,11 @@ pub fn inspect(robot: impl Into<RobotFile>, world: Option<&Path>) -> Inspection 
     files.extend(file.files());
     // A world that cannot be read is an input, too.
     files.extend(world.map(Path::to_owned));
-    let in_world = |alone: Scene| Scene::trusted(standing(alone.arm(), &file), file.at_first());
+    let in_world = |alone: Scene| file.at_first().scene_trusted(standing(alone.arm(), &file));
     let mut inspection = Inspection {
         world: world.map(|p| p.display().to_string()),
         scene: inspection.scene.map(in_world),
+        courses: file.at_first().courses(),
         files,
         ..inspection
     };
@@ -226,7 +246,8 @@ pub fn inspect(robot: impl Into<RobotFile>, world: Option<&Path>) -> Inspection 
     if world.is_some() && inspection.is_plannable() {
         let loaded = inspection.scene.clone().map(|scene| {
             let arm = scene.arm().clone();
-            LoadedScene { scene, world: file, arm, robot: RobotReport::default() }
+            let courses = inspection.courses.clone();
+            LoadedScene { scene, courses, world: file, arm, robot: RobotReport::default() }
         });
         let overrides = Overrides::default();
         let query = loaded.and_then(|l| match l.has_steps() {

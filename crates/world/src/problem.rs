@@ -59,7 +59,8 @@ impl LoadedScene {
         }
         notes.extend(refused.iter().map(|diagnostic| format!("a goal is ruled out: {}", diagnostic.message)));
         let goals: GoalSet = goals.into_iter().collect();
-        Ok(Loaded { problem: MotionProblem::trusted(loaded.scene, start, goals), robot: loaded.robot, notes })
+        let LoadedScene { scene, courses, robot, .. } = loaded;
+        Ok(Loaded { problem: MotionProblem::trusted(scene, start, goals), courses, robot, notes })
     }
 
     /// Returns the configurations of a goal that may be free.
@@ -173,7 +174,7 @@ impl LoadedScene {
 
     /// Returns true if an obstacle moves.
     pub(super) fn has_movers(&self) -> bool {
-        !self.scene.workspace().movers.is_empty()
+        !self.courses.is_empty()
     }
 
     /// Refuses moving obstacles, for functions without time. `what` names the function.
@@ -181,7 +182,7 @@ impl LoadedScene {
     /// # Errors
     /// If an obstacle moves.
     pub fn require_standing(&self, what: &str) -> Result<(), InputError> {
-        let Some(mover) = self.scene.workspace().movers.first() else { return Ok(()) };
+        let Some(mover) = self.scene.loose().first() else { return Ok(()) };
         let message = format!("{what}, but obstacle \"{}\" moves", mover.obstacle.name);
         let help =
             "remove its motion, or use `cplan plan`, `cplan verify` or `cplan check`, which allow moving obstacles";
@@ -190,7 +191,7 @@ impl LoadedScene {
 
     /// Refuses a start that is occupied by a moving obstacle initially.
     pub(super) fn require_clear(&self, start: Configuration, place: &Place) -> Result<(), Diagnostic> {
-        let hits = self.scene.obstructions_at(start, 0.0);
+        let hits = self.timed().obstructions(start, 0.0);
         if hits.is_empty() {
             return Ok(());
         }

@@ -3,10 +3,10 @@
 use super::reasons::{HELP_FOR_LIMITS, HELP_FOR_TIP, beyond_limits, help_for_reach, out_of_reach, within_limits};
 use super::requirement::{Required, Requirement};
 use super::{LoadedScene, Overrides, World};
-use cplan_core::model::{Payload, Scene, Workspace, inverse};
+use cplan_core::model::{Scene, inverse};
 use cplan_core::space::{Configuration, JointRange};
 use cplan_geometry::Point;
-use cplan_handling::{Stroke, Task};
+use cplan_handling::{Payload, Stroke, Task, TimedWorkspace};
 use cplan_robot::{Diagnostic, DiagnosticKind, InputError, RobotReport};
 use cplan_text::listed;
 
@@ -71,7 +71,7 @@ impl LoadedScene {
         if let Some(stroke) = &stroke {
             InputError::check(too_deep(stroke, &world).collect())?;
         }
-        let workspace = Workspace { clearance: scene.workspace().clearance, ..world.workspace };
+        let workspace = TimedWorkspace { clearance: scene.workspace().clearance, ..world.workspace };
         let items = world.steps.map(|steps| steps.items).unwrap_or_default();
         let (wrist, note) = world.wrist.unzip();
         notes.extend(note.flatten());

@@ -16,7 +16,7 @@ use super::table::Table;
 use super::world_map::{self, MapTable};
 use cplan_core::model::{Goal, Workspace};
 use cplan_geometry::Pose;
-use cplan_handling::{Holding, Object, Wrist};
+use cplan_handling::{Holding, Object, TimedWorkspace, Wrist};
 use cplan_robot::{
     AngleOrLength, Diagnostic, InputError, Number, Numbers, RobotSettings, RobotTable, Source, Two, Written,
 };
@@ -30,8 +30,8 @@ use toml::Spanned;
 /// A world file that has been read: the workspace is valid; names of joints and links are not yet checked.
 #[derive(Debug, Clone)]
 pub struct World {
-    /// Obstacles that stay where they are, clearance and title.
-    pub workspace: Workspace,
+    /// Obstacles without the objects, clearance and title.
+    pub workspace: TimedWorkspace,
     /// Objects that can be carried.
     pub objects: Vec<Object>,
     /// Notes about input that was corrected.
@@ -57,13 +57,7 @@ impl World {
     /// Creates an empty world.
     pub(super) fn silent() -> Self {
         Self {
-            workspace: Workspace {
-                name: String::new(),
-                obstacles: Vec::new(),
-                clearance: 0.0,
-                preferences: Vec::new(),
-                movers: Vec::new(),
-            },
+            workspace: Workspace::new([]).into(),
             objects: Vec::new(),
             notes: Vec::new(),
             named_files: Vec::new(),
@@ -90,7 +84,7 @@ impl World {
     }
 
     /// Returns the workspace with every object at its initial place, after the static obstacles, or on its motion.
-    pub(super) fn at_first(&self) -> Workspace {
+    pub(super) fn at_first(&self) -> TimedWorkspace {
         let mut workspace = self.workspace.clone();
         let lying = |object: &Object| object.lying(object.standing_at_first().as_ref());
         workspace.obstacles.extend(self.objects.iter().map(lying));
@@ -224,7 +218,7 @@ pub(super) fn read(source: Source) -> Result<World, InputError> {
     }));
     Ok(World {
         notes,
-        workspace: Workspace { name: file.name.unwrap_or(stem), obstacles, clearance, preferences, movers },
+        workspace: TimedWorkspace { name: file.name.unwrap_or(stem), obstacles, clearance, preferences, movers },
         start,
         in_degrees: reader.in_degrees.take(),
         named_files: reader.files.take(),

@@ -123,10 +123,7 @@ impl Draft {
         };
         let obstacles = self.obstacles.iter().take(usize::from(self.count) % 7).map(obstacle).collect();
         let clearance = if self.clearance < 192 { 0.0 } else { f64::from(self.clearance - 192) / 1024.0 };
-        let scene = Scene::new(
-            arm,
-            Workspace { name: "draft".into(), obstacles, clearance, preferences: Vec::new(), movers: Vec::new() },
-        );
+        let scene = Scene::new(arm, Workspace { name: "draft".into(), obstacles, clearance, preferences: Vec::new() });
         let scene = scene.ok()?;
         let topology = scene.arm().topology();
         let place = |(a, b): (i16, i16)| {

@@ -13,7 +13,7 @@ use crate::draw::{Picture, View};
 use crate::engine::certificate_of_recording;
 use crate::engine::findings::{Judgement, MotionFindings, verify};
 use crate::input::{self, Digests, JointValues, Overrides, TipPoint};
-use crate::model::Scene;
+use crate::model::TimedScene;
 use crate::motion::write_whole;
 use crate::output::{PictureFormat, contours, title_of};
 use crate::space::Recording;
@@ -125,7 +125,7 @@ pub fn run(args: &VerifyArgs) -> Result<u8, Failure> {
     let recording = &recorded.recording;
     for sink in &sinks {
         match sink {
-            Sink::Picture(format, path) => draw(scene, recording, &findings, *format, path)?,
+            Sink::Picture(format, path) => draw(loaded.timed(), recording, &findings, *format, path)?,
             Sink::Certificate(path) if !recorded.held.is_empty() => {
                 let joint = &recorded.held[0].joint.name;
                 let why = format!("joint \"{joint}\" moves, but certificates cover only the arm's two joints");
@@ -161,13 +161,13 @@ fn overrides(args: &VerifyArgs) -> Overrides {
 }
 
 fn draw(
-    scene: &Scene,
+    timed: TimedScene,
     recording: &Recording,
     findings: &MotionFindings,
     format: PictureFormat,
     file: &std::path::Path,
 ) -> Result<(), Failure> {
-    let path = recording.outline();
+    let (scene, path) = (timed.scene, recording.outline());
     // The picture shows the arm at its collision.
     let shown = findings.way.first_contact.as_ref().map(|c| c.moment.configuration.into());
     let view = View::of_picture(&Picture {
@@ -176,7 +176,7 @@ fn draw(
         goals: &[shown.unwrap_or(path.goal()).into()],
         paths: vec![("motion".into(), &path)],
         c_obstacles: &contours(scene),
-        ..Picture::new(scene, path.start())
+        ..Picture::new(timed, path.start())
     });
     sinks::save_picture(format, file, &view)
 }

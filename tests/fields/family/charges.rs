@@ -91,13 +91,7 @@ fn room(gap: &str) -> (ZonedGrid, Query) {
     let axis = |upper: f64| JointRange::Interval { lower: 0.0, upper };
     let topology = Topology { ranges: [axis(40.0), axis(44.0)] };
     let grid = Grid { topology, proves: Proves::Sampled, cells: [40, 44], blocked };
-    let workspace = Workspace {
-        name: "w".into(),
-        obstacles: Vec::new(),
-        clearance: 0.0,
-        preferences: Vec::new(),
-        movers: Vec::new(),
-    };
+    let workspace = Workspace { name: "w".into(), obstacles: Vec::new(), clearance: 0.0, preferences: Vec::new() };
     let scene = placed(crate::common::rr([axis(3.0), axis(3.0)]), workspace);
     let query = Query { start: Configuration::new(3.5, 19.75), goals: Configuration::new(35.5, 22.5).into() };
     (ZonedGrid::new(grid, &scene), query)

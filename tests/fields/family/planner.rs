@@ -17,8 +17,7 @@ use proptest::prelude::*;
 const GAUSS_SEIDEL: Relaxation = Relaxation::gauss_seidel(Order::Corners(Lines::Rows));
 
 pub fn scene(preferences: Vec<Preference>) -> Scene {
-    let workspace =
-        Workspace { name: "w".into(), obstacles: Vec::new(), clearance: 0.0, preferences, movers: Vec::new() };
+    let workspace = Workspace { name: "w".into(), obstacles: Vec::new(), clearance: 0.0, preferences };
     placed(rr([JointRange::Interval { lower: -3.0, upper: 3.0 }; 2]), workspace)
 }
 

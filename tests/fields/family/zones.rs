@@ -61,10 +61,7 @@ fn of_several_that_hold_the_last_counts() {
         preference("wide", Region::Configurations(rectangle([0.0, 2.0], [0.0, 2.0]))),
         preference("narrow", Region::Configurations(rectangle([1.0, 2.0], [1.0, 2.0]))),
     ];
-    let scene = placed(
-        arm,
-        Workspace { name: "w".into(), obstacles: Vec::new(), clearance: 0.0, preferences, movers: Vec::new() },
-    );
+    let scene = placed(arm, Workspace { name: "w".into(), obstacles: Vec::new(), clearance: 0.0, preferences });
     let grid = Grid { topology, proves: Proves::Sampled, cells: [64, 64], blocked: vec![false; 64 * 64] };
     let zoned = ZonedGrid::new(grid, &scene);
     let name = |a: f64, b: f64| zoned.zone(zoned.grid.locate(q(a, b))).map(|zone| zone.name.as_str());

@@ -2,7 +2,7 @@
 
 use cplan::geometry::Point;
 use cplan::input::{InputError, LoadedTask, Overrides, load, load_scene};
-use cplan::model::{Action, Goal, Holding, Item, Shape, Step};
+use cplan::model::{Action, Goal, Holding, Item, Obstacle, Shape, Step};
 use cplan::space::Configuration;
 use std::fs;
 use std::path::Path;
@@ -120,16 +120,16 @@ move = { tip = [1.0, 1.0] }
 #[test]
 fn objects_are_obstacles_where_they_lie_at_first() {
     let loaded = task("[[step]]\npick = \"part\"\n");
-    let names = |w: &cplan::model::Workspace| w.obstacles.iter().map(|o| o.name.clone()).collect::<Vec<_>>();
-    assert_eq!(names(loaded.scene.workspace()), ["table", "part", "cup"]);
-    assert_eq!(names(&loaded.task.workspace), ["table"]);
+    let names = |obstacles: &[Obstacle]| obstacles.iter().map(|o| o.name.clone()).collect::<Vec<_>>();
+    assert_eq!(names(&loaded.scene.workspace().obstacles), ["table", "part", "cup"]);
+    assert_eq!(names(&loaded.task.workspace.obstacles), ["table"]);
     assert_eq!(loaded.scene.workspace().obstacles[2].shape, {
         let (sin, cos) = 0.5f64.sin_cos();
         Shape::Circle { center: Point::new(-0.5 + 0.01 * cos, 1.0 + 0.01 * sin), radius: 0.03 }
     });
     let goal = format!("{CELL}[goal]\njoints = [0.1, -0.5]\n");
     let problem = with_world(&goal, |u, w| load(u, w, &Overrides::default())).unwrap().problem;
-    assert_eq!(names(problem.scene().workspace()), ["table", "part", "cup"]);
+    assert_eq!(names(&problem.scene().workspace().obstacles), ["table", "part", "cup"]);
 }
 
 #[test]

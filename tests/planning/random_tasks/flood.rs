@@ -9,7 +9,7 @@ use crate::common::random::{seeds, times};
 use cplan::Outcome;
 use cplan::engine::{Method, Options, solve};
 use cplan::geometry::Point;
-use cplan::model::{Grip, Holding, Payload, Scene, Task};
+use cplan::model::{Grip, Holding, Payload, Task};
 use cplan::space::Configuration;
 
 /// Cells along each axis.
@@ -99,19 +99,12 @@ fn payloads_are_judged_like_a_flood_fill() {
         let world = World::at_first(&task).carrying(object, [task.start[0], task.start[1]], supports.clone());
         let lies = task.objects[object].at;
         let grip = match task.objects[object].holding {
-            Holding::Rigid => Payload::rigid_grip(&task.arm, task.start, &lies),
+            Holding::Rigid => Grip::rigid(&task.arm, task.start, &lies),
             Holding::Level => Grip::Level { angle: lies.rotation.angle(), point: Point::zeros() },
         };
-        let payload = Payload {
-            object: "object".into(),
-            pieces: task.objects[object].pieces.clone(),
-            heights: task.objects[object].carried_heights(),
-            grip,
-            mass: 0.0,
-            supports,
-        };
+        let payload = Payload { object, grip, supports };
         let poses: Vec<_> = task.objects.iter().enumerate().map(|(i, o)| (i != object).then_some(o.at)).collect();
-        let scene = Scene::handling(task.arm.clone(), task.obstacles(&poses), Some(payload), &[]).expect("a scene");
+        let scene = task.scene(&poses, &[], Some(&payload), []);
         let topology = task.arm.topology();
         let mut free = || {
             let draw = || {

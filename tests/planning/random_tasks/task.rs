@@ -18,8 +18,7 @@ pub fn task(seed: u64) -> Task {
             obstacles.push(obstacle(&format!("o{i}"), piece));
         }
     }
-    let workspace =
-        Workspace { name: "random".into(), obstacles, clearance, preferences: Vec::new(), movers: Vec::new() };
+    let workspace = Workspace { name: "random".into(), obstacles, clearance, preferences: Vec::new() };
     // Places that the tip can reach: forward kinematics of random configurations, most of them free of static
     // obstacles.
     let topology = arm.topology();
@@ -58,14 +57,14 @@ pub fn task(seed: u64) -> Task {
     let all: Vec<_> = objects.iter().map(|object| Some(object.at)).collect();
     let mut task = Task {
         arm,
-        workspace,
+        workspace: workspace.into(),
         objects,
         start: Configuration::zeros(),
         items: Vec::new(),
         wrist: Some(Wrist { velocity: 3.0, acceleration: 12.0 }),
         stroke: None,
     };
-    let scene = placed(task.arm.clone(), task.obstacles(&all));
+    let scene = task.scene(&all, &[], None, []);
     task.start = (0..500).map(|_| anywhere(&mut dice)).find(|q| scene.obstructions(*q).is_empty()).unwrap_or_default();
     if !scene.obstructions(task.start).is_empty() {
         // No start is free, so the task gets no obstacles.

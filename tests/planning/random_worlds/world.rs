@@ -32,8 +32,7 @@ pub fn drawn(kind: &str, seed: u64, body: impl Fn(&mut Dice, &Arm) -> Vec<SelfOb
     while obstacles.len() < count as usize {
         obstacles.extend(obstacle(&mut dice, reach, arm.base));
     }
-    let workspace =
-        Workspace { name: "random".into(), obstacles, clearance, preferences: Vec::new(), movers: Vec::new() };
+    let workspace = Workspace { name: "random".into(), obstacles, clearance, preferences: Vec::new() };
     let scene = placed(arm, workspace);
     let start = free(&mut dice, &scene)?;
     let count = 1 + dice.below(3);

@@ -91,10 +91,7 @@ fn obstacle(name: &str, shape: Shape, pieces: Vec<Convex>) -> Obstacle {
 }
 
 pub fn scene(arm: Arm, obstacles: Vec<Obstacle>) -> Scene {
-    placed(
-        arm,
-        Workspace { name: "test".to_owned(), obstacles, clearance: 0.0, preferences: Vec::new(), movers: Vec::new() },
-    )
+    placed(arm, Workspace { name: "test".to_owned(), obstacles, clearance: 0.0, preferences: Vec::new() })
 }
 
 /// A grid of looks at the scene.

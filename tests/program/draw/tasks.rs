@@ -77,13 +77,7 @@ fn task(objects: Vec<Object>, obstacles: Vec<Obstacle>, steps: &[Action], rounds
             [1.0, 0.8],
             [block(-0.06, -0.06, 1.06, 0.06), capsule(0.8, 0.05)],
         ),
-        workspace: Workspace {
-            name: "cell".into(),
-            obstacles,
-            clearance: 0.0,
-            preferences: Vec::new(),
-            movers: Vec::new(),
-        },
+        workspace: Workspace { name: "cell".into(), ..Workspace::new(obstacles) }.into(),
         objects,
         start: Configuration::new(START[0], START[1]),
         items,
@@ -419,7 +413,7 @@ fn the_motion_that_fails_is_drawn() {
     let Outcome::Infeasible(why) = &answer.outcome else { panic!("{:?}", answer.outcome) };
     assert_eq!((why.step.number, why.ik_solutions.len()), (2, 2));
     assert_eq!(why.from, answer.legs[0].timed.curve.curve().path().goal());
-    assert_eq!(why.scene.payload().map(|payload| payload.object.as_str()), Some("part"));
+    assert_eq!(why.scene.attachment().map(|payload| payload.name.as_str()), Some("part"));
     for to in &why.ik_solutions {
         let tip = blocked.arm.tip_at(to.ik_solution);
         assert!((tip - Point::new(-1.1, 0.4)).norm() < 1e-9, "{tip}");
@@ -451,7 +445,7 @@ fn pictures_of_one_motion_show_what_is_carried() {
         goals: &[path.goal().into()],
         paths: vec![("visibility".into(), &path)],
         c_obstacles: &contours(&leg.scene),
-        ..Picture::new(&leg.scene, path.start())
+        ..Picture::new(&*leg.scene, path.start())
     };
     let text = inspected("carrying", &View::of_picture(&picture));
     let words = words(&text);

@@ -10,7 +10,8 @@
 //! slides along an obstacle, as it does on shortest paths. That bound is the third one, and the best one at large
 //! distances.
 
-use crate::model::{Arm, Drift, JointType, Pair, Scene};
+use super::drift::Drift;
+use crate::model::{Arm, JointType, Pair, Scene};
 use crate::space::Configuration;
 use cplan_geometry::{Convex, Point, Pose, Separation, Vector, perpendicular, reach, separation_at};
 
@@ -149,9 +150,9 @@ impl<'a> Posture<'a> {
         self.least(self.shapes(pair), deviation, enough)
     }
 
-    /// Returns the same as [`Posture::bound_up_to`] for a moving obstacle. The posture is that in the middle of a span
-    /// of time, and the deviation is the arm's motion in that span.
-    pub fn bound_moving(
+    /// Returns the same as [`Posture::bound_up_to`] for a loose obstacle. The posture is that in the middle of the
+    /// drift's span, and the deviation is the arm's motion in that span.
+    pub fn bound_drifting(
         &self,
         pair: Pair,
         deviation: Deviation,
@@ -163,8 +164,8 @@ impl<'a> Posture<'a> {
         self.least(Shapes { piece: &piece, drift: Some(drift), ..standing }, deviation, enough)
     }
 
-    /// Same as [`Posture::apart`] for a moving obstacle.
-    pub fn apart_moving(&self, pair: Pair, deviation: Deviation, drift: &Drift) -> f64 {
+    /// Same as [`Posture::apart`] for a loose obstacle.
+    pub fn apart_drifting(&self, pair: Pair, deviation: Deviation, drift: &Drift) -> f64 {
         let (center, around) = disc(self.scene.piece(pair));
         let drifts = drift.farthest(center.norm() + around);
         self.apart_from(pair, deviation, drift.middle.point(center), around + drifts)

@@ -25,12 +25,14 @@
 
 mod cell;
 mod deviation;
+mod drift;
 mod motion;
 mod proof;
 mod vicinity;
 
 pub use cell::Cell;
 pub use deviation::{Bounded, Deviation, Posture, STUCK_ROUNDING};
+pub use drift::Drift;
 pub use motion::{CertifiedPath, CurveSearch, Nearest, Rejection, StraightMotions, certify};
 pub use proof::{CheckedProof, Disconnection, ProofBox, ProofError, ProofFormatError, StuckBox, read_proof};
 pub use vicinity::Vicinity;

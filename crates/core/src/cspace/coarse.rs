@@ -64,10 +64,10 @@ pub(super) fn coarse(scene: &Scene, within: f64, near: f64) -> Cow<'_, Scene> {
     Cow::Owned(scene.reshaped(|part| part.shape = around(&part.shape, each), pieces))
 }
 
-/// Returns the greatest distance of the arm from the base, in simple cases: two revolute joints and no level payload.
+/// Returns the greatest distance of the arm from the base, in simple cases: two revolute joints and no attachment.
 fn reach(scene: &Scene) -> Option<f64> {
     let turns = scene.arm().joints.iter().all(|joint| joint.joint_type.is_revolute());
-    (turns && scene.payload().is_none()).then(|| scene.arm().reach() * (1.0 + ROUNDING))
+    (turns && scene.attachment().is_none()).then(|| scene.arm().reach() * (1.0 + ROUNDING))
 }
 
 /// Returns the distance of a shape's bounds from a point, which is at most that of the shape.

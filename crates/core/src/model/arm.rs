@@ -114,7 +114,7 @@ impl Arm {
                 body.center = turn * body.center;
             }
         }
-        arm.self_obstacles.iter_mut().for_each(|own| own.obstacle.move_by(place));
+        arm.self_obstacles.iter_mut().for_each(|own| own.obstacle = own.obstacle.at(place));
         arm
     }
 

@@ -29,8 +29,8 @@ pub struct Part {
     /// A shape inside the real part, if `shape` is larger than that. Proofs of collisions use it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub inner: Option<Convex>,
-    /// Number of the shape that this is, or is a part of, among the shapes of the URDF link that have a size. For a
-    /// payload, the number of the payload's piece.
+    /// Number of the shape that this is, or is a part of, among the shapes of the URDF link that have a size. For an
+    /// attached part, the number of the attachment's piece.
     #[serde(default, skip_serializing_if = "is_first")]
     pub number: usize,
     /// True if this is the URDF link's `<visual>` geometry, because the link has no `<collision>` geometry.

@@ -14,19 +14,18 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod additions;
 mod arm;
+mod attachment;
 mod carried;
 mod contacts;
 mod inverse;
 mod joint;
 mod link;
 mod masses;
-mod mover;
 mod obstruction;
 mod outcome;
 mod pairing;
-mod payload;
-mod payload_parts;
 mod preference;
 mod problem;
 mod scene;
@@ -38,7 +37,9 @@ mod stuck_along;
 mod tip_area;
 mod workspace;
 
+pub use additions::{Additions, LooseObstacle};
 pub use arm::{Arm, Plane};
+pub use attachment::{AttachedPart, Attachment, Grip};
 pub use carried::Carried;
 pub use carried::on_axis;
 use carried::swept;
@@ -47,10 +48,8 @@ pub use inverse::{Freedom, Inverse, inverse, within};
 pub use joint::{Joint, JointType, SLIDING_SPEED, TIME_TO_TOP_SPEED, TURNING_SPEED, assumed_acceleration};
 pub use link::{Link, OutlineSource, Part};
 pub use masses::{Body, Dynamics};
-pub use mover::{Course, CourseError, Drift, LATEST, Leg, Mover, Stop};
 pub use obstruction::Obstruction;
 pub use outcome::{Outcome, Status};
-pub use payload::{Grip, Payload};
 pub use preference::{Preference, Region};
 pub use problem::{Goal, MotionProblem, MotionProblemError};
 pub use scene::{Contact, Pair, Scene};

@@ -2,7 +2,7 @@
 
 use super::{Contact, Pair, Scene};
 use crate::space::Configuration;
-use cplan_geometry::{Convex, separation, shapes_meet};
+use cplan_geometry::{Convex, Pose, separation, shapes_meet};
 use cplan_text::told_apart;
 use std::borrow::Cow;
 
@@ -22,22 +22,22 @@ const SHALLOW: f64 = 1e-9;
 const DEEP: f64 = 1e-3;
 
 impl Scene {
-    /// Returns the reasons why `q` is not free of static obstacles: for each link (or payload) and obstacle the worst
+    /// Returns the reasons why `q` is not free of static obstacles: for each link (or its attachment) and obstacle the worst
     /// pair of shapes. Empty if `q` is free.
     #[must_use]
     pub fn obstructions(&self, q: Configuration) -> Vec<Obstruction> {
         self.worst(q, self.pairs().iter().map(|&pair| (pair, Cow::Borrowed(self.piece(pair)))))
     }
 
-    /// Returns the reasons for static and moving obstacles, at a time.
+    /// Returns the reasons for static obstacles, and for loose ones at these poses.
     #[must_use]
-    pub fn obstructions_at(&self, q: Configuration, time: f64) -> Vec<Obstruction> {
+    pub fn obstructions_among(&self, q: Configuration, poses: &[Pose]) -> Vec<Obstruction> {
         let standing = self.pairs().iter().map(|&pair| (pair, Cow::Borrowed(self.piece(pair))));
-        let moving = self.moving_pairs().iter().filter_map(|&pair| {
-            let pose = self.mover(pair)?.course.pose(time);
-            Some((pair, Cow::Owned(self.piece(pair).at(&pose))))
+        let loose = self.loose_pairs().iter().filter_map(|&pair| {
+            let pose = poses.get(self.loose_index(pair)?)?;
+            Some((pair, Cow::Owned(self.piece(pair).at(pose))))
         });
-        self.worst(q, standing.chain(moving))
+        self.worst(q, standing.chain(loose))
     }
 
     fn worst<'a>(&self, q: Configuration, pieces: impl Iterator<Item = (Pair, Cow<'a, Convex>)>) -> Vec<Obstruction> {
@@ -54,7 +54,7 @@ impl Scene {
             let found = Obstruction { contact, touches };
             let whose = |o: &Obstruction| {
                 let pair = o.contact.pair;
-                (pair.link, self.is_payload(pair), pair.obstacle)
+                (pair.link, self.is_attached(pair), pair.obstacle)
             };
             match worst.iter_mut().find(|known| whose(known) == whose(&found)) {
                 Some(known) if known.contact.separation.distance <= distance => {}
@@ -70,7 +70,7 @@ impl Scene {
     pub fn explain(&self, obstruction: &Obstruction) -> String {
         let Contact { pair, separation } = obstruction.contact;
         let part = self.describe_part(pair);
-        let moves = if self.mover(pair).is_some() { "moving " } else { "" };
+        let moves = if self.loose_index(pair).is_some() { "moving " } else { "" };
         let obstacle = format!("{moves}{}", self.describe_obstacle(pair.obstacle));
         let distance = separation.distance;
         if !obstruction.touches {

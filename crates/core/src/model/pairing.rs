@@ -1,8 +1,8 @@
 //! Decides which pairs of shapes of a scene can meet.
 
-use super::payload_parts::Meetable;
-use super::{Arm, Carrier, Heights, Mover, Obstacle, Pair, Part, SelfObstacle, Workspace};
-use cplan_geometry::{Convex, separation};
+use super::attachment::Meetable;
+use super::{Carrier, Heights, Link, LooseObstacle, Obstacle, Pair, Part, SelfObstacle};
+use cplan_geometry::{Convex, Point, separation};
 
 /// Treatment of heights where rounding leaves open whether they meet.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -14,9 +14,9 @@ pub(super) enum Meet {
 }
 
 impl Meet {
-    /// Returns true if a part of the arm, or of an object that it carries, shares a height with an obstacle.
-    pub fn holds(self, is_carried: bool, part: Heights, obstacle: Heights) -> bool {
-        match (self, is_carried) {
+    /// Returns true if a part of the arm, or one that is attached to it, shares a height with an obstacle.
+    pub fn holds(self, is_attached: bool, part: Heights, obstacle: Heights) -> bool {
+        match (self, is_attached) {
             (Self::Perhaps, false) => part.meet(obstacle),
             (Self::Perhaps, true) => part.object_meets(obstacle),
             (Self::Surely, false) => part.surely_meet(obstacle),
@@ -54,56 +54,63 @@ impl Reading {
 pub(super) enum Kind<'a> {
     /// A static obstacle.
     Standing,
-    /// A moving obstacle.
-    Moving(&'a Mover),
+    /// A loose obstacle.
+    Loose(&'a LooseObstacle),
     /// A link of the robot.
     Own(&'a SelfObstacle),
 }
 
-/// Returns all obstacles in the order of their numbers: static ones, moving ones, links of the robot.
-pub(super) fn obstacles<'a>(arm: &'a Arm, workspace: &'a Workspace) -> impl Iterator<Item = (Kind<'a>, &'a Obstacle)> {
-    let standing = workspace.obstacles.iter().map(|obstacle| (Kind::Standing, obstacle));
-    let moving = workspace.movers.iter().map(|mover| (Kind::Moving(mover), &mover.obstacle));
-    let own = arm.self_obstacles.iter().map(|own| (Kind::Own(own), &own.obstacle));
-    standing.chain(moving).chain(own)
+/// Returns all obstacles in the order of their numbers: static ones, loose ones, links of the robot.
+pub(super) fn numbered<'a>(
+    standing: &'a [Obstacle],
+    loose: &'a [LooseObstacle],
+    own: &'a [SelfObstacle],
+) -> Vec<(Kind<'a>, &'a Obstacle)> {
+    let standing = standing.iter().map(|obstacle| (Kind::Standing, obstacle));
+    let loose = loose.iter().map(|loose| (Kind::Loose(loose), &loose.obstacle));
+    let own = own.iter().map(|own| (Kind::Own(own), &own.obstacle));
+    standing.chain(loose).chain(own).collect()
 }
 
 /// The data that decide which pairs a scene has.
 pub(super) struct Pairing<'a> {
-    /// The arm, with its payload.
-    pub arm: &'a Arm,
-    pub workspace: &'a Workspace,
+    /// The arm's links, with the attachment.
+    pub links: &'a [Link; 2],
+    /// The place of joint 1.
+    pub base: Point,
+    /// All obstacles, in the order of their numbers.
+    pub obstacles: &'a [(Kind<'a>, &'a Obstacle)],
     pub reading: Reading,
-    /// Number of link 2's own parts; those after them belong to the payload.
+    /// Number of link 2's own parts; those after them are attached.
     pub own_parts: usize,
-    /// The pieces that each carried part can meet.
-    pub carried: &'a [Meetable],
+    /// The pieces that each attached part can meet.
+    pub attached: &'a [Meetable],
     /// Obstacles that link 2 itself is free to meet.
     pub allowed_contacts: &'a [usize],
 }
 
 impl Pairing<'_> {
-    /// Returns the pairs with static and with moving obstacles, each ordered by link, part, obstacle and piece.
+    /// Returns the pairs with static and with loose obstacles, each ordered by link, part, obstacle and piece.
     pub fn pairs(&self) -> [Vec<Pair>; 2] {
         let left_out = self.left_out();
-        // Shapes derived from pieces come after the pieces: one full set of pieces per piece of the payload.
+        // Shapes derived from pieces come after the pieces: one full set of pieces per attached part.
         let is_kept = |pair: &Pair| left_out.get(pair.obstacle).is_none_or(|all| !all[pair.piece % all.len()]);
-        let (mut pairs, mut moving, mut folding) = (Vec::new(), Vec::new(), Vec::new());
-        let parts = |link: usize| self.arm.links[link].parts.iter().enumerate().map(move |(part, p)| (link, part, p));
+        let (mut pairs, mut loose, mut folding) = (Vec::new(), Vec::new(), Vec::new());
+        let parts = |link: usize| self.links[link].parts.iter().enumerate().map(move |(part, p)| (link, part, p));
         for (link, part, p) in parts(0).chain(parts(1)) {
-            let carried = if link == 1 { part.checked_sub(self.own_parts) } else { None };
-            let carried = carried.map(|number| &self.carried[number]);
-            for (obstacle, (kind, o)) in obstacles(self.arm, self.workspace).enumerate() {
-                if !self.can_meet(link, p, carried.is_some(), kind, o) {
+            let attached = if link == 1 { part.checked_sub(self.own_parts) } else { None };
+            let attached = attached.map(|number| &self.attached[number]);
+            for (obstacle, &(kind, o)) in self.obstacles.iter().enumerate() {
+                if !self.can_meet(link, p, attached.is_some(), kind, o) {
                     continue;
                 }
-                let pieces = match carried {
+                let pieces = match attached {
                     Some(meetable) => meetable[obstacle].clone(),
                     None if link == 1 && self.allowed_contacts.contains(&obstacle) => 0..0,
                     None => 0..o.pieces.len(),
                 };
                 let (among, link) = match kind {
-                    Kind::Moving(_) => (&mut moving, link),
+                    Kind::Loose(_) => (&mut loose, link),
                     Kind::Own(SelfObstacle { carrier: Carrier::FirstJoint, .. }) => (&mut folding, 2),
                     Kind::Standing | Kind::Own(_) => (&mut pairs, link),
                 };
@@ -111,16 +118,16 @@ impl Pairing<'_> {
             }
         }
         pairs.extend(folding);
-        [pairs, moving]
+        [pairs, loose]
     }
 
     /// Returns true if a part of a link and an obstacle can meet, by their heights and their carriers.
-    fn can_meet(&self, link: usize, part: &Part, is_carried: bool, kind: Kind, obstacle: &Obstacle) -> bool {
-        let Kind::Own(own) = kind else { return self.reading.meet.holds(is_carried, part.heights, obstacle.heights) };
+    fn can_meet(&self, link: usize, part: &Part, is_attached: bool, kind: Kind, obstacle: &Obstacle) -> bool {
+        let Kind::Own(own) = kind else { return self.reading.meet.holds(is_attached, part.heights, obstacle.heights) };
         // Links of a robot lie on top of each other.
         (link == 1 || own.carrier == Carrier::Base)
             && part.heights.surely_meet(obstacle.heights)
-            && (is_carried || !own.ignores(&part.body))
+            && (is_attached || !own.ignores(&part.body))
     }
 
     /// Returns, for each obstacle, true for each piece that is in no pair; nothing at all if every piece may be in one.
@@ -129,12 +136,12 @@ impl Pairing<'_> {
         if farthest.is_infinite() && !self.reading.is_evidence() {
             return Vec::new();
         }
-        let base = Convex::point(self.arm.base);
+        let base = Convex::point(self.base);
         let is_left_out = |kind: Kind, piece: &Convex| {
             let is_far = || matches!(kind, Kind::Standing) && separation(&base, piece).distance > farthest;
             (farthest.is_finite() && is_far()) || self.reading.takes_for_nothing(piece)
         };
-        let of = |(kind, o): (Kind, &Obstacle)| o.pieces.iter().map(|piece| is_left_out(kind, piece)).collect();
-        obstacles(self.arm, self.workspace).map(of).collect()
+        let of = |(kind, o): &(Kind, &Obstacle)| o.pieces.iter().map(|piece| is_left_out(*kind, piece)).collect();
+        self.obstacles.iter().map(of).collect()
     }
 }

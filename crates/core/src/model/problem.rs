@@ -51,8 +51,7 @@ pub enum MotionProblemError {
         /// The joint's value, radians or metres.
         value: f64,
     },
-    /// The arm meets an obstacle at the start, or is nearer to one than the clearance. Moving obstacles are at their
-    /// place at time 0.
+    /// The arm meets an obstacle at the start, or is nearer to one than the clearance.
     #[error("the start is not free: {why}")]
     StartBlocked {
         /// The link, the obstacle, and the depth.
@@ -109,7 +108,7 @@ impl MotionProblem {
         if let Some((joint, value)) = outside(start) {
             return Err(MotionProblemError::StartOutside { joint, value });
         }
-        if let Some(why) = scene.obstructions_at(start, 0.0).first().map(|found| scene.explain(found)) {
+        if let Some(why) = blocked(start) {
             return Err(MotionProblemError::StartBlocked { why });
         }
         if goals.is_empty() {

@@ -1,13 +1,14 @@
 //! The arm among its obstacles.
 
-use super::pairing::{Meet, Pairing, Reading, obstacles};
+use super::pairing::{Meet, Pairing, Reading, numbered};
 use super::scene_error::{check, check_clearance};
 use super::scene_record::SceneRecord;
 use super::{
-    Arm, Carrier, Grip, Heights, Joint, Link, Mover, Obstacle, Part, Payload, SceneError, SelfObstacle, Workspace,
+    Additions, Arm, Attachment, Carrier, Heights, Joint, Link, LooseObstacle, Obstacle, Part, SceneError, SelfObstacle,
+    Workspace,
 };
 use crate::space::{Configuration, JointRange};
-use cplan_geometry::{Convex, Separation, separation};
+use cplan_geometry::{Convex, Pose, Separation, separation};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 
@@ -18,9 +19,9 @@ pub struct Pair {
     pub link: usize,
     /// Index into the link's parts.
     pub part: usize,
-    /// Index into the workspace's obstacles, followed by the moving obstacles, followed by the arm's self obstacles.
+    /// Index into the workspace's obstacles, followed by the loose obstacles, followed by the arm's self obstacles.
     pub obstacle: usize,
-    /// Index into the obstacle's pieces, followed by the shapes derived from them for a payload.
+    /// Index into the obstacle's pieces, followed by the shapes derived from them for an attachment.
     pub piece: usize,
 }
 
@@ -36,24 +37,23 @@ pub struct Contact {
 /// Arm and workspace, with the pairs of shapes that can meet at all. Every module that asks about collisions asks
 /// about these pairs, so a pair that heights rule out is ruled out everywhere.
 ///
-/// A payload is a part of link 2. One that a wrist keeps level only translates with the tip: it meets a piece exactly
-/// when the tip lies in their Minkowski difference, so its part is the tip, a point, and its pieces are these differences.
+/// The shapes of an [`Attachment`] are parts of link 2. One that is kept level only translates with the tip: it meets a
+/// piece exactly when the tip lies in their Minkowski difference, so its part is the tip, a point, and its pieces are
+/// these differences.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "SceneRecord", into = "SceneRecord")]
 pub struct Scene {
     arm: Arm,
     workspace: Workspace,
-    payload: Option<Payload>,
-    /// Obstacles that link 2 itself is free to meet.
-    allowed_contacts: Vec<usize>,
-    /// Number of link 2's own parts; those that follow are the payload's.
+    additions: Additions,
+    /// Number of link 2's own parts; those that follow are attached.
     own_parts: usize,
     reading: Reading,
     pairs: Vec<Pair>,
-    /// The pairs with moving obstacles.
-    moving: Vec<Pair>,
-    /// For each obstacle, mover and self obstacle, in this order: the shapes derived from its pieces for a level
-    /// payload, and the smaller pieces of supports.
+    /// The pairs with loose obstacles.
+    loose_pairs: Vec<Pair>,
+    /// For each static, loose and self obstacle, in this order: the shapes derived from its pieces for a level
+    /// attachment, and the smaller pieces of supports.
     differences: Vec<Vec<Convex>>,
 }
 
@@ -69,64 +69,55 @@ impl Scene {
     /// # Errors
     /// If a number of either makes no sense: see [`SceneError`].
     pub fn new(arm: Arm, workspace: Workspace) -> Result<Self, SceneError> {
-        Self::handling(arm, workspace, None, &[])
+        Self::with(arm, workspace, Additions::default())
     }
 
-    /// Puts the arm with a payload into the workspace. Link 2 itself is free to meet the `allowed_contacts` obstacles,
-    /// which it has just released or is about to take; moving obstacles are numbered after the static ones. A payload
-    /// presses into its supports by at most [`Payload::penetration_allowance`], its corners included. No clearance is
-    /// kept there: in every distance, a support counts as farther away by the clearance.
+    /// Puts the arm into the workspace, with these additions.
     ///
     /// # Errors
-    /// Same as for [`Scene::new`]; also if the payload's pose is not finite, or there is no obstacle of a given number.
-    pub fn handling(
-        arm: Arm,
-        workspace: Workspace,
-        payload: Option<Payload>,
-        allowed_contacts: &[usize],
-    ) -> Result<Self, SceneError> {
-        check(&arm, &workspace, payload.as_ref(), allowed_contacts)?;
-        Ok(Self::handling_trusted(arm, workspace, payload, allowed_contacts))
+    /// Same as for [`Scene::new`]; also if there is no obstacle of a given number.
+    pub fn with(arm: Arm, workspace: Workspace, additions: Additions) -> Result<Self, SceneError> {
+        check(&arm, &workspace, &additions)?;
+        Ok(Self::with_trusted(arm, workspace, additions))
     }
 
     /// Same as [`Scene::new`], without checks.
     #[must_use]
     #[doc(hidden)]
     pub fn trusted(arm: Arm, workspace: Workspace) -> Self {
-        Self::handling_trusted(arm, workspace, None, &[])
+        Self::with_trusted(arm, workspace, Additions::default())
     }
 
-    /// Same as [`Scene::handling`], without checks.
+    /// Same as [`Scene::with`], without checks.
     #[must_use]
     #[doc(hidden)]
-    pub fn handling_trusted(
-        arm: Arm,
-        workspace: Workspace,
-        payload: Option<Payload>,
-        allowed_contacts: &[usize],
-    ) -> Self {
-        Self::assembled(arm, workspace, payload, allowed_contacts, Reading::ALL)
+    pub fn with_trusted(arm: Arm, workspace: Workspace, additions: Additions) -> Self {
+        Self::assembled(arm, workspace, additions, Reading::ALL)
     }
 
     /// Creates the scene without checks.
-    fn assembled(
-        mut arm: Arm,
-        workspace: Workspace,
-        payload: Option<Payload>,
-        allowed_contacts: &[usize],
-        reading: Reading,
-    ) -> Self {
-        debug_assert_eq!(check(&arm, &workspace, payload.as_ref(), allowed_contacts), Ok(()));
+    fn assembled(mut arm: Arm, workspace: Workspace, additions: Additions, reading: Reading) -> Self {
+        debug_assert_eq!(check(&arm, &workspace, &additions), Ok(()));
+        let Additions { loose, attachment, allowed_contacts } = &additions;
         let own_parts = arm.links[1].parts.len();
-        let mut differences = vec![Vec::new(); obstacles(&arm, &workspace).count()];
-        let parts = payload.as_ref().map_or_else(Vec::new, |p| p.on_link(&arm, &workspace, &reading, &mut differences));
-        let (parts, carried): (Vec<_>, Vec<_>) = parts.into_iter().unzip();
+        let obstacles = numbered(&workspace.obstacles, loose, &arm.self_obstacles);
+        let mut differences = vec![Vec::new(); obstacles.len()];
+        let (parts, attached): (Vec<_>, Vec<_>) = attachment
+            .iter()
+            .flat_map(|carried| carried.on_link(arm.tip, &obstacles, workspace.clearance, &reading, &mut differences))
+            .unzip();
         arm.links[1].parts.extend(parts);
-        let [pairs, moving] =
-            Pairing { arm: &arm, workspace: &workspace, reading, own_parts, carried: &carried, allowed_contacts }
-                .pairs();
-        let allowed_contacts = allowed_contacts.to_vec();
-        Self { arm, workspace, payload, allowed_contacts, own_parts, reading, pairs, moving, differences }
+        let pairing = Pairing {
+            links: &arm.links,
+            base: arm.base,
+            obstacles: &obstacles,
+            reading,
+            own_parts,
+            attached: &attached,
+            allowed_contacts,
+        };
+        let [pairs, loose_pairs] = pairing.pairs();
+        Self { arm, workspace, additions, own_parts, reading, pairs, loose_pairs, differences }
     }
 
     /// Returns the scene for proofs of collisions. It uses inner shapes where an outline covers more than the real
@@ -134,22 +125,24 @@ impl Scene {
     #[must_use]
     pub fn inner(&self) -> Cow<'_, Self> {
         let parts = || self.arm.links.iter().flat_map(|link| &link.parts);
-        let all = || obstacles(&self.arm, &self.workspace).map(|(_, obstacle)| obstacle);
-        let is_level = self.payload.as_ref().is_some_and(|payload| matches!(payload.grip, Grip::Level { .. }));
+        let placed = || self.workspace.obstacles.iter().chain(self.loose().iter().map(|loose| &loose.obstacle));
+        let own = self.arm.self_obstacles.iter().map(|own| &own.obstacle);
+        let is_level = self.attachment().is_some_and(|attachment| attachment.grip.is_level());
         let is_covered = is_level && self.arm.self_obstacles.iter().any(|own| own.carrier == Carrier::FirstJoint);
         // The heights of the robot's links are always known.
         let is_known = |is_carried: bool, part: &Part| {
             let meets = |meet: Meet, obstacle: &Obstacle| meet.holds(is_carried, part.heights, obstacle.heights);
-            self.workspace.all().all(|obstacle| meets(Meet::Perhaps, obstacle) == meets(Meet::Surely, obstacle))
+            placed().all(|obstacle| meets(Meet::Perhaps, obstacle) == meets(Meet::Surely, obstacle))
         };
         let is_exact = self.reading.is_evidence()
             || (0..2).all(|link| {
                 let (own, carried) = (self.own_parts(link), &self.arm.links[link].parts[self.own_parts(link).len()..]);
                 own.iter().all(|part| is_known(false, part)) && carried.iter().all(|part| is_known(true, part))
             });
-        let carried = self.payload.iter().flat_map(|payload| &payload.pieces);
-        let mut pieces = all().flat_map(|obstacle| &obstacle.pieces).chain(carried);
-        let is_whole = self.reading.is_evidence() || !pieces.any(Convex::is_sliver);
+        let mut attached = self.attachment().into_iter().flat_map(|attachment| &attachment.parts);
+        let mut pieces = placed().chain(own).flat_map(|obstacle| &obstacle.pieces);
+        let is_whole =
+            self.reading.is_evidence() || !(pieces.any(Convex::is_sliver) || attached.any(|part| !part.is_evidence));
         if is_exact && is_whole && !is_covered && parts().all(|part| part.inner.is_none()) {
             return Cow::Borrowed(self);
         }
@@ -166,7 +159,7 @@ impl Scene {
     }
 
     /// Returns the scene with other shapes for the arm's own parts and for the pieces of obstacles. Each part stays one
-    /// part, each obstacle stays one obstacle, and the payload is unchanged.
+    /// part, each obstacle stays one obstacle, and the attachment is unchanged.
     #[must_use]
     pub fn reshaped(&self, reshape: impl Fn(&mut Part), pieces: impl FnMut(&Obstacle) -> Vec<Convex>) -> Self {
         self.remade(reshape, pieces, self.reading)
@@ -184,10 +177,10 @@ impl Scene {
     }
 
     /// Returns the scene without the pairs of static obstacles that are out of the arm's reach, clearance included.
-    /// Returns `None` if these are few, or if there is a payload. Each part, obstacle and piece keeps its number.
+    /// Returns `None` if these are few, or if there is an attachment. Each part, obstacle and piece keeps its number.
     #[must_use]
     pub fn within_reach(&self) -> Option<Self> {
-        if self.payload.is_some() || self.pairs.len() <= MANY_OUT_OF_REACH {
+        if self.attachment().is_some() || self.pairs.len() <= MANY_OUT_OF_REACH {
             return None;
         }
         let slide = |joint: &Joint| match (joint.joint_type.is_revolute(), joint.range) {
@@ -216,8 +209,8 @@ impl Scene {
         })
     }
 
-    /// Returns the scene with a change of the arm (without its payload) or the workspace, without checks. Moving
-    /// obstacles and the payload keep their numbers.
+    /// Returns the scene with a change of the arm (without its attachment) or the workspace, without checks. The
+    /// additions stay as they are.
     #[must_use]
     #[doc(hidden)]
     pub fn changed(&self, change: impl FnOnce(&mut Arm, &mut Workspace)) -> Self {
@@ -228,7 +221,7 @@ impl Scene {
         let (mut arm, mut workspace) = (self.arm.clone(), self.workspace.clone());
         arm.links[1].parts.truncate(self.own_parts);
         change(&mut arm, &mut workspace);
-        Self::assembled(arm, workspace, self.payload.clone(), &self.allowed_contacts, reading)
+        Self::assembled(arm, workspace, self.additions.clone(), reading)
     }
 
     /// Returns the scene with another distance to keep, metres.
@@ -240,32 +233,29 @@ impl Scene {
         Ok(self.changed(|_, workspace| workspace.clearance = clearance))
     }
 
-    /// Returns the scene at a time: moving obstacles become static at their places then, after all static ones.
+    /// Returns the scene with its loose obstacles at these poses. They become static, after all static ones.
     #[must_use]
-    pub fn frozen(&self, time: f64) -> Self {
-        if self.workspace.movers.is_empty() {
+    pub fn with_loose_at(&self, poses: impl IntoIterator<Item = Pose>) -> Self {
+        if self.loose().is_empty() {
             return self.clone();
         }
-        self.changed(|_, Workspace { obstacles, movers, .. }| obstacles.extend(movers.drain(..).map(|m| m.at(time))))
-    }
-
-    /// Returns the scene on a clock that begins at this time.
-    #[must_use]
-    pub fn since(mut self, time: f64) -> Self {
-        self.workspace.movers.iter_mut().for_each(|mover| mover.course = mover.course.since(time));
-        self
+        let mut scene = self.clone();
+        let loose = std::mem::take(&mut scene.additions.loose);
+        let placed = loose.iter().zip(poses).map(|(loose, pose)| loose.obstacle.at(&pose));
+        scene.changed(|_, workspace| workspace.obstacles.extend(placed))
     }
 
     /// Returns the scene with one more static obstacle.
     #[must_use]
     pub fn with_standing(&self, obstacle: Obstacle) -> Self {
         let (mut scene, standing) = (self.clone(), self.workspace.obstacles.len());
-        // Moving obstacles are numbered after the static ones.
-        scene.allowed_contacts.iter_mut().filter(|number| **number >= standing).for_each(|number| *number += 1);
+        // Loose obstacles are numbered after the static ones.
+        let numbers = scene.additions.allowed_contacts.iter_mut();
+        numbers.filter(|number| **number >= standing).for_each(|number| *number += 1);
         scene.changed(|_, workspace| workspace.obstacles.push(obstacle))
     }
 
-    /// Returns the arm without its payload, and the workspace, from which another scene can be made.
+    /// Returns the arm without its attachment, and the workspace, from which another scene can be made.
     #[must_use]
     pub fn into_parts(mut self) -> (Arm, Workspace) {
         self.arm.links[1].parts.truncate(self.own_parts);
@@ -275,10 +265,22 @@ impl Scene {
     /// Obstacles that link 2 itself is free to meet, by their number.
     #[must_use]
     pub fn allowed_contacts(&self) -> &[usize] {
-        &self.allowed_contacts
+        &self.additions.allowed_contacts
     }
 
-    /// Returns the arm, with its payload.
+    /// Returns what the scene has beyond arm and workspace.
+    #[must_use]
+    pub fn additions(&self) -> &Additions {
+        &self.additions
+    }
+
+    /// Returns the loose obstacles.
+    #[must_use]
+    pub fn loose(&self) -> &[LooseObstacle] {
+        &self.additions.loose
+    }
+
+    /// Returns the arm, with its attachment as parts of link 2.
     #[must_use]
     pub fn arm(&self) -> &Arm {
         &self.arm
@@ -296,13 +298,13 @@ impl Scene {
         &mut self.arm
     }
 
-    /// Returns the payload, if any.
+    /// Returns the attachment, if any.
     #[must_use]
-    pub fn payload(&self) -> Option<&Payload> {
-        self.payload.as_ref()
+    pub fn attachment(&self) -> Option<&Attachment> {
+        self.additions.attachment.as_ref()
     }
 
-    /// Returns the link's own outline, without the payload.
+    /// Returns the link's own outline, without the attachment.
     #[must_use]
     pub fn own_parts(&self, link: usize) -> &[Part] {
         let parts = &self.arm.links[link].parts;
@@ -315,17 +317,17 @@ impl Scene {
         &self.pairs
     }
 
-    /// Returns the pairs of a part and a moving obstacle that can meet, in the same order. All other methods are about
+    /// Returns the pairs of a part and a loose obstacle that can meet, in the same order. All other methods are about
     /// static obstacles.
     #[must_use]
-    pub fn moving_pairs(&self) -> &[Pair] {
-        &self.moving
+    pub fn loose_pairs(&self) -> &[Pair] {
+        &self.loose_pairs
     }
 
-    /// Returns the moving obstacle of a pair, if the pair is one of [`Scene::moving_pairs`].
+    /// Returns the index of a pair's obstacle among the loose ones, if the pair is one of [`Scene::loose_pairs`].
     #[must_use]
-    pub fn mover(&self, pair: Pair) -> Option<&Mover> {
-        self.workspace.movers.get(pair.obstacle.wrapping_sub(self.workspace.obstacles.len()))
+    pub fn loose_index(&self, pair: Pair) -> Option<usize> {
+        pair.obstacle.checked_sub(self.workspace.obstacles.len()).filter(|index| *index < self.loose().len())
     }
 
     /// Returns the link of a pair's part.
@@ -340,18 +342,18 @@ impl Scene {
         &self.link(pair).parts[pair.part].shape
     }
 
-    /// Returns the obstacle piece of a pair, or the shape derived from it for a payload, in plane coordinates. For a
-    /// moving obstacle it is in the obstacle's own frame.
+    /// Returns the obstacle piece of a pair, or the shape derived from it for an attachment, in plane coordinates. For a
+    /// loose obstacle it is in the obstacle's own frame.
     #[must_use]
     pub fn piece(&self, pair: Pair) -> &Convex {
         let own = &self.obstacle(pair.obstacle).pieces;
         own.get(pair.piece).unwrap_or_else(|| &self.differences[pair.obstacle][pair.piece - own.len()])
     }
 
-    /// Returns all pieces of a moving obstacle, in its own frame, as [`Pair::piece`] counts them.
-    pub fn pieces_of_mover(&self, mover: usize) -> impl Iterator<Item = &Convex> {
-        let made = &self.differences[self.workspace.obstacles.len() + mover];
-        self.workspace.movers[mover].obstacle.pieces.iter().chain(made)
+    /// Returns all pieces of a loose obstacle, in its own frame, as [`Pair::piece`] counts them.
+    pub fn pieces_of_loose(&self, index: usize) -> impl Iterator<Item = &Convex> {
+        let made = &self.differences[self.workspace.obstacles.len() + index];
+        self.loose()[index].obstacle.pieces.iter().chain(made)
     }
 
     /// Returns the signed distance of every pair at `q`, in the order of [`Scene::pairs`].
@@ -375,18 +377,18 @@ impl Scene {
         self.closest(q).map_or(f64::INFINITY, |c| c.separation.distance)
     }
 
-    /// Returns true if a pair's part belongs to the payload.
+    /// Returns true if a pair's part belongs to the attachment.
     #[must_use]
-    pub fn is_payload(&self, pair: Pair) -> bool {
+    pub fn is_attached(&self, pair: Pair) -> bool {
         pair.link > 0 && pair.part >= self.own_parts
     }
 
     /// Returns the original piece of the obstacle in a pair, at its place, even if the pair uses a shape derived from
-    /// it for a payload.
+    /// it for an attachment.
     #[must_use]
     pub fn obstacle_piece(&self, pair: Pair) -> &Convex {
         let pieces = &self.obstacle(pair.obstacle).pieces;
-        // Derived shapes come after the pieces: one full set of pieces per piece of the payload.
+        // Derived shapes come after the pieces: one full set of pieces per attached part.
         &pieces[pair.piece % pieces.len()]
     }
 }

@@ -1,6 +1,9 @@
-//! The conditions that arm, obstacles and payload must satisfy to make a scene.
+//! The conditions that arm, obstacles and attachment must satisfy to make a scene.
 
-use super::{Arm, Body, Dynamics, Grip, Heights, Joint, JointType, Obstacle, Payload, Plane, Workspace};
+use super::{
+    Additions, Arm, Attachment, Body, Dynamics, Grip, Heights, Joint, JointType, LooseObstacle, Obstacle, Plane,
+    Workspace,
+};
 use crate::space::JointRange;
 use cplan_geometry::{Convex, Point, Pose, separation};
 
@@ -78,7 +81,7 @@ pub enum SceneError {
     /// A height range has no finite numbers, or ends below its beginning.
     #[error("\"{of}\": the heights from {lower} to {upper} are invalid; they need finite numbers, the lower one first")]
     Heights {
-        /// Name of the obstacle, link or payload.
+        /// Name of the obstacle, link or attachment.
         of: String,
         /// The lower end as given.
         lower: f64,
@@ -97,10 +100,10 @@ pub enum SceneError {
         /// The preference's name in the world.
         name: String,
     },
-    /// The payload's pose is not finite, or the payload is too large.
+    /// The attachment's pose is not finite, or the attachment is too large.
     #[error("payload \"{object}\": its grip and its shape must be finite and within 1e15 m")]
     Grip {
-        /// The object's name in the world.
+        /// The attachment's name.
         object: String,
     },
     /// There is no obstacle of this number, which is an allowed contact or a support.
@@ -111,12 +114,12 @@ pub enum SceneError {
         /// Number of obstacles.
         count: usize,
     },
-    /// The payload keeps its orientation, and a moving obstacle turns.
+    /// The attachment keeps its orientation, and a loose obstacle does not.
     #[error(
         "payload \"{object}\" is held level, but \"{mover}\" turns; level payloads need moving obstacles that do not turn"
     )]
     TurnsAboutLevel {
-        /// The object's name in the world.
+        /// The attachment's name.
         object: String,
         /// The name of the turning obstacle.
         mover: String,
@@ -125,41 +128,40 @@ pub enum SceneError {
 
 /// Returns the first defect of the parts of a scene. `O(n)` in parts, obstacles and preferences; shapes are valid by
 /// their type.
-pub(super) fn check(
-    arm: &Arm,
-    workspace: &Workspace,
-    payload: Option<&Payload>,
-    allowed_contacts: &[usize],
-) -> Result<(), SceneError> {
+pub(super) fn check(arm: &Arm, workspace: &Workspace, additions: &Additions) -> Result<(), SceneError> {
     check_arm(arm)?;
     check_workspace(workspace)?;
-    if let Some(payload) = payload {
-        check_heights(&payload.object, payload.heights)?;
-        if !is_mass(payload.mass) {
-            return Err(SceneError::Dynamics { what: format!("\"{}\" of {} kg", payload.object, payload.mass) });
-        }
-        let is_finite = match payload.grip {
-            Grip::Rigid(pose) => is_pose(&pose),
-            Grip::Level { angle, point } => are_small([angle, point.x, point.y]),
-        };
-        if !is_finite || !payload.pieces.iter().all(is_small) {
-            return Err(SceneError::Grip { object: payload.object.clone() });
-        }
-    }
-    let level = payload.filter(|payload| matches!(payload.grip, Grip::Level { .. }));
-    if let Some((payload, mover)) = level.zip(workspace.movers.iter().find(|mover| mover.course.turns())) {
-        let (object, mover) = (payload.object.clone(), mover.obstacle.name.clone());
-        return Err(SceneError::TurnsAboutLevel { object, mover });
-    }
+    let Additions { loose, attachment, allowed_contacts } = additions;
+    loose.iter().try_for_each(|loose| check_obstacle(&loose.obstacle))?;
     let count = workspace.obstacles.len();
-    let supports = payload.map_or(&[][..], |payload| &payload.supports);
-    let all = count + workspace.movers.len();
-    let unknown = |numbers: &[usize], count: usize| {
-        let number = numbers.iter().copied().find(|&number| number >= count);
-        number.map_or(Ok(()), |number| Err(SceneError::NoObstacle { number, count }))
+    let known = |numbers: &[usize], count: usize| match numbers.iter().find(|number| **number >= count) {
+        Some(&number) => Err(SceneError::NoObstacle { number, count }),
+        None => Ok(()),
     };
-    unknown(allowed_contacts, all)?;
-    unknown(supports, count)
+    if let Some(attachment) = attachment {
+        check_attachment(attachment, loose)?;
+        known(&attachment.supports, count)?;
+    }
+    known(allowed_contacts, count + loose.len())
+}
+
+fn check_attachment(attachment: &Attachment, loose: &[LooseObstacle]) -> Result<(), SceneError> {
+    let Attachment { name, heights, grip, parts, .. } = attachment;
+    check_heights(name, *heights)?;
+    let is_finite = match grip {
+        Grip::Rigid(pose) => is_pose(pose),
+        Grip::Level { angle, point } => are_small([*angle, point.x, point.y]),
+    };
+    if !is_finite || !parts.iter().all(|part| is_small(&part.shape)) {
+        return Err(SceneError::Grip { object: name.clone() });
+    }
+    match loose.iter().find(|loose| grip.is_level() && loose.angle.is_none()) {
+        Some(loose) => {
+            let (object, mover) = (name.clone(), loose.obstacle.name.clone());
+            Err(SceneError::TurnsAboutLevel { object, mover })
+        }
+        None => Ok(()),
+    }
 }
 
 fn check_arm(arm: &Arm) -> Result<(), SceneError> {
@@ -257,8 +259,7 @@ pub fn check_range(joint: &str, range: JointRange) -> Result<(), SceneError> {
 
 fn check_workspace(workspace: &Workspace) -> Result<(), SceneError> {
     check_clearance(workspace.clearance)?;
-    let moving = workspace.movers.iter().map(|mover| &mover.obstacle);
-    workspace.obstacles.iter().chain(moving).try_for_each(check_obstacle)?;
+    workspace.obstacles.iter().try_for_each(check_obstacle)?;
     let is_unit = |[x, y]: [f64; 2]| (x.hypot(y) - 1.0).abs() <= UNIT_ROUNDING;
     match workspace.preferences.iter().find(|p| !(p.epsilon.is_finite() && p.direction.is_none_or(is_unit))) {
         Some(preference) => Err(SceneError::Preference { name: preference.name.clone() }),

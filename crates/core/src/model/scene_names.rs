@@ -4,7 +4,7 @@ use super::{Obstacle, Pair, Scene, SelfObstacle};
 use std::ops::Range;
 
 impl Scene {
-    /// Returns the obstacle of a number: a static one, a moving one (in its own frame), or a link of the robot.
+    /// Returns the obstacle of a number: a static one, a loose one (in its own frame), or a link of the robot.
     ///
     /// # Panics
     /// If there is no obstacle of that number.
@@ -14,8 +14,8 @@ impl Scene {
         if let Some(obstacle) = self.workspace().obstacles.get(number) {
             return obstacle;
         }
-        let moving = self.workspace().movers.get(number - standing).map(|mover| &mover.obstacle);
-        moving.unwrap_or_else(|| &self.arm().self_obstacles[number - standing - self.workspace().movers.len()].obstacle)
+        let loose = self.loose().get(number - standing).map(|loose| &loose.obstacle);
+        loose.unwrap_or_else(|| &self.arm().self_obstacles[number - standing - self.loose().len()].obstacle)
     }
 
     /// Returns the arm's self obstacle of a number; `None` if that is another obstacle.
@@ -24,10 +24,10 @@ impl Scene {
         self.arm().self_obstacles.get(number.checked_sub(self.self_obstacles().start)?)
     }
 
-    /// Returns the numbers of the arm's self obstacles: after those of the static and the moving obstacles.
+    /// Returns the numbers of the arm's self obstacles: after those of the static and the loose obstacles.
     #[must_use]
     pub fn self_obstacles(&self) -> Range<usize> {
-        let first = self.workspace().obstacles.len() + self.workspace().movers.len();
+        let first = self.workspace().obstacles.len() + self.loose().len();
         first..first + self.arm().self_obstacles.len()
     }
 
@@ -63,7 +63,7 @@ impl Scene {
     pub fn describe_part(&self, pair: Pair) -> String {
         let link = self.link(pair);
         let body = &link.parts[pair.part].body;
-        if self.is_payload(pair) {
+        if self.is_attached(pair) {
             format!("payload \"{body}\"")
         } else if *body == link.name {
             format!("link \"{}\"", link.name)

@@ -1,6 +1,8 @@
 //! Scenes and problems as data. Reading rebuilds them by the constructors, which check the data.
 
-use super::{Arm, MotionProblem, MotionProblemError, Payload, Scene, SceneError, Workspace};
+use super::{
+    Additions, Arm, Attachment, LooseObstacle, MotionProblem, MotionProblemError, Scene, SceneError, Workspace,
+};
 use crate::space::{Configuration, GoalSet};
 use serde::{Deserialize, Serialize};
 
@@ -8,20 +10,22 @@ use serde::{Deserialize, Serialize};
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct SceneRecord {
-    /// The arm without its payload.
+    /// The arm without its attachment.
     arm: Arm,
     workspace: Workspace,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    loose: Vec<LooseObstacle>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    payload: Option<Payload>,
+    attachment: Option<Attachment>,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     allowed_contacts: Vec<usize>,
 }
 
 impl From<Scene> for SceneRecord {
     fn from(scene: Scene) -> Self {
-        let (payload, allowed_contacts) = (scene.payload().cloned(), scene.allowed_contacts().to_vec());
+        let Additions { loose, attachment, allowed_contacts } = scene.additions().clone();
         let (arm, workspace) = scene.into_parts();
-        Self { arm, workspace, payload, allowed_contacts }
+        Self { arm, workspace, loose, attachment, allowed_contacts }
     }
 }
 
@@ -29,9 +33,10 @@ impl TryFrom<SceneRecord> for Scene {
     type Error = SceneError;
 
     fn try_from(record: SceneRecord) -> Result<Self, SceneError> {
-        let SceneRecord { arm, mut workspace, payload, allowed_contacts } = record;
+        let SceneRecord { arm, mut workspace, mut loose, attachment, allowed_contacts } = record;
         workspace.hold_shapes();
-        Self::handling(arm, workspace, payload, &allowed_contacts)
+        loose.iter_mut().for_each(|loose| loose.obstacle.hold_shape());
+        Self::with(arm, workspace, Additions { loose, attachment, allowed_contacts })
     }
 }
 

@@ -9,13 +9,13 @@ use serde::{Deserialize, Serialize};
 pub enum Carrier {
     /// The robot's base: the link is fixed.
     Base,
-    /// Joint 1. Only link 2 and its payload can hit such a link, and that depends on joint 2 alone.
+    /// Joint 1. Only link 2 and its attachment can hit such a link, and that depends on joint 2 alone.
     FirstJoint,
 }
 
 /// A shape of a link of the robot, or one layer of it, that links further along the chain can hit.
 ///
-/// A [`super::Scene`] numbers it after the static and the moving obstacles.
+/// A [`super::Scene`] numbers it after the static and the loose obstacles.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SelfObstacle {

@@ -58,7 +58,7 @@ impl Scene {
         }
         let whose = |obstruction: &Obstruction| {
             let pair = obstruction.contact.pair;
-            (pair.link, self.is_payload(pair), pair.obstacle)
+            (pair.link, self.is_attached(pair), pair.obstacle)
         };
         let same = |a: &(f64, f64, Obstruction), b: &(f64, f64, Obstruction)| whose(&a.2) == whose(&b.2);
         let joined = blocked.chunk_by(same).map(|run| {

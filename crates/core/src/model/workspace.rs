@@ -1,7 +1,7 @@
 //! Obstacles in the plane.
 
+use super::Preference;
 use super::scene_error::are_small;
-use super::{Mover, Preference};
 use cplan_geometry::{Convex, ConvexError, Point, PolygonError, Pose, SimplePolygon};
 use serde::{Deserialize, Serialize};
 
@@ -160,10 +160,6 @@ pub struct Workspace {
     /// Regions that field planners may prefer or avoid, in the order of the file; where several apply, the last one
     /// counts.
     pub preferences: Vec<Preference>,
-    /// Moving obstacles. Everything without a time ignores them: planners, configuration spaces, paths and proofs. The
-    /// crate `engine` times motions among them, and `certify_in_time` of the crate `motion` judges motions in time.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub movers: Vec<Mover>,
 }
 
 impl Obstacle {
@@ -199,10 +195,16 @@ impl Obstacle {
 }
 
 impl Obstacle {
-    /// Moves the obstacle by `pose`.
-    pub(super) fn move_by(&mut self, pose: &Pose) {
-        self.shape = self.shape.at(pose);
-        self.pieces.iter_mut().for_each(|piece| *piece = piece.at(pose));
+    /// Returns the obstacle moved by `pose`.
+    #[must_use]
+    pub fn at(&self, pose: &Pose) -> Self {
+        let pieces = self.pieces.iter().map(|piece| piece.at(pose)).collect();
+        Self { name: self.name.clone(), shape: self.shape.at(pose), pieces, heights: self.heights }
+    }
+
+    /// Makes the displayed shape agree with the pieces that are judged. For obstacles that are read as data.
+    pub fn hold_shape(&mut self) {
+        self.shape.hold_to(&self.pieces);
     }
 }
 
@@ -215,18 +217,11 @@ impl Workspace {
     #[must_use]
     pub fn new(obstacles: impl IntoIterator<Item = Obstacle>) -> Self {
         let obstacles = obstacles.into_iter().collect();
-        Self { name: String::new(), obstacles, clearance: 0.0, preferences: Vec::new(), movers: Vec::new() }
-    }
-
-    /// Returns all obstacles in the order of a scene's numbers: the static ones, then the moving ones in their own
-    /// frames.
-    pub fn all(&self) -> impl Iterator<Item = &Obstacle> {
-        self.obstacles.iter().chain(self.movers.iter().map(|mover| &mover.obstacle))
+        Self { name: String::new(), obstacles, clearance: 0.0, preferences: Vec::new() }
     }
 
     /// Makes the displayed shapes agree with the pieces that are judged. For workspaces that are read as data.
     pub fn hold_shapes(&mut self) {
-        let moving = self.movers.iter_mut().map(|mover| &mut mover.obstacle);
-        self.obstacles.iter_mut().chain(moving).for_each(|obstacle| obstacle.shape.hold_to(&obstacle.pieces));
+        self.obstacles.iter_mut().for_each(Obstacle::hold_shape);
     }
 }

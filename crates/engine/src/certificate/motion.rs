@@ -36,7 +36,7 @@ pub fn recorded(
     (asked, files): (&Overrides, &Digests),
     ends: [Option<Goal>; 2],
 ) -> Result<String, NoCertificate> {
-    if recording.times().is_none() && !scene.workspace().movers.is_empty() {
+    if recording.times().is_none() && !scene.loose().is_empty() {
         return Err(NoCertificate::Untimed);
     }
     steps.map_or(Ok(()), |(task, _)| checkable(task))?;

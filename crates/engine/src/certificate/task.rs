@@ -3,9 +3,8 @@
 
 use super::{NoCertificate, lines};
 use crate::result::StepReport;
-use cplan_core::model::Payload;
 use cplan_geometry::can_be_drawn_in;
-use cplan_handling::{Action, Object, RecordedStep, Step, Task};
+use cplan_handling::{Action, Object, Payload, RecordedStep, Step, Task};
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
 

@@ -71,7 +71,7 @@ fn judge_motion(
         }
         (false, false) => "start and goal of the motion are not judged".into(),
     });
-    let has_movers = !scene.workspace().movers.is_empty();
+    let has_movers = !loaded.courses.is_empty();
     if has_movers {
         notes.push("obstacles move on the recording's clock, from its first sample on".into());
     }
@@ -85,15 +85,15 @@ fn judge_motion(
     ];
     let clearance = scene.workspace().clearance;
     let collision_check = match held {
-        [] => check_collision(scene, recording, clearance),
-        held => check_collision_with(scene, recording, held, clearance),
+        [] => check_collision(loaded.timed(), recording, clearance),
+        held => check_collision_with(loaded.timed(), recording, held, clearance),
     };
     let mut broken = limits_kept(&scene.arm().joints, recording);
     broken.extend(torques_kept(scene, recording));
     let broken = Broken::new(&scene.arm().joints, &broken, &loaded.robot.assumed);
     let findings = MotionFindings::new(scene, recording, &collision_check, broken, notes);
     let misses = ends_kept(scene.arm(), recording, start, &goals);
-    let false_claims = claims_kept(scene, recording, claims, &collision_check);
+    let false_claims = claims_kept(loaded.timed(), recording, claims, &collision_check);
     let findings = findings.but(Judgement::Undecided, untold.into_iter().flatten().collect());
     Ok(findings.but(Judgement::Ends, misses).but(Judgement::Claims, false_claims))
 }

@@ -262,7 +262,7 @@ pub struct FailedStepReport {
 impl FailedStepReport {
     /// Reports the first step of a task that cannot be done, with the reasons.
     pub fn new(task: &Task, why: &FailedStep) -> Self {
-        let FailedStep { step, reasons, scene, from, ik_solutions } = why;
+        let FailedStep { step, reasons, scene, moving: _, from, ik_solutions } = why;
         Self {
             step: step.number,
             cycle: step.cycle,
@@ -270,7 +270,7 @@ impl FailedStepReport {
             description: step.action.describe(&task.objects),
             place: step.place.clone(),
             reasons: reasons.clone(),
-            carried: scene.payload().map(|payload| payload.object.clone()),
+            carried: scene.attachment().map(|payload| payload.name.clone()),
             from: [from[0], from[1]],
             ik_solutions: ik_solutions.iter().map(IkSolutionReport::from).collect(),
         }

@@ -2,11 +2,11 @@
 
 use super::tool::ToolMotion;
 use crate::{Place, Span};
-use cplan_core::check::{Bounded, Deviation, Posture};
-use cplan_core::model::{Contact, Drift, Pair, Scene};
+use cplan_core::check::{Bounded, Deviation, Drift, Posture};
+use cplan_core::model::{Contact, Pair};
 use cplan_core::space::Configuration;
 use cplan_geometry::Separation;
-use cplan_handling::{HeldMotion, Piece, Recording};
+use cplan_handling::{HeldMotion, Piece, Recording, TimedScene};
 use cplan_interrupt::checkpoint;
 use std::borrow::Cow;
 
@@ -95,7 +95,8 @@ pub enum CollisionCheck {
 ///
 /// Moving obstacles follow the recording's clock, from its first sample. Without a clock they are not checked.
 #[must_use]
-pub fn check_collision(scene: &Scene, recording: &Recording, clearance: f64) -> CollisionCheck {
+pub fn check_collision<'a>(scene: impl Into<TimedScene<'a>>, recording: &Recording, clearance: f64) -> CollisionCheck {
+    let scene = scene.into();
     check_pairs(scene, all_pairs(scene, recording), recording, clearance)
 }
 
@@ -104,15 +105,16 @@ pub fn check_collision(scene: &Scene, recording: &Recording, clearance: f64) -> 
 /// These joints must not move carried objects.
 #[must_use]
 pub fn check_collision_with(
-    scene: &Scene,
+    scene: TimedScene,
     recording: &Recording,
     held: &[HeldMotion],
     clearance: f64,
 ) -> CollisionCheck {
-    let tool = ToolMotion::new(scene, held);
+    let tool = ToolMotion::new(scene.scene, held);
     let pieces = recording.pieces();
-    let pairs = all_pairs(tool.scene(), recording);
-    let mut search = Search::new(tool.scene(), &pairs, &pieces, clearance);
+    let scene = TimedScene { scene: tool.scene(), ..scene };
+    let pairs = all_pairs(scene, recording);
+    let mut search = Search::new(scene, &pairs, &pieces, clearance);
     search.tool = Some(&tool);
     search.look_around();
     search.run();
@@ -120,21 +122,22 @@ pub fn check_collision_with(
 }
 
 /// Returns the pairs with static obstacles, and with a clock also those with moving ones.
-fn all_pairs<'a>(scene: &'a Scene, recording: &Recording) -> Cow<'a, [Pair]> {
+fn all_pairs<'a>(scene: TimedScene<'a>, recording: &Recording) -> Cow<'a, [Pair]> {
     let moving = if recording.times().is_some() { scene.moving_pairs() } else { &[] };
-    if moving.is_empty() { scene.pairs().into() } else { [scene.pairs(), moving].concat().into() }
+    let standing = scene.scene.pairs();
+    if moving.is_empty() { standing.into() } else { [standing, moving].concat().into() }
 }
 
 /// Checks against moving obstacles only, on the recording's clock from its first sample on. The arm's motion in time is
 /// certified if it is also known to be free of static obstacles, as the motion along a [`crate::CertifiedCurve`] is.
 #[must_use]
-pub fn certify_in_time(scene: &Scene, recording: &Recording, clearance: f64) -> CollisionCheck {
+pub fn certify_in_time(scene: TimedScene, recording: &Recording, clearance: f64) -> CollisionCheck {
     check_pairs(scene, scene.moving_pairs().into(), recording, clearance)
 }
 
 /// Returns the first moving obstacle that a recording approaches too closely, or that cannot be decided; `None` if it
 /// is free. Does not compute the clearance, which makes it much faster.
-pub fn met_in_time(scene: &Scene, recording: &Recording, clearance: f64) -> Option<Encounter> {
+pub fn met_in_time(scene: TimedScene, recording: &Recording, clearance: f64) -> Option<Encounter> {
     let pieces = recording.pieces();
     let mut search = Search::new(scene, scene.moving_pairs(), &pieces, clearance);
     search.tightness = 0.0;
@@ -145,7 +148,7 @@ pub fn met_in_time(scene: &Scene, recording: &Recording, clearance: f64) -> Opti
     }
 }
 
-fn check_pairs(scene: &Scene, pairs: Cow<[Pair]>, recording: &Recording, clearance: f64) -> CollisionCheck {
+fn check_pairs(scene: TimedScene, pairs: Cow<[Pair]>, recording: &Recording, clearance: f64) -> CollisionCheck {
     let pieces = recording.pieces();
     let mut search = Search::new(scene, &pairs, &pieces, clearance);
     search.look_around();
@@ -154,7 +157,7 @@ fn check_pairs(scene: &Scene, pairs: Cow<[Pair]>, recording: &Recording, clearan
 }
 
 struct Search<'a> {
-    scene: &'a Scene,
+    scene: TimedScene<'a>,
     /// The pairs to check; those with moving obstacles come last.
     pairs: &'a [Pair],
     pieces: &'a [Piece],
@@ -177,7 +180,7 @@ struct Search<'a> {
 }
 
 impl<'a> Search<'a> {
-    fn new(scene: &'a Scene, pairs: &'a [Pair], pieces: &'a [Piece], required: f64) -> Self {
+    fn new(scene: TimedScene<'a>, pairs: &'a [Pair], pieces: &'a [Piece], required: f64) -> Self {
         Self {
             scene,
             pairs,
@@ -214,7 +217,7 @@ impl<'a> Search<'a> {
             let span = Span::between(place(from), place(to - 1));
             let (middle, deviation) = span.deviation(self.pieces);
             self.keep_meeting(span, &mut pairs);
-            let posture = Posture::new(self.scene, middle);
+            let posture = Posture::new(self.scene.scene, middle);
             let [begins, ends] = span.ends();
             pairs.retain(|&pair| {
                 let drift = self.drift(pair, begins, ends);
@@ -232,7 +235,7 @@ impl<'a> Search<'a> {
 
     /// Samples some pairs at a place, except those that discs around both show to be irrelevant.
     fn look(&mut self, place: Place, pairs: &[Pair]) {
-        let posture = Posture::new(self.scene, self.pieces[place.0].at(place.1));
+        let posture = Posture::new(self.scene.scene, self.pieces[place.0].at(place.1));
         for &pair in pairs {
             if !self.is_there(pair, place) {
                 continue;
@@ -270,7 +273,7 @@ impl<'a> Search<'a> {
     /// Returns the motion of the obstacle of a pair between two places, if it moves.
     fn drift(&self, pair: Pair, from: Place, to: Place) -> Option<Drift> {
         let time = |(piece, share): Place| self.pieces[piece].time(share) - self.pieces[0].from;
-        self.scene.mover(pair).map(|mover| mover.course.drift(time(from), time(to)))
+        self.scene.course(pair).map(|course| course.drift(time(from), time(to)))
     }
 
     /// Records a distance on the motion.
@@ -320,7 +323,7 @@ impl<'a> Search<'a> {
     fn judge(&mut self, span: Span, pairs: &mut Vec<Pair>) {
         self.keep_meeting(span, pairs);
         let (middle, deviation) = span.deviation(self.pieces);
-        let posture = Posture::new(self.scene, middle);
+        let posture = Posture::new(self.scene.scene, middle);
         let [from, to] = span.ends();
         pairs.retain(|&pair| {
             let is_there = self.is_there(pair, span.middle());
@@ -332,7 +335,7 @@ impl<'a> Search<'a> {
             let drift = self.drift(pair, from, to);
             self.evaluations += 1;
             if let Some(drift) = &drift {
-                let apart = posture.apart_moving(pair, deviation, drift);
+                let apart = posture.apart_drifting(pair, deviation, drift);
                 if suffices(self, apart) {
                     self.proven = self.proven.min(apart);
                     return false;
@@ -357,7 +360,7 @@ impl<'a> Search<'a> {
         let mut nearest: Option<Encounter> = None;
         for place in span.ends() {
             let at = self.pieces[place.0].at(place.1);
-            let posture = Posture::new(self.scene, at);
+            let posture = Posture::new(self.scene.scene, at);
             for &pair in pairs {
                 let drift = self.drift(pair, place, place);
                 let separation = here(&posture, pair, drift.as_ref());
@@ -399,7 +402,7 @@ fn bound(
     enough: impl Fn(f64) -> f64,
 ) -> Bounded {
     match drift {
-        Some(drift) => posture.bound_moving(pair, deviation, drift, enough),
+        Some(drift) => posture.bound_drifting(pair, deviation, drift, enough),
         None => posture.bound_up_to(pair, deviation, enough),
     }
 }
@@ -412,7 +415,7 @@ fn here(posture: &Posture, pair: Pair, drift: Option<&Drift>) -> Separation {
 /// Does the same by discs around both shapes.
 fn apart(posture: &Posture, pair: Pair, deviation: Deviation, drift: Option<&Drift>) -> f64 {
     match drift {
-        Some(drift) => posture.apart_moving(pair, deviation, drift),
+        Some(drift) => posture.apart_drifting(pair, deviation, drift),
         None => posture.apart(pair, deviation),
     }
 }

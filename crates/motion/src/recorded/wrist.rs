@@ -1,8 +1,9 @@
 //! A turn of a payload by a wrist while the arm is at rest.
 
-use cplan_core::model::{Arm, Payload, Workspace};
+use cplan_core::model::Arm;
 use cplan_core::space::{Configuration, JointRange};
 use cplan_geometry::{Features, Hits, Point, Pose, ROUNDING, Vector, turning_from};
+use cplan_handling::{Payload, Task, TimedWorkspace};
 use std::f64::consts::TAU;
 
 /// A turn of a payload about the tip, proven free.
@@ -38,8 +39,8 @@ pub(super) fn turn_resolution(arm: &Arm, clearance: f64) -> f64 {
 /// if it is free, otherwise the longer; `None` if neither is. See [`given_turn`].
 #[must_use]
 pub fn wrist_turn(
-    arm: &Arm,
-    workspace: &Workspace,
+    task: &Task,
+    workspace: &TimedWorkspace,
     payload: &Payload,
     point: Point,
     q: Configuration,
@@ -51,7 +52,7 @@ pub fn wrist_turn(
     if ahead > TAU / 2.0 {
         ways.reverse();
     }
-    let turning = Turning::new(arm, workspace, payload, point, q);
+    let turning = Turning::new(task, workspace, payload, point, q);
     ways.into_iter().find_map(|end| turning.judge([from, end]).ok())
 }
 
@@ -62,14 +63,14 @@ pub fn wrist_turn(
 /// # Errors
 /// The first place where it touches an obstacle, or comes closer than the workspace's clearance.
 pub fn given_turn(
-    arm: &Arm,
-    workspace: &Workspace,
+    task: &Task,
+    workspace: &TimedWorkspace,
     payload: &Payload,
     point: Point,
     q: Configuration,
     turn: [f64; 2],
 ) -> Result<WristTurn, TurnContact> {
-    Turning::new(arm, workspace, payload, point, q).judge(turn)
+    Turning::new(task, workspace, payload, point, q).judge(turn)
 }
 
 /// A payload that turns about the tip, and the obstacles that it can touch.
@@ -82,16 +83,18 @@ struct Turning {
 }
 
 impl Turning {
-    fn new(arm: &Arm, workspace: &Workspace, payload: &Payload, point: Point, q: Configuration) -> Self {
+    fn new(task: &Task, workspace: &TimedWorkspace, payload: &Payload, point: Point, q: Configuration) -> Self {
+        let arm = &task.arm;
+        let attachment = payload.attachment(task, arm, task.objects[payload.object].carried_heights());
         let about = Pose::translation(-point);
-        let parts: Vec<_> = payload.parts(arm).map(|(shape, kind)| (Features::new(&shape.at(&about)), kind)).collect();
+        let features: Vec<_> = attachment.parts.iter().map(|part| Features::new(&part.shape.at(&about))).collect();
         let mut pairs = Vec::new();
         for (number, obstacle) in workspace.obstacles.iter().enumerate() {
-            if !payload.heights.object_meets(obstacle.heights) {
+            if !attachment.heights.object_meets(obstacle.heights) {
                 continue;
             }
-            for (part, kind) in parts.iter().filter(|(_, kind)| payload.meets(*kind, number)) {
-                let nearer = kind.nearer(workspace.clearance);
+            for (attached, part) in attachment.parts.iter().zip(&features) {
+                let Some(nearer) = attachment.nearer(attached, number, workspace.clearance) else { continue };
                 let pieces = obstacle.pieces.iter().map(|piece| Features::new(&piece.receding(nearer)));
                 pairs.extend(pieces.map(|piece| (part.clone(), piece, number)));
             }

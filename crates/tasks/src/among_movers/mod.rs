@@ -24,7 +24,7 @@ use super::state::State;
 use cplan_core::check::Posture;
 use cplan_core::model::{MotionProblem, Outcome};
 use cplan_geometry::Ordered;
-use cplan_handling::{Action, Item, Step, Task};
+use cplan_handling::{Action, Item, Step, Task, TimedScene};
 use cplan_interrupt::checkpoint;
 use cplan_motion::{Limits, Timed, after_pause, nanoseconds, not_before, seconds};
 use cplan_movers::{Demand, InTime, Movers, Timing, Wait, in_time, stands};
@@ -116,6 +116,7 @@ fn out_of_reach(task: &Task, start: &State) -> Option<FailedStep> {
         step: step.clone(),
         reasons: vec![format!("\"{name}\" is never within the arm's reach in the window of its pick")],
         scene: Arc::new(start.scene(task, step.action.picked())),
+        moving: start.moving.clone(),
         from: start.q,
         ik_solutions: Vec::new(),
     })
@@ -376,7 +377,7 @@ impl<'a> Search<'a> {
         let (candidate, step) = (&way.candidate, way.candidate.step);
         if matches!(candidate.event, Some(Event::Grasp { .. })) {
             // If the payload would touch something at this place, the object may be picked elsewhere on its path.
-            unobstructed(&here.standing(candidate, time), candidate.to, "after it")?;
+            unobstructed(&here.standing(candidate, time).0, candidate.to, "after it")?;
         }
         let [some, each] = ROUNDED_MOTIONS;
         let stops = Limits::from(&task.arm.joints).stops_at_corners()
@@ -386,7 +387,8 @@ impl<'a> Search<'a> {
         // Without moving obstacles.
         let motion = legs.motion(task, state, candidate)?;
         self.motions += 1;
-        let problem = MotionProblem::trusted(here.scene(step), state.q, candidate.to);
+        let (scene, courses) = here.scene(step);
+        let problem = MotionProblem::trusted(scene, state.q, candidate.to);
         // On the clock of the motion. Differences of whole nanoseconds are whole nanoseconds.
         let since = |at: f64| match at.is_finite() {
             true => seconds(nanoseconds(at).saturating_sub(nanoseconds(time))),
@@ -398,7 +400,7 @@ impl<'a> Search<'a> {
             until: way.moment.map(|moment| since(moment.time)),
         };
         let path = motion.timed.curve.straight();
-        let planned = in_time(&problem, path, (*motion.timed).clone(), options, &demand);
+        let planned = in_time(&problem, &courses, path, (*motion.timed).clone(), options, &demand);
         let planned = planned.map_err(|error| Refusal::new(error.to_string(), false))?;
         let InTime { timed: Timed { curve, trajectory }, figures } =
             planned.map_err(|reason| Refusal::new(reason, false))?;
@@ -407,12 +409,14 @@ impl<'a> Search<'a> {
             return Err(Refusal::new("the arm cannot rest there for the required time", false));
         }
         let q = curve.curve().path().goal();
-        let kept = stands(&here.standing(candidate, arrival), q, step.dwell);
+        let (scene, courses) = here.standing(candidate, arrival);
+        let kept = stands(TimedScene { scene: &scene, courses: &courses }, q, step.dwell);
         let kept =
             kept.ok_or_else(|| Refusal::new("a moving obstacle or object arrives while the arm rests there", false))?;
         let leg = Leg {
             step: step.clone(),
             scene: self.legs.scene(task, state, step),
+            moving: state.moving.clone(),
             carried: state.held.as_ref().map(|held| held.object),
             timed: Arc::new(Timed { curve: curve.among_movers(kept, None), trajectory }),
             turn: None,
@@ -465,8 +469,10 @@ impl<'a> Search<'a> {
     fn free_until(&self, index: usize) -> Option<f64> {
         let (node, state) = (&self.nodes[index], self.state(index)?);
         let released = node.parent.and_then(|parent| self.state(parent)?.released);
-        let scene = state.scene(self.task, released).since(node.seconds);
-        let movers = Movers::new(&scene, scene.workspace().clearance);
+        let scene = state.scene(self.task, released);
+        let courses = self.task.courses_since(&state.moving, node.seconds);
+        let timed = TimedScene { scene: &scene, courses: &courses };
+        let movers = Movers::new(timed, scene.workspace().clearance);
         let safe = movers.safe_intervals(&Posture::new(&scene, state.q));
         safe.first().filter(|[_, until]| until.is_finite()).map(|[_, until]| node.seconds + until)
     }

@@ -1,9 +1,9 @@
 //! Passages of moving objects through the reach of the arm.
 
-use cplan_core::model::{Arm, Course, JointType, Leg};
+use cplan_core::model::{Arm, JointType};
 use cplan_core::space::JointRange;
 use cplan_geometry::{Interval, Point};
-use cplan_handling::Object;
+use cplan_handling::{Course, Leg, Object};
 
 /// Share by which radii are enlarged: far more than rounding.
 const ROOM: f64 = 1e-9;
@@ -94,7 +94,7 @@ mod tests {
 
     #[test]
     fn what_stays_is_there_for_ever() {
-        let stop = |time, x| cplan_core::model::Stop { time, at: Point::new(x, 0.0), angle: 0.0 };
+        let stop = |time, x| cplan_handling::Stop { time, at: Point::new(x, 0.0), angle: 0.0 };
         let course = Course::new(vec![stop(0.0, 9.0), stop(8.0, 1.0)], Vector::zeros()).unwrap();
         let last = course.legs()[1];
         assert_eq!(within(&last, Point::zeros(), 2.0), Some([8.0, f64::INFINITY]));

@@ -8,7 +8,7 @@ use cplan_core::check::Posture;
 use cplan_core::model::Scene;
 use cplan_core::space::Configuration;
 use cplan_geometry::Interval;
-use cplan_handling::{Action, Step, Task};
+use cplan_handling::{Action, Course, Step, Task, TimedScene};
 use cplan_motion::{SHORTEST_INTERVAL, nanoseconds, nearest_within, not_after, not_before, seconds};
 use cplan_movers::Movers;
 
@@ -64,15 +64,21 @@ pub(super) struct Here<'a, 's> {
 }
 
 impl<'a> Here<'a, '_> {
-    /// Returns the scene during the motion of a step, on a clock that begins with it.
-    pub fn scene(&self, step: &Step) -> Scene {
-        self.state.scene(self.task, step.action.picked()).since(self.time)
+    /// Returns the scene during the motion of a step, and its trajectories on a clock that begins with it.
+    pub fn scene(&self, step: &Step) -> (Scene, Vec<Course>) {
+        let scene = self.state.scene(self.task, step.action.picked());
+        (scene, self.task.courses_since(&self.state.moving, self.time))
     }
 
-    /// Returns the scene when the arm stands at the end of a candidate's step, on a clock that begins at `time`.
-    pub fn standing(&self, candidate: &Candidate, time: f64) -> Scene {
+    /// Returns the scene when the arm stands at the end of a candidate's step, and its trajectories on a clock that
+    /// begins at `time`.
+    pub fn standing(&self, candidate: &Candidate, time: f64) -> (Scene, Vec<Course>) {
         let left = self.state.left(self.task, candidate, candidate.to);
-        left.scene(self.task, self.state.released).since(time)
+        (left.scene(self.task, self.state.released), self.task.courses_since(&left.moving, time))
+    }
+
+    fn movers<'m>(&self, scene: &'m Scene, courses: &'m [Course]) -> Movers<'m> {
+        Movers::new(TimedScene { scene, courses }, self.task.workspace.clearance)
     }
 
     /// Returns all candidates for the next step.
@@ -80,8 +86,8 @@ impl<'a> Here<'a, '_> {
         let mut choices = Choices::default();
         for candidates in self.state.candidates(self.task) {
             let step = candidates.step;
-            let scene = self.scene(step);
-            let movers = Movers::new(&scene, scene.workspace().clearance);
+            let (scene, courses) = self.scene(step);
+            let movers = self.movers(&scene, &courses);
             let (mut ways, mut refused) = (Vec::new(), Vec::new());
             match &step.action {
                 Action::Pick { object, grasp, when, .. } if self.state.moving.contains(object) => {
@@ -113,8 +119,8 @@ impl<'a> Here<'a, '_> {
     /// Returns the same pick at another moment, with the nearest IK solution.
     pub fn at_moment(&self, way: &Way<'a>, moment: Moment) -> Option<Way<'a>> {
         let object = way.candidate.step.action.picked()?;
-        let scene = self.scene(way.candidate.step);
-        let movers = Movers::new(&scene, scene.workspace().clearance);
+        let (scene, courses) = self.scene(way.candidate.step);
+        let movers = self.movers(&scene, &courses);
         let ways = self.passing(&movers, way.candidate.step, object, moment);
         let far = |other: &Way| self.task.arm.topology().distance(other.candidate.to, way.candidate.to);
         ways.into_iter().min_by(|a, b| far(a).total_cmp(&far(b)))
@@ -191,8 +197,8 @@ impl<'a> Here<'a, '_> {
     /// Returns the times at which no moving obstacle is at a candidate's target: first for the arriving arm, and then
     /// for the arm standing there after the step's event.
     fn safe(&self, movers: &Movers, candidate: &Candidate) -> [Vec<Interval>; 2] {
-        let after = self.standing(candidate, self.time);
-        let then = Movers::new(&after, after.workspace().clearance);
+        let (after, courses) = self.standing(candidate, self.time);
+        let then = self.movers(&after, &courses);
         [movers, &then].map(|movers| {
             let mut safe = movers.safe_intervals(&Posture::new(movers.scene(), candidate.to));
             safe.iter_mut().flatten().for_each(|time| *time += self.time);

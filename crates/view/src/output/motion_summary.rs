@@ -15,7 +15,7 @@ use cplan_text::{at_least, counted, percent};
 /// Returns the planner's result and work, and the query.
 pub(super) fn told(plan: &Plan, problem: &MotionProblem, answer: &Answer<Motion>) -> Told {
     let (scene, arm) = (problem.scene(), plan.arm());
-    let moving = match scene.workspace().movers.len() {
+    let moving = match scene.loose().len() {
         0 => String::new(),
         count => format!(", {count} moving"),
     };

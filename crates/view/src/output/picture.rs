@@ -5,7 +5,7 @@ use crate::{DrawError, Moments, Picture, TaskPicture, View};
 use cplan_core::cspace::{CObstacle, c_obstacles, exact_c_obstacles};
 use cplan_core::model::{MotionProblem, Outcome, Scene, Status};
 use cplan_engine::{Detail, Motion, Plan};
-use cplan_handling::Task;
+use cplan_handling::{Task, TimedScene};
 use cplan_solver::{Answer, Options};
 use cplan_tasks::TaskAnswer;
 use cplan_text::{at_least, counted};
@@ -157,8 +157,9 @@ pub fn view_with(plan: &Plan, contours: impl FnOnce(&Scene) -> Vec<CObstacle>) -
 
 fn motion_view(plan: &Plan, problem: &MotionProblem, answer: &Answer<Motion>, contours: &[CObstacle]) -> View {
     let scene = problem.scene();
+    let timed = TimedScene { scene, ..plan.problem().timed() };
     let moments =
-        plan.duration().map_or_else(Vec::new, |duration| contours_in_time(scene, [0.0, duration], MOST_MOMENTS));
+        plan.duration().map_or_else(Vec::new, |duration| contours_in_time(timed, [0.0, duration], MOST_MOMENTS));
     let method = answer.method;
     let outline = answer.outcome.found().map(|motion| motion.timed.curve.outline());
     let detail = match &answer.outcome {
@@ -180,7 +181,7 @@ fn motion_view(plan: &Plan, problem: &MotionProblem, answer: &Answer<Motion>, co
         proof: answer.outcome.infeasible(),
         c_obstacles: contours,
         moments: &moments,
-        ..Picture::new(scene, problem.start())
+        ..Picture::new(timed, problem.start())
     })
 }
 
@@ -236,17 +237,18 @@ pub fn title_of(scene: &Scene) -> String {
 const MOST_MOMENTS: usize = 60;
 
 /// Returns C-obstacles of moving obstacles, some times per second, at most at this many times.
-fn contours_in_time(scene: &Scene, [from, to]: [f64; 2], most: usize) -> Moments {
-    if scene.workspace().movers.is_empty() {
+fn contours_in_time(TimedScene { scene, courses }: TimedScene, [from, to]: [f64; 2], most: usize) -> Moments {
+    if courses.is_empty() {
         return Vec::new();
     }
     let alone = scene.reshaped(|_| (), |_| Vec::new());
+    let alone = TimedScene { scene: &alone, courses };
     let standing = scene.workspace().obstacles.len();
     let count = ((to - from) * 20.0).ceil().clamp(1.0, most.max(1) as f64);
     let moment = |k: f64| {
         let time = from + (to - from) * k / count;
         let mut all = contours(&alone.frozen(time));
-        all.retain(|c_obstacle| (standing..standing + scene.workspace().movers.len()).contains(&c_obstacle.obstacle));
+        all.retain(|c_obstacle| (standing..standing + courses.len()).contains(&c_obstacle.obstacle));
         all.iter_mut().for_each(|c_obstacle| c_obstacle.obstacle -= standing);
         (time, all)
     };

@@ -1,11 +1,11 @@
 //! The scene of a recording: the arm's links, obstacles and objects, and their places over time.
 
 use crate::color::{GREY, INK, Rgb, obstacle as obstacle_color};
-use cplan_core::model::{Mover, Obstacle, Part, Workspace};
+use cplan_core::model::{Obstacle, Part};
 use cplan_core::space::Configuration;
 use cplan_engine::{Detail, Plan};
 use cplan_geometry::Pose;
-use cplan_handling::Task;
+use cplan_handling::{Course, Task};
 use cplan_motion::{Body, Solid, Stage};
 use cplan_tasks::{Event, Leg, TaskAnswer};
 
@@ -40,20 +40,29 @@ pub(super) fn stage(plan: &Plan) -> Option<Stage> {
         stage.poses.extend(moved);
     }
     match plan.detail() {
-        Detail::Motion { problem, .. } => with_movers(&mut stage, problem.scene().workspace(), &trajectory.time),
+        Detail::Motion { problem, .. } => {
+            let loose = problem.scene().loose().iter().map(|loose| &loose.obstacle);
+            with_movers(&mut stage, obstacles.len(), loose.zip(plan.problem().timed().courses), &trajectory.time);
+        }
         Detail::Task { task, answer } => {
             with_objects(&mut stage, task, answer, &trajectory.time);
-            with_movers(&mut stage, &task.workspace, &trajectory.time);
+            let movers = task.workspace.movers.iter().map(|mover| (&mover.obstacle, &mover.course));
+            with_movers(&mut stage, obstacles.len(), movers, &trajectory.time);
         }
     }
     stage.poses.sort_by(|a, b| a.0.total_cmp(&b.0));
     Some(stage)
 }
 
-/// Adds moving obstacles, with a pose for each of these times.
-fn with_movers(stage: &mut Stage, workspace: &Workspace, times: &[f64]) {
-    for (number, Mover { obstacle, course }) in workspace.movers.iter().enumerate() {
-        let solid = lying((workspace.obstacles.len() + number, obstacle));
+/// Adds moving obstacles, which are numbered after the static ones, with a pose for each of these times.
+fn with_movers<'a>(
+    stage: &mut Stage,
+    standing: usize,
+    movers: impl Iterator<Item = (&'a Obstacle, &'a Course)>,
+    times: &[f64],
+) {
+    for (number, (obstacle, course)) in movers.enumerate() {
+        let solid = lying((standing + number, obstacle));
         let body = stage.bodies.len();
         stage.bodies.push(Body { name: format!("moving/{}", obstacle.name), solids: vec![solid] });
         stage.poses.extend(times.iter().map(|&time| (time, body, course.pose(time), 0.0)));
@@ -79,11 +88,11 @@ fn with_objects(stage: &mut Stage, task: &Task, answer: &TaskAnswer, times: &[f6
         }
     }
     for leg in &answer.legs {
-        if let (Some(object), Some(payload)) = (leg.carried, leg.scene.payload()) {
+        if let (Some(object), Some(payload)) = (leg.carried, leg.scene.attachment()) {
             let lift = task.objects[object].lift;
             let motion = &leg.timed.trajectory;
             stage.poses.extend(motion.time.iter().zip(&motion.position).map(|(&time, &q)| {
-                (leg.begin + time, OBJECTS + object, payload.pose(&task.arm, Configuration::from(q)), lift)
+                (leg.begin + time, OBJECTS + object, payload.grip.pose(&task.arm, Configuration::from(q)), lift)
             }));
         }
         if let (Some(Event::Release { object, pose }), Some(time)) = (leg.event, leg.event_time()) {

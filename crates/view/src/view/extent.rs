@@ -50,9 +50,9 @@ fn swept(scene: &Scene, shown: &[Configuration]) -> [Range; 2] {
         for (link, pose) in arm.poses(q).iter().enumerate() {
             scene.own_parts(link).iter().for_each(|part| shape(&part.shape, pose));
         }
-        if let Some(payload) = scene.payload() {
-            let pose = payload.pose(arm, q);
-            payload.pieces.iter().for_each(|piece| shape(piece, &pose));
+        if let Some(payload) = scene.attachment() {
+            let pose = payload.grip.pose(arm, q);
+            payload.pieces().for_each(|piece| shape(piece, &pose));
         }
     }
     bounds

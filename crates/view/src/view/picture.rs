@@ -9,10 +9,11 @@ use super::trace::TraceView;
 use super::world::WorldView;
 use cplan_core::check::CheckedProof;
 use cplan_core::cspace::CObstacle;
-use cplan_core::model::{Scene, Status};
+use cplan_core::model::Status;
 use cplan_core::planner::Trace;
 use cplan_core::space::{Configuration, Measure, Metric, Path, Segment};
 use cplan_geometry::Point;
+use cplan_handling::TimedScene;
 use cplan_motion::Trajectory;
 use nalgebra::Vector3;
 
@@ -28,8 +29,8 @@ pub struct Picture<'a> {
     pub ending: Option<Status>,
     /// Facts about the result: names and values.
     pub facts: Vec<[String; 2]>,
-    /// Arm and obstacles.
-    pub scene: &'a Scene,
+    /// Arm and obstacles, with the trajectories of those that move.
+    pub scene: TimedScene<'a>,
     /// Start configuration.
     pub start: Configuration,
     /// Goals: single configurations and segments. Without a path, the arm is shown at the first goal; on a segment,
@@ -64,13 +65,13 @@ pub struct AxesFrame {
 impl<'a> Picture<'a> {
     /// Creates a picture with the arm at `start`, and nothing else.
     #[must_use]
-    pub fn new(scene: &'a Scene, start: Configuration) -> Self {
+    pub fn new(scene: impl Into<TimedScene<'a>>, start: Configuration) -> Self {
         Self {
             title: Vec::new(),
             status: String::new(),
             ending: None,
             facts: Vec::new(),
-            scene,
+            scene: scene.into(),
             start,
             goals: &[],
             paths: Vec::new(),
@@ -93,10 +94,11 @@ impl View {
     /// Returns the view of a picture.
     #[must_use]
     pub fn of_picture(picture: &Picture) -> Self {
-        let Picture { scene, start, .. } = *picture;
+        let Picture { scene: timed, start, .. } = *picture;
+        let scene = timed.scene;
         let grain = Grain::of(scene.arm());
         let trace = picture.trace.and_then(|trace| TraceView::new(trace, &scene.arm().topology(), grain));
-        let world = WorldView::new(scene, String::new(), picture.c_obstacles, grain);
+        let world = WorldView::new(timed, String::new(), picture.c_obstacles, grain);
         let world = world.proven(picture.proof, grain).traced(trace).timed(picture.moments, grain);
         let count = picture.paths.len();
         let named = picture.paths.iter().enumerate();
@@ -142,7 +144,7 @@ impl View {
     /// Returns the view of an arm in one configuration with frames, without its configuration space.
     #[must_use]
     pub fn of_arm(picture: &Picture, frames: &[AxesFrame]) -> Self {
-        let grain = Grain::of(picture.scene.arm());
+        let grain = Grain::of(picture.scene.scene.arm());
         let frame = |frame: &AxesFrame| FrameView {
             name: frame.name.clone(),
             at: grain.point(frame.at).into(),

@@ -45,7 +45,7 @@ pub fn payload_states<'a>(legs: &'a [Leg], topology: &Topology) -> Vec<PayloadSt
 }
 
 fn same_world(a: &Leg, b: &Leg) -> bool {
-    let same = || a.scene.payload() == b.scene.payload() && a.scene.workspace() == b.scene.workspace();
+    let same = || a.scene.attachment() == b.scene.attachment() && a.scene.workspace() == b.scene.workspace();
     Arc::ptr_eq(&a.scene, &b.scene) || same()
 }
 
@@ -77,7 +77,7 @@ impl PayloadState<'_> {
     #[must_use]
     pub fn title(&self, rounds: usize, order: &Order) -> String {
         let first = self.motions.first().map(|(_, leg)| leg);
-        let payload = first.and_then(|leg| leg.scene.payload()).map(|payload| payload.object.as_str());
+        let payload = first.and_then(|leg| leg.scene.attachment()).map(|payload| payload.name.as_str());
         let times = match first {
             _ if self.times > 1 => format!(" (\u{d7}{})", self.times),
             Some(leg) if rounds > 1 => format!(", round {}", leg.step.cycle),

@@ -10,9 +10,9 @@ use super::steps::{Order, rounds, rows, words};
 use super::task_picture::TaskPicture;
 use super::world::{ContourView, ObstacleView, WorldView, contours};
 use crate::{FieldLines, color};
-use cplan_core::model::{Obstacle, Scene};
+use cplan_core::model::{Additions, Obstacle, Scene};
 use cplan_geometry::Pose;
-use cplan_handling::{Object, Task};
+use cplan_handling::{Course, Object, Task, TimedScene};
 use cplan_tasks::{Event, FailedStep, Leg, Sequence};
 use std::sync::Arc;
 
@@ -35,7 +35,7 @@ impl View {
         let mut spans: Vec<[f64; 2]> = Vec::new();
         for leg in legs {
             let name = order.named(&leg.step, &task.objects);
-            let world = worlds.of(&leg.scene);
+            let world = worlds.of(&leg.scene, &leg.moving);
             motions.push(MotionView { world, path: Some(paths.len()), from, label: name.clone(), replay: None });
             let carried = leg.carried.map(|object| color::obstacle(task.obstacle_number(object)));
             let outline = leg.timed.curve.outline();
@@ -51,8 +51,8 @@ impl View {
             }
             None => {
                 let (poses, moving) = at_the_end(task, legs);
-                let scene = Scene::trusted(task.arm.clone(), task.surroundings(&poses, &moving));
-                (worlds.of(&Arc::new(scene)), "done".to_owned())
+                let scene = task.scene(&poses, &moving, None, []);
+                (worlds.of(&Arc::new(scene), &moving), "done".to_owned())
             }
         };
         motions.push(MotionView { world, path: None, from, label, replay: None });
@@ -61,7 +61,7 @@ impl View {
         let at_first: Vec<_> = task.objects.iter().map(Object::standing_at_first).collect();
         let mut everything = task.obstacles(&at_first);
         everything.obstacles.extend(placed.iter().map(|(_, obstacle)| obstacle.clone()));
-        let overview = Scene::trusted(task.arm.clone(), everything);
+        let overview = everything.scene_trusted(task.arm.clone());
         let ends = legs.iter().map(|leg| leg.timed.curve.curve().path().goal());
         let shown: Vec<_> = [task.start].into_iter().chain(ends).collect();
         let placed = placed.iter().map(|(object, o)| ObstacleView::new(o, task.obstacle_number(*object), grain));
@@ -117,7 +117,7 @@ fn panels(picture: &TaskPicture, order: &Order, paths: &[PathView], last: usize,
     let mut panels: Vec<PanelView> = states.iter().map(panel).collect();
     let fails = picture.answer.failed();
     if let Some(fails) = fails {
-        let payload = describe(fails.scene.payload().map(|payload| payload.object.as_str()));
+        let payload = describe(fails.scene.attachment().map(|payload| payload.name.as_str()));
         let (number, cycle) = (order.number(&fails.step), fails.step.cycle);
         let round = if cycle > 1 { format!(", round {cycle}") } else { String::new() };
         let title = format!("{number} fails: {payload}{round}");
@@ -135,23 +135,27 @@ fn panels(picture: &TaskPicture, order: &Order, paths: &[PathView], last: usize,
 struct Worlds<'a> {
     picture: &'a TaskPicture<'a>,
     grain: Grain,
-    scenes: Vec<Arc<Scene>>,
+    /// Each with the trajectories of its moving obstacles.
+    scenes: Vec<(Arc<Scene>, Vec<Course>)>,
     views: Vec<WorldView>,
 }
 
 impl Worlds<'_> {
-    /// Returns the number of a scene's world. Repetitions often share one scene, or have equal ones.
-    fn of(&mut self, scene: &Arc<Scene>) -> usize {
-        let known = |other: &Arc<Scene>| Arc::ptr_eq(other, scene) || other == scene;
-        self.scenes.iter().position(known).unwrap_or_else(|| self.add(scene))
+    /// Returns the number of a scene's world, in which these objects move. Repetitions often share one scene, or have
+    /// equal ones.
+    fn of(&mut self, scene: &Arc<Scene>, moving: &[usize]) -> usize {
+        let known = |(other, _): &(Arc<Scene>, Vec<Course>)| Arc::ptr_eq(other, scene) || other == scene;
+        self.scenes.iter().position(known).unwrap_or_else(|| self.add(scene, moving))
     }
 
-    fn add(&mut self, scene: &Arc<Scene>) -> usize {
+    fn add(&mut self, scene: &Arc<Scene>, moving: &[usize]) -> usize {
+        let courses = self.picture.task.courses(moving);
+        let timed = TimedScene { scene, courses: &courses };
         let c_obstacles = (self.picture.c_obstacles)(scene);
-        let label = describe(scene.payload().map(|payload| payload.object.as_str()));
+        let label = describe(scene.attachment().map(|payload| payload.name.as_str()));
         let open = self.open(scene);
-        self.views.push(WorldView { open, ..WorldView::new(scene, label, &c_obstacles, self.grain) });
-        self.scenes.push(scene.clone());
+        self.views.push(WorldView { open, ..WorldView::new(timed, label, &c_obstacles, self.grain) });
+        self.scenes.push((scene.clone(), courses));
         self.views.len() - 1
     }
 
@@ -165,7 +169,8 @@ impl Worlds<'_> {
         for (number, view) in self.views.iter_mut().enumerate().filter(|(_, view)| !view.movers.is_empty()) {
             view.movers.iter_mut().for_each(|mover| mover.until = picked(&mover.obstacle.name));
             let Some(span) = spans.get(number) else { continue };
-            let moments = (self.picture.in_time)(&self.scenes[number], *span, MOST_MOMENTS / spans.len());
+            let (scene, courses) = &self.scenes[number];
+            let moments = (self.picture.in_time)(TimedScene { scene, courses }, *span, MOST_MOMENTS / spans.len());
             *view = view.clone().timed(&moments, self.grain);
         }
     }
@@ -174,7 +179,8 @@ impl Worlds<'_> {
     fn open(&self, scene: &Scene) -> Vec<ContourView> {
         let mut workspace = scene.workspace().clone();
         let whole = |workspace| {
-            Scene::handling_trusted(self.picture.task.arm.clone(), workspace, scene.payload().cloned(), &[])
+            let additions = Additions { allowed_contacts: Vec::new(), ..scene.additions().clone() };
+            Scene::with_trusted(self.picture.task.arm.clone(), workspace, additions)
         };
         let closed = whole(workspace.clone());
         let pairs = |scene: &Scene, obstacle| scene.pairs().iter().filter(|pair| pair.obstacle == obstacle).count();
@@ -195,7 +201,7 @@ impl Worlds<'_> {
 
     /// Returns the world of the failed step, with its proofs.
     fn failing(&mut self, fails: &FailedStep) -> usize {
-        let world = self.add(&fails.scene);
+        let world = self.add(&fails.scene, &fails.moving);
         let proofs = fails.ik_solutions.iter().filter_map(|to| to.proof.as_ref());
         let unreached = fails.ik_solutions.iter().map(|to| self.grain.configuration(to.ik_solution)).collect();
         self.views[world] = WorldView { unreached, ..self.views[world].clone().proven(proofs, self.grain) };

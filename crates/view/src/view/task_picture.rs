@@ -2,7 +2,7 @@
 
 use cplan_core::cspace::CObstacle;
 use cplan_core::model::{Scene, Status};
-use cplan_handling::Task;
+use cplan_handling::{Task, TimedScene};
 use cplan_tasks::TaskAnswer;
 
 /// C-obstacles at some times.
@@ -28,5 +28,5 @@ pub struct TaskPicture<'a> {
     /// object.
     pub c_obstacles: fn(&Scene) -> Vec<CObstacle>,
     /// C-obstacles of moving obstacles at some times between two, with a greatest number of times.
-    pub in_time: fn(&Scene, [f64; 2], usize) -> Moments,
+    pub in_time: fn(TimedScene, [f64; 2], usize) -> Moments,
 }

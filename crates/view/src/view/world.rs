@@ -6,9 +6,10 @@ use super::trace::{ScaleView, TraceView};
 use crate::color::{self, Rgb};
 use cplan_core::check::CheckedProof;
 use cplan_core::cspace::CObstacle;
-use cplan_core::model::{Carrier, Course, Grip, Mover, Obstacle, Pair, Preference, Region, Scene, Shape};
+use cplan_core::model::{Carrier, Grip, LooseObstacle, Obstacle, Pair, Preference, Region, Scene, Shape};
 use cplan_core::space::Configuration;
 use cplan_geometry::{Convex, Point};
+use cplan_handling::{Course, TimedScene};
 use serde::{Serialize, Serializer};
 
 /// Largest number of obstacles with names; if there are more, they are numbered.
@@ -76,8 +77,7 @@ pub struct MoverView {
 }
 
 impl MoverView {
-    fn new(mover: &Mover, color: usize, grain: Grain) -> Self {
-        let Mover { obstacle, course } = mover;
+    fn new(obstacle: &Obstacle, course: &Course, color: usize, grain: Grain) -> Self {
         let velocity = course.velocity();
         Self {
             obstacle: ObstacleView::new(obstacle, color, grain),
@@ -201,7 +201,8 @@ pub struct WorldView {
 
 impl WorldView {
     /// Creates the world of a scene, with its description and the contours of its C-obstacles.
-    pub fn new(scene: &Scene, label: String, c_obstacles: &[CObstacle], grain: Grain) -> Self {
+    pub fn new(timed: TimedScene, label: String, c_obstacles: &[CObstacle], grain: Grain) -> Self {
+        let scene = timed.scene;
         let standing = scene.workspace().obstacles.len();
         let shown = |number| shown_number(scene, number);
         let in_view = c_obstacles.iter().map(|c| CObstacle { obstacle: shown(c.obstacle), ..c.clone() });
@@ -212,7 +213,7 @@ impl WorldView {
         Self {
             label,
             clearance: scene.workspace().clearance,
-            movers: movers(scene, grain),
+            movers: movers(timed, grain),
             payload: payload(scene, grain),
             pairs: ranges(scene),
             names: names::places(scene.arm(), obstacles.len(), &contours, grain),
@@ -290,25 +291,24 @@ fn obstacle(scene: &Scene, number: usize, shown: usize, grain: Grain) -> Obstacl
 
 /// Returns moving obstacles in the colours after those of the static ones; an object keeps the colour that it has when
 /// it lies.
-fn movers(scene: &Scene, grain: Grain) -> Vec<MoverView> {
+fn movers(TimedScene { scene, courses }: TimedScene, grain: Grain) -> Vec<MoverView> {
     let obstacles = &scene.workspace().obstacles;
-    let numbered = scene.workspace().movers.iter().zip(obstacles.len()..);
-    let view = |(mover, number): (&Mover, usize)| {
-        let lying = obstacles.iter().position(|o| o.pieces.is_empty() && o.name == mover.obstacle.name);
-        MoverView::new(mover, lying.unwrap_or(number), grain)
+    let view = |(number, (LooseObstacle { obstacle, .. }, course)): (usize, (&LooseObstacle, &Course))| {
+        let lying = obstacles.iter().position(|o| o.pieces.is_empty() && o.name == obstacle.name);
+        MoverView::new(obstacle, course, lying.unwrap_or(obstacles.len() + number), grain)
     };
-    numbered.map(view).collect()
+    scene.loose().iter().zip(courses).enumerate().map(view).collect()
 }
 
 fn payload(scene: &Scene, grain: Grain) -> Option<PayloadView> {
-    let payload = scene.payload()?;
+    let payload = scene.attachment()?;
     let obstacles = &scene.workspace().obstacles;
-    let lying = obstacles.iter().position(|o| o.name == payload.object);
+    let lying = obstacles.iter().position(|o| o.name == payload.name);
     let own = scene.own_parts(1).len();
     Some(PayloadView {
-        object: payload.object.clone(),
+        object: payload.name.clone(),
         color: color::obstacle(lying.unwrap_or(obstacles.len())),
-        pieces: payload.pieces.iter().map(|piece| grain.shape(piece)).collect(),
+        pieces: payload.pieces().map(|piece| grain.shape(piece)).collect(),
         grip: payload.grip,
         parts: scene.arm().links[1].parts[own..].iter().map(|part| grain.shape(&part.shape)).collect(),
     })

@@ -12,7 +12,7 @@ const STILL: f64 = 1e-4;
 
 /// Returns the reason why motions of held joints cannot be judged in a scene, or `None`.
 pub(super) fn rigid(scene: &Scene) -> Option<&'static str> {
-    if scene.payload().is_some() {
+    if scene.attachment().is_some() {
         return Some("the tool carries an object, which would move with the joint");
     }
     let has_bar = scene.arm().links.iter().any(|link| link.source == OutlineSource::Bar);

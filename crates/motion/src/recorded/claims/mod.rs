@@ -11,7 +11,7 @@ use super::collision::{CollisionCheck, check_collision};
 use cplan_core::check::{Rejection, certify};
 use cplan_core::model::{Arm, Scene};
 use cplan_core::space::{Configuration, Path};
-use cplan_handling::{BlendsClaim, Claims, OptimumClaim, Recording};
+use cplan_handling::{BlendsClaim, Claims, OptimumClaim, Recording, TimedScene};
 use follow::follows;
 use std::fmt::Display;
 use thiserror::Error;
@@ -127,7 +127,14 @@ impl Ledger {
     }
 
     /// Checks a stated clearance in a scene, by the check of the motion with the required clearance.
-    fn clearance(&mut self, stated: Option<Option<f64>>, scene: &Scene, recording: &Recording, found: &CollisionCheck) {
+    fn clearance(
+        &mut self,
+        stated: Option<Option<f64>>,
+        timed: TimedScene,
+        recording: &Recording,
+        found: &CollisionCheck,
+    ) {
+        let scene = timed.scene;
         let Some(stated) = stated else { return };
         let nearest = match found {
             CollisionCheck::Free { nearest, clearance } => {
@@ -147,7 +154,7 @@ impl Ledger {
                 format!("stated as null, which means no obstacle within reach, but {pair} can meet"),
             );
         };
-        if let Some((distance, pair)) = nearer(scene, recording, stated, nearest.separation.distance, nearest.pair) {
+        if let Some((distance, pair)) = nearer(timed, recording, stated, nearest.separation.distance, nearest.pair) {
             let pair = scene.describe(pair);
             self.note("clearance", format!("stated as {stated} m, but {pair} come as near as {distance} m"));
         }
@@ -156,7 +163,7 @@ impl Ledger {
 
 /// Returns a distance below the stated one somewhere on the motion, with its pair.
 fn nearer(
-    scene: &Scene,
+    scene: TimedScene,
     recording: &Recording,
     stated: f64,
     seen: f64,
@@ -179,14 +186,21 @@ fn nearer(
 /// that the path itself is free and as long as stated, that no obstacle is nearer than the stated `clearance`, and that
 /// bounds and gaps agree with lengths. It does not check that lower bounds are valid.
 #[must_use]
-pub fn claims_kept(scene: &Scene, recording: &Recording, claims: &Claims, found: &CollisionCheck) -> Vec<FalseClaim> {
+pub fn claims_kept<'a>(
+    scene: impl Into<TimedScene<'a>>,
+    recording: &Recording,
+    claims: &Claims,
+    found: &CollisionCheck,
+) -> Vec<FalseClaim> {
+    let timed = scene.into();
+    let scene = timed.scene;
     let mut ledger = Ledger::default();
     ledger.general(scene.arm(), recording, claims);
     if let Some(path) = &claims.path {
         ledger.path(scene, recording, path, claims.length, claims.blends);
         ledger.optimum(scene, path, claims.optimum.as_ref());
     }
-    ledger.clearance(claims.clearance, scene, recording, found);
+    ledger.clearance(claims.clearance, timed, recording, found);
     if let (Some(Some(stated)), Some(path)) = (claims.clearance, claims.path.as_ref().filter(|path| !path.is_empty())) {
         ledger.clearance_of_path(scene, Path::new(path.clone()), stated);
     }

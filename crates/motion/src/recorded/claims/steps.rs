@@ -6,7 +6,7 @@ use crate::recorded::wrist::turn_resolution;
 use crate::recorded::{Happening, ReplayedStep};
 use cplan_core::space::Configuration;
 use cplan_geometry::Point;
-use cplan_handling::{Action, Claims, EventClaim, RecordedStep, Recording, Task};
+use cplan_handling::{Action, Claims, EventClaim, RecordedStep, Recording, Task, TimedScene};
 
 /// Returns the false claims of a result about the step with this `index`, given its replay.
 #[must_use]
@@ -18,9 +18,10 @@ pub fn step_claims_kept(
     index: usize,
 ) -> Vec<FalseClaim> {
     let mut ledger = Ledger::default();
-    let ReplayedStep { scene, collision_check, .. } = replayed;
+    let ReplayedStep { scene, courses, collision_check, .. } = replayed;
+    let timed = TimedScene { scene, courses };
     let Some(motion) = recording.part(replayed.recorded.samples.clone()) else { return Vec::new() };
-    ledger.clearance(whole.clearance, scene, &motion, collision_check);
+    ledger.clearance(whole.clearance, timed, &motion, collision_check);
     ledger.turn(task, replayed, whole.clearance.filter(Option::is_some), "clearance");
     ledger.within = format!("steps[{index}].");
     let Some(claims) = whole.task.steps.get(index) else { return ledger.found };
@@ -46,7 +47,7 @@ pub fn step_claims_kept(
     if let Some(path) = &claims.path {
         ledger.path(scene, &motion, path, claims.length, claims.blends);
     }
-    ledger.clearance(claims.clearance, scene, &motion, collision_check);
+    ledger.clearance(claims.clearance, timed, &motion, collision_check);
     ledger.turn(task, replayed, claims.clearance.filter(Option::is_some), "clearance");
     ledger.turn(task, replayed, claims.turn_clearance, "turn.clearance");
     ledger.found

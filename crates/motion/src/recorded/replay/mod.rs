@@ -14,7 +14,7 @@ use super::{CollisionCheck, Excess, Limit, TurnContact, WristTurn, check_collisi
 use cplan_core::model::{Goal, Scene};
 use cplan_core::space::{Configuration, JointRange};
 use cplan_geometry::{Interval, Point, Pose};
-use cplan_handling::{Action, RecordedStep, RecordedTurn, Recording, Step, Task};
+use cplan_handling::{Action, Course, RecordedStep, RecordedTurn, Recording, Step, Task, TimedScene};
 use order::{Matched, matched};
 use state::{State, stroke_seconds};
 
@@ -63,6 +63,8 @@ pub struct ReplayedStep<'a> {
     /// The world during the motion, on a clock that starts with it, with the load. For a last step whose motion is free
     /// but which leaves the arm in contact, the world at that time.
     pub scene: Scene,
+    /// The trajectories of its moving obstacles, on a clock that begins with the motion.
+    pub courses: Vec<Course>,
     /// The object that is picked or placed.
     pub object: Option<usize>,
     /// The object that is carried during the motion.
@@ -161,9 +163,10 @@ impl<'a> Iterator for Replay<'a> {
             _ => None,
         };
         let times = self.times(index, recorded);
-        let mut scene = self.state.scene(task, picked).since(times[0]);
+        let (mut scene, mut courses) = (self.state.scene(task, picked), self.state.courses(task, times[0]));
+        let timed = TimedScene { scene: &scene, courses: &courses };
         let mut collision_check =
-            shifted(check_collision(&scene, &motion, task.workspace.clearance), *recorded.samples.start());
+            shifted(check_collision(timed, &motion, task.workspace.clearance), *recorded.samples.start());
         let mut broken = limits_kept(&task.arm.joints, &motion);
         broken.extend(torques_kept(&scene, &motion));
         broken.iter_mut().for_each(|excess| excess.moment.sample += recorded.samples.start());
@@ -206,20 +209,23 @@ impl<'a> Iterator for Replay<'a> {
             && matches!(collision_check, CollisionCheck::Free { .. })
             && let Some(standing) = self.recording.part(*recorded.samples.end()..=self.next_begins(index))
         {
-            let stays = self.state.scene(task, released).since(times[1]);
-            let found = super::check_collision(&stays, &standing, task.workspace.clearance);
+            let (stays, then) = (self.state.scene(task, released), self.state.courses(task, times[1]));
+            let timed = TimedScene { scene: &stays, courses: &then };
+            let found = super::check_collision(timed, &standing, task.workspace.clearance);
             if !matches!(found, CollisionCheck::Free { .. }) {
-                (scene, collision_check) = (stays, shifted(found, *recorded.samples.end()));
+                (scene, courses, collision_check) = (stays, then, shifted(found, *recorded.samples.end()));
             }
         }
         if let (Some(below), Some(standing)) = (lowered, standing()) {
-            let found = super::check_collision(&below, &standing, task.workspace.clearance);
+            let then = task.workspace.courses();
+            let timed = TimedScene { scene: &below, courses: &then };
+            let found = super::check_collision(timed, &standing, task.workspace.clearance);
             match (&mut collision_check, found) {
                 (CollisionCheck::Free { clearance, .. }, CollisionCheck::Free { clearance: least, .. }) => {
                     *clearance = clearance.min(least);
                 }
                 (CollisionCheck::Free { .. }, found) => {
-                    (scene, collision_check) = (below, shifted(found, *recorded.samples.end()));
+                    (scene, courses, collision_check) = (below, then, shifted(found, *recorded.samples.end()));
                 }
                 _ => {}
             }
@@ -232,15 +238,17 @@ impl<'a> Iterator for Replay<'a> {
             && matches!(collision_check, CollisionCheck::Free { .. })
             && let Some(standing) = standing()
         {
-            let after = self.state.scene(task, released.filter(|_| is_last)).since(times[1]);
+            let after = self.state.scene(task, released.filter(|_| is_last));
+            let then = self.state.courses(task, times[1]);
             if is_last && broken.iter().all(|excess| excess.limit != Limit::Torque) {
                 let mut held = torques_kept(&after, &standing);
                 held.iter_mut().for_each(|excess| excess.moment.sample += recorded.samples.end());
                 broken.extend(held);
             }
-            let found = super::check_collision(&after, &standing, task.workspace.clearance);
+            let timed = TimedScene { scene: &after, courses: &then };
+            let found = super::check_collision(timed, &standing, task.workspace.clearance);
             if !matches!(found, CollisionCheck::Free { .. }) {
-                (scene, collision_check) = (after, shifted(found, *recorded.samples.end()));
+                (scene, courses, collision_check) = (after, then, shifted(found, *recorded.samples.end()));
             }
         }
         if let Some(stood) = matched.rest.filter(|stood| *stood < asked - SHORT) {
@@ -258,6 +266,7 @@ impl<'a> Iterator for Replay<'a> {
             step,
             recorded,
             scene,
+            courses,
             object,
             carried,
             seconds,

@@ -2,10 +2,10 @@
 
 use super::super::given_turn;
 use super::{AT, Fault, ReplayedTurn, SHORT, angle_between};
-use cplan_core::model::{Grip, Payload, Scene};
+use cplan_core::model::{Grip, Scene};
 use cplan_core::space::Configuration;
 use cplan_geometry::{Point, Pose};
-use cplan_handling::{Action, Holding, Object, RecordedTurn, Step, Task};
+use cplan_handling::{Action, Course, Holding, Object, Payload, RecordedTurn, Step, Task};
 
 /// The places of the objects, and the load.
 #[derive(Debug, Clone)]
@@ -14,7 +14,7 @@ pub(super) struct State {
     poses: Vec<Option<Pose>>,
     /// Objects that are still moving and have no fixed pose.
     moving: Vec<usize>,
-    held: Option<(usize, Payload)>,
+    held: Option<Payload>,
     /// The object just released.
     released: Option<usize>,
 }
@@ -47,7 +47,7 @@ impl State {
     }
 
     pub fn carried(&self) -> Option<usize> {
-        self.held.as_ref().map(|(object, _)| *object)
+        self.held.as_ref().map(|payload| payload.object)
     }
 
     /// Returns the object just released.
@@ -55,13 +55,14 @@ impl State {
         self.released
     }
 
-    /// Returns the current scene, on the clock of the task. Link 2 may touch the object just released, and another one.
-    pub fn scene(&self, task: &Task, allowed_contacts: Option<usize>) -> Scene {
-        let allowed_contacts: Vec<usize> =
-            self.released.into_iter().chain(allowed_contacts).map(|o| task.number_among(&self.moving, o)).collect();
-        let payload = self.held.as_ref().map(|(_, payload)| payload.clone());
-        let workspace = task.surroundings(&self.poses, &self.moving);
-        Scene::handling_trusted(task.arm.clone(), workspace, payload, &allowed_contacts)
+    /// Returns the current scene. Link 2 may touch the object just released, and another one.
+    pub fn scene(&self, task: &Task, touched: Option<usize>) -> Scene {
+        task.scene(&self.poses, &self.moving, self.held.as_ref(), self.released.into_iter().chain(touched))
+    }
+
+    /// Returns the trajectories of the moving obstacles, on a clock that begins at a time of the task's.
+    pub fn courses(&self, task: &Task, begin: f64) -> Vec<Course> {
+        task.courses_since(&self.moving, begin)
     }
 
     /// Takes the object that a step picks with the arm at `q`, in the current relative pose. `then` lists its next
@@ -74,12 +75,11 @@ impl State {
         let lies = self.poses[object].take()?;
         let tip = arm.tip_at(q);
         let grip = match task.objects[object].holding {
-            Holding::Rigid => Payload::rigid_grip(arm, q, &lies),
+            Holding::Rigid => Grip::rigid(arm, q, &lies),
             Holding::Level => Grip::Level { angle: lies.rotation.angle(), point: lies.inverse().point(tip) },
         };
         let supports = supports.iter().chain(then).copied().collect();
-        let payload = task.objects[object].carried(grip, supports);
-        self.held = Some((object, payload));
+        self.held = Some(Payload { object, grip, supports });
         let off = (tip - lies.point(grasp)).norm();
         (off > AT).then_some(Fault::Tip { off })
     }
@@ -87,8 +87,8 @@ impl State {
     /// Releases the load with the arm at `q`. Returns the differences from the required place.
     pub fn release(&mut self, task: &Task, q: Configuration, at: Point, angle: Option<f64>) -> Vec<Fault> {
         // In a task, every place follows a pick.
-        let Some((object, payload)) = self.held.take() else { return Vec::new() };
-        let pose = payload.pose(&task.arm, q);
+        let Some(Payload { object, grip, .. }) = self.held.take() else { return Vec::new() };
+        let pose = grip.pose(&task.arm, q);
         self.poses[object] = Some(pose);
         self.released = Some(object);
         let mut faults = Vec::new();
@@ -102,13 +102,10 @@ impl State {
         faults
     }
 
-    /// Returns the scene with the lowered tool and its load: see [`Task::lowered`].
+    /// Returns the scene with the lowered tool and its load: see [`Task::lowered_scene`].
     pub fn lowered(&self, task: &Task, is_placed: bool) -> Option<Scene> {
-        let (object, payload) = self.held.as_ref()?;
-        let (arm, heights) = task.lowered(*object, is_placed)?;
-        let allowed_contacts: Vec<usize> = self.released.iter().map(|&object| task.obstacle_number(object)).collect();
-        let payload = Payload { heights, ..payload.clone() };
-        Some(Scene::handling_trusted(arm, task.obstacles(&self.poses), Some(payload), &allowed_contacts))
+        let payload = self.held.as_ref()?;
+        task.lowered_scene(payload.object, is_placed, &self.poses, Some(payload), self.released)
     }
 
     /// Continues after a motion without an event.
@@ -136,7 +133,7 @@ impl State {
             None => faults.push(Fault::NoWrist),
         }
         let workspace = task.obstacles(&self.poses);
-        let level = self.held.as_mut().and_then(|(_, payload)| match payload.grip {
+        let level = self.held.as_mut().and_then(|payload| match payload.grip {
             Grip::Level { angle, point } => Some((payload, angle, point)),
             Grip::Rigid(_) => None,
         });
@@ -144,7 +141,7 @@ impl State {
             faults.push(Fault::Nothing);
             return None;
         };
-        let verdict = given_turn(&task.arm, &workspace, payload, point, q, [turn.from, turn.to]);
+        let verdict = given_turn(task, &workspace, payload, point, q, [turn.from, turn.to]);
         let off = angle_between(turn.from, angle);
         if off > AT {
             faults.push(Fault::Turn { off });

@@ -60,7 +60,7 @@ fn scene(turns: [bool; 2], ranges: [JointRange; 2], offset: Vector, part: Convex
     let shape = Shape::Polygon(piece.core().to_vec());
     let obstacle = Obstacle { name: "o".into(), shape, pieces: vec![piece], heights: Heights::ALL };
     let (name, obstacles) = ("w".into(), vec![obstacle]);
-    Scene::trusted(arm, Workspace { name, obstacles, clearance: 0.0, preferences: Vec::new(), movers: Vec::new() })
+    Scene::trusted(arm, Workspace { name, obstacles, clearance: 0.0, preferences: Vec::new() })
 }
 
 /// All kinds of arms, including those with joint 2 on the axis of joint 1.

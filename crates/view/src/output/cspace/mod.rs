@@ -215,7 +215,7 @@ impl CSpace {
         let united = cspace::united(scene, &contours);
         let region = |(obstacle, all): (String, Vec<Polygon>)| ObstacleRegion { obstacle, polygons: polygons(&all) };
         Self {
-            payload: scene.payload().map(|payload| payload.object.clone()).unwrap_or_default(),
+            payload: scene.attachment().map(|payload| payload.name.clone()).unwrap_or_default(),
             proves,
             c_obstacles: names.zip(united).map(region).collect(),
             start: start.into(),

@@ -1,7 +1,8 @@
 //! Obstacles that move while the arm does.
 
-use super::Obstacle;
-use cplan_geometry::{Convex, Interval, Point, Pose, Vector, merge_in_place, perpendicular};
+use cplan_core::check::Drift;
+use cplan_core::model::{LooseObstacle, Obstacle, are_small};
+use cplan_geometry::{Interval, Point, Pose, Vector, merge_in_place};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
@@ -113,48 +114,6 @@ impl Leg {
     }
 }
 
-/// The motion of a mover within a span of time, relative to its pose in the middle of the span.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Drift {
-    /// Pose of the frame in the middle.
-    pub middle: Pose,
-    /// Velocity of its origin then, metres a second, ...
-    velocity: Vector,
-    /// ... and angular velocity, radians a second, ...
-    turn: f64,
-    /// ... for this time to either side, seconds.
-    half: f64,
-    /// Bounds on speeds in unknown directions: metres a second, and radians a second. For spans in which the velocity
-    /// changes.
-    any: [f64; 2],
-}
-
-impl Drift {
-    /// Returns the displacement, per half of the span, of the point that is at `p` in the middle, to first order.
-    #[must_use]
-    pub fn of(&self, p: Point) -> Vector {
-        (self.velocity + perpendicular(p - self.origin()) * self.turn) * self.half
-    }
-
-    /// Returns a bound on the difference between the displacement of that point and [`Drift::of`], metres.
-    #[must_use]
-    pub fn beyond(&self, p: Point) -> f64 {
-        let reach = (p - self.origin()).norm();
-        let turned = self.turn * self.half;
-        turned * turned * reach / 2.0 + (self.any[0] + self.any[1] * reach) * self.half
-    }
-
-    /// Returns the farthest that a point within `reach` of the frame's origin moves, metres.
-    #[must_use]
-    pub fn farthest(&self, reach: f64) -> f64 {
-        (self.velocity.norm() + self.any[0] + (self.turn.abs() + self.any[1]) * reach) * self.half
-    }
-
-    fn origin(&self) -> Point {
-        self.middle.translation
-    }
-}
-
 impl Course {
     /// Creates a course from stop to stop, which continues after the last one at `velocity`.
     ///
@@ -172,7 +131,7 @@ impl Course {
             before = *time;
             let is_last = stop + 1 == stops.len();
             let numbers = [at.x, at.y, *angle].into_iter().chain(velocity.iter().copied().filter(|_| is_last));
-            if !super::scene_error::are_small(numbers) {
+            if !are_small(numbers) {
                 return Err(CourseError::Place { stop });
             }
         }
@@ -307,10 +266,14 @@ impl Mover {
     /// Returns the obstacle at its place at a time.
     #[must_use]
     pub fn at(&self, time: f64) -> Obstacle {
-        let pose = self.course.pose(time);
-        let Obstacle { name, shape, pieces, heights } = &self.obstacle;
-        let pieces: Vec<Convex> = pieces.iter().map(|piece| piece.at(&pose)).collect();
-        Obstacle { name: name.clone(), shape: shape.at(&pose), pieces, heights: *heights }
+        self.obstacle.at(&self.course.pose(time))
+    }
+
+    /// Returns the obstacle as a scene holds it.
+    #[must_use]
+    pub fn loose(&self) -> LooseObstacle {
+        let angle = (!self.course.turns()).then(|| self.course.stops()[0].angle);
+        LooseObstacle { obstacle: self.obstacle.clone(), angle }
     }
 }
 

@@ -1,0 +1,169 @@
+//! Shapes that link 2 carries along beyond its own parts.
+
+use super::pairing::{Kind, Reading};
+use super::{Arm, Carrier, Heights, LooseObstacle, Obstacle, Part};
+use crate::space::Configuration;
+use cplan_geometry::{Convex, Point, Pose};
+use serde::{Deserialize, Serialize};
+use std::ops::Range;
+
+/// Shapes that link 2 carries along beyond its own parts, such as an object in a gripper. They may touch some
+/// obstacles, their supports, and keep no clearance from them. Their mass counts as link 2's own.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Attachment {
+    /// The name in messages.
+    pub name: String,
+    /// Extent along the plane's normal.
+    pub heights: Heights,
+    /// Connection with link 2.
+    pub grip: Grip,
+    /// Its shapes, in its own frame.
+    pub parts: Vec<AttachedPart>,
+    /// The supports, by their number among the static obstacles.
+    pub supports: Vec<usize>,
+}
+
+/// The connection of an attachment with link 2.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Grip {
+    /// It turns with link 2; its pose in link 2's frame.
+    Rigid(Pose),
+    /// It keeps its orientation in the plane, at all joint values.
+    Level {
+        /// The orientation, radians.
+        angle: f64,
+        /// The point, in its own frame, that stays at the tip.
+        point: Point,
+    },
+}
+
+/// A shape of an [`Attachment`].
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct AttachedPart {
+    /// The shape.
+    pub shape: Convex,
+    /// Number of the attachment's piece that this is, or is a part of.
+    pub number: usize,
+    /// True if it can meet the supports alone, where no clearance is kept; false if it can meet all other obstacles.
+    pub on_supports: bool,
+    /// False if it may be empty without rounding: its contacts prove no collision.
+    pub is_evidence: bool,
+}
+
+/// The ranges of pieces that a part can meet, for each obstacle of a scene.
+pub(super) type Meetable = Vec<Range<usize>>;
+
+impl Grip {
+    /// Returns the rigid grip that puts an attachment at `pose` with the arm at `q`.
+    #[must_use]
+    pub fn rigid(arm: &Arm, q: Configuration, pose: &Pose) -> Self {
+        Self::Rigid(arm.pose(1, q).inverse_pose(pose))
+    }
+
+    /// Returns the pose of the attachment's frame in the plane at `q`.
+    #[must_use]
+    pub fn pose(&self, arm: &Arm, q: Configuration) -> Pose {
+        match *self {
+            Self::Rigid(in_link) => arm.pose(1, q) * in_link,
+            Self::Level { .. } => self.frame().shifted(arm.tip_at(q)),
+        }
+    }
+
+    /// Returns true if the attachment keeps its orientation.
+    #[must_use]
+    pub fn is_level(&self) -> bool {
+        matches!(self, Self::Level { .. })
+    }
+
+    /// Returns the pose of a rigid attachment in link 2's frame, and of a level one relative to the tip, along the
+    /// plane's axes.
+    fn frame(&self) -> Pose {
+        match *self {
+            Self::Rigid(in_link) => in_link,
+            Self::Level { angle, point } => Pose::rotation(angle).shifted_in_frame(-point),
+        }
+    }
+}
+
+impl Attachment {
+    /// Returns its pieces, without the smaller ones for its supports.
+    pub fn pieces(&self) -> impl Iterator<Item = &Convex> {
+        self.parts.iter().filter(|part| !part.on_supports).map(|part| &part.shape)
+    }
+
+    /// Returns the distance by which one of its parts may come nearer to an obstacle than the clearance: zero, or all of
+    /// the clearance for supports. Returns `None` if they cannot meet.
+    #[must_use]
+    pub fn nearer(&self, part: &AttachedPart, obstacle: usize, clearance: f64) -> Option<f64> {
+        let meets = part.on_supports == self.supports.contains(&obstacle);
+        meets.then_some(if part.on_supports { clearance } else { 0.0 })
+    }
+
+    /// Returns its parts as parts of link 2, each with the pieces that it can meet. Shapes derived from the obstacles'
+    /// pieces are added to `differences`.
+    pub(super) fn on_link(
+        &self,
+        tip: Point,
+        obstacles: &[(Kind, &Obstacle)],
+        clearance: f64,
+        reading: &Reading,
+        differences: &mut [Vec<Convex>],
+    ) -> Vec<(Part, Meetable)> {
+        let counts = |part: &&AttachedPart| part.is_evidence || !reading.is_evidence();
+        let is_level = self.grip.is_level();
+        let on_link = |part: &AttachedPart| {
+            let shape = if is_level { Convex::point(tip) } else { part.shape.at(&self.grip.frame()) };
+            let (heights, body) = (self.heights, self.name.clone());
+            let on_link = Part { shape, inner: None, number: part.number, is_visual: false, heights, body };
+            (on_link, self.meetable(part, obstacles, clearance, reading, differences))
+        };
+        self.parts.iter().filter(counts).map(on_link).collect()
+    }
+
+    /// Returns the pieces that a part can meet. For a level part, and for supports with a clearance, these are derived
+    /// shapes.
+    fn meetable(
+        &self,
+        part: &AttachedPart,
+        obstacles: &[(Kind, &Obstacle)],
+        clearance: f64,
+        reading: &Reading,
+        differences: &mut [Vec<Convex>],
+    ) -> Meetable {
+        let level = self.grip.is_level().then(|| part.shape.at(&self.grip.frame()));
+        let of = |(number, &(kind, obstacle)): (usize, &(Kind, &Obstacle))| {
+            let own = obstacle.pieces.len();
+            // The angle between a level part and obstacles that joint 1 carries is unknown. So the part is covered by a
+            // disc, which is no evidence.
+            let is_folding = matches!(kind, Kind::Own(own) if own.carrier == Carrier::FirstJoint);
+            let is_turned = level.is_some() && is_folding;
+            let nearer = self.nearer(part, number, clearance);
+            let Some(nearer) = nearer.filter(|_| !(is_turned && reading.is_evidence())) else { return 0..0 };
+            if level.is_none() && nearer == 0.0 {
+                return 0..own;
+            }
+            // A loose obstacle has its pieces in its own frame, which does not turn if something level is attached.
+            let seen = level.as_ref().map(|level| match kind {
+                _ if is_turned => all_round(level),
+                Kind::Loose(LooseObstacle { angle, .. }) => level.at(&Pose::rotation(-angle.unwrap_or_default())),
+                Kind::Standing | Kind::Own(_) => level.clone(),
+            });
+            let made = &mut differences[number];
+            let first = own + made.len();
+            made.extend(obstacle.pieces.iter().map(|piece| match &seen {
+                Some(level) => piece.receding(nearer).minkowski_difference(level),
+                None => piece.receding(nearer),
+            }));
+            first..own + made.len()
+        };
+        obstacles.iter().enumerate().map(of).collect()
+    }
+}
+
+/// Returns the disc about the tip that contains a level shape.
+fn all_round(level: &Convex) -> Convex {
+    Convex::trusted(vec![Point::zeros()], level.reach_from(Point::zeros()))
+}

@@ -1,0 +1,129 @@
+//! The object that the arm carries.
+
+use super::{Object, Task, TimedWorkspace};
+use cplan_core::model::{Additions, Arm, AttachedPart, Attachment, Body, Grip, Heights, Scene};
+use cplan_dynamics::{joined, spread};
+use cplan_geometry::{Convex, Pose, drawn_in};
+
+/// An object of a task while the arm carries it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Payload {
+    /// The number of the object in the task.
+    pub object: usize,
+    /// Connection with the arm.
+    pub grip: Grip,
+    /// Obstacles on which it rests, by number in [`Task::obstacles`]. It may touch them, but must not press into them by
+    /// more than [`Payload::penetration_allowance`].
+    pub supports: Vec<usize>,
+}
+
+/// Depth to which a payload may press into its supports, as a share of the arm's reach. It is above the rounding of
+/// coordinates that people write down, and below the compliance of any gripper.
+const PENETRATION_ALLOWANCE: f64 = 1e-4;
+
+/// Share of the penetration allowance by which corners are moved: a little less than 1, so that a checker that moves
+/// them farther has room.
+const AT_MOST: f64 = 1.0 - 1e-3;
+
+impl Payload {
+    /// Returns the greatest *penetration depth* of a payload in its supports, metres. Each corner of the payload is
+    /// moved inwards by this distance, along the bisector of its sides, and the smaller shape must stay off the
+    /// supports. So sides press in by at most this times the sine of half the angle at their ends.
+    #[must_use]
+    pub fn penetration_allowance(arm: &Arm) -> f64 {
+        PENETRATION_ALLOWANCE * arm.reach()
+    }
+
+    /// Returns the payload as an attachment of the arm, at these heights: its pieces, and smaller ones for its supports.
+    #[must_use]
+    pub fn attachment(&self, task: &Task, arm: &Arm, heights: Heights) -> Attachment {
+        let Object { name, pieces, .. } = &task.objects[self.object];
+        let part = |number: usize, shape: Convex, on_supports: bool| AttachedPart {
+            shape,
+            number,
+            on_supports,
+            is_evidence: !pieces[number].is_sliver(),
+        };
+        let mut parts: Vec<AttachedPart> =
+            pieces.iter().enumerate().map(|(number, piece)| part(number, piece.clone(), false)).collect();
+        if !self.supports.is_empty() {
+            let left = drawn_in(pieces, AT_MOST * Self::penetration_allowance(arm)).into_iter().enumerate();
+            parts.extend(left.flat_map(|(number, left)| left.into_iter().map(move |shape| part(number, shape, true))));
+        }
+        Attachment { name: name.clone(), heights, grip: self.grip, parts, supports: self.supports.clone() }
+    }
+
+    /// Returns the body that it adds to link 2, in the link's frame. A payload that a wrist keeps level does not turn:
+    /// its mass acts at the tip.
+    fn body(&self, task: &Task, arm: &Arm) -> Body {
+        let Object { mass, pieces, .. } = &task.objects[self.object];
+        match self.grip {
+            Grip::Rigid(in_link) => {
+                let body = spread(*mass, pieces);
+                Body { center: in_link.point(body.center), ..body }
+            }
+            Grip::Level { .. } => Body { mass: *mass, center: arm.tip, inertia: 0.0 },
+        }
+    }
+}
+
+impl Task {
+    /// Returns the scene with the objects at their poses, except for `moving` ones, which are loose obstacles after those
+    /// of the workspace ([`Task::courses`]). Link 2 may touch the objects `touched`.
+    #[must_use]
+    pub fn scene(
+        &self,
+        poses: &[Option<Pose>],
+        moving: &[usize],
+        payload: Option<&Payload>,
+        touched: impl IntoIterator<Item = usize>,
+    ) -> Scene {
+        let allowed_contacts: Vec<usize> =
+            touched.into_iter().map(|object| self.number_among(moving, object)).collect();
+        let payload = payload.map(|payload| (payload, self.objects[payload.object].carried_heights()));
+        self.scene_of(self.arm.clone(), self.surroundings(poses, moving), payload, allowed_contacts)
+    }
+
+    /// Returns the scene while the tool is lowered to pick or place an object. Returns `None` if the tool is not
+    /// lowered. Without a stroke, only the final pose of a placed object is considered: the path that lowers it to there
+    /// is unknown.
+    #[must_use]
+    pub fn lowered_scene(
+        &self,
+        object: usize,
+        is_placed: bool,
+        poses: &[Option<Pose>],
+        payload: Option<&Payload>,
+        touched: impl IntoIterator<Item = usize>,
+    ) -> Option<Scene> {
+        let lowered = &self.objects[object];
+        let (arm, heights) = match &self.stroke {
+            Some(stroke) => {
+                let depth = Some(stroke.depth(lowered)).filter(|depth| *depth != 0.0)?;
+                (stroke.swept(&self.arm, depth), lowered.handled_heights())
+            }
+            None if is_placed && lowered.lift != 0.0 => (self.arm.clone(), lowered.heights),
+            None => return None,
+        };
+        let allowed_contacts: Vec<usize> = touched.into_iter().map(|object| self.obstacle_number(object)).collect();
+        let payload = payload.map(|payload| (payload, heights));
+        Some(self.scene_of(arm, self.obstacles(poses), payload, allowed_contacts))
+    }
+
+    /// Returns the scene of an arm with a payload at these heights.
+    fn scene_of(
+        &self,
+        mut arm: Arm,
+        workspace: TimedWorkspace,
+        payload: Option<(&Payload, Heights)>,
+        allowed_contacts: Vec<usize>,
+    ) -> Scene {
+        let attachment = payload.map(|(payload, heights)| payload.attachment(self, &arm, heights));
+        if let (Some((payload, _)), Some(mut dynamics)) = (payload, arm.dynamics) {
+            dynamics.bodies[1] = joined(&dynamics.bodies[1], &payload.body(self, &arm));
+            arm.dynamics = Some(dynamics);
+        }
+        let (workspace, additions) = workspace.into_parts();
+        Scene::with_trusted(arm, workspace, Additions { attachment, allowed_contacts, ..additions })
+    }
+}

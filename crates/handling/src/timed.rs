@@ -1,0 +1,127 @@
+//! Workspaces and scenes whose obstacles move in time.
+
+use super::{Course, Mover};
+use cplan_core::model::{Additions, Arm, Obstacle, Obstruction, Pair, Preference, Scene, SceneError, Workspace};
+use cplan_core::space::Configuration;
+use cplan_geometry::Pose;
+use serde::{Deserialize, Serialize};
+
+/// A workspace with obstacles that move.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct TimedWorkspace {
+    /// The title of the world.
+    pub name: String,
+    /// Static obstacles, in the order of the file.
+    pub obstacles: Vec<Obstacle>,
+    /// Least distance to keep from every obstacle, metres.
+    pub clearance: f64,
+    /// Regions that field planners may prefer or avoid.
+    pub preferences: Vec<Preference>,
+    /// Moving obstacles.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub movers: Vec<Mover>,
+}
+
+impl From<Workspace> for TimedWorkspace {
+    fn from(Workspace { name, obstacles, clearance, preferences }: Workspace) -> Self {
+        Self { name, obstacles, clearance, preferences, movers: Vec::new() }
+    }
+}
+
+impl TimedWorkspace {
+    /// Returns the static workspace, and the moving obstacles as additions to a scene.
+    #[must_use]
+    pub fn into_parts(self) -> (Workspace, Additions) {
+        let Self { name, obstacles, clearance, preferences, movers } = self;
+        let loose = movers.iter().map(Mover::loose).collect();
+        (Workspace { name, obstacles, clearance, preferences }, Additions { loose, ..Additions::default() })
+    }
+
+    /// Returns the scene of an arm in it.
+    ///
+    /// # Errors
+    /// Same as for [`Scene::with`].
+    pub fn scene(self, arm: Arm) -> Result<Scene, SceneError> {
+        let (workspace, additions) = self.into_parts();
+        Scene::with(arm, workspace, additions)
+    }
+
+    /// Same as [`TimedWorkspace::scene`], without checks.
+    #[must_use]
+    #[doc(hidden)]
+    pub fn scene_trusted(self, arm: Arm) -> Scene {
+        let (workspace, additions) = self.into_parts();
+        Scene::with_trusted(arm, workspace, additions)
+    }
+
+    /// Returns the trajectories of the moving obstacles.
+    #[must_use]
+    pub fn courses(&self) -> Vec<Course> {
+        self.movers.iter().map(|mover| mover.course.clone()).collect()
+    }
+
+    /// Returns all obstacles in the order of a scene's numbers: the static ones, then the moving ones in their own
+    /// frames.
+    pub fn all(&self) -> impl Iterator<Item = &Obstacle> {
+        self.obstacles.iter().chain(self.movers.iter().map(|mover| &mover.obstacle))
+    }
+
+    /// Makes the displayed shapes agree with the pieces that are judged. For workspaces that are read as data.
+    pub fn hold_shapes(&mut self) {
+        let moving = self.movers.iter_mut().map(|mover| &mut mover.obstacle);
+        self.obstacles.iter_mut().chain(moving).for_each(Obstacle::hold_shape);
+    }
+}
+
+/// A scene with the trajectories of its loose obstacles.
+#[derive(Debug, Clone, Copy)]
+pub struct TimedScene<'a> {
+    /// The scene.
+    pub scene: &'a Scene,
+    /// The trajectory of each loose obstacle. If there are none, loose obstacles are ignored.
+    pub courses: &'a [Course],
+}
+
+impl<'a> From<&'a Scene> for TimedScene<'a> {
+    fn from(scene: &'a Scene) -> Self {
+        Self { scene, courses: &[] }
+    }
+}
+
+impl<'a> TimedScene<'a> {
+    /// Returns the pairs of a part and a moving obstacle that can meet.
+    #[must_use]
+    pub fn moving_pairs(self) -> &'a [Pair] {
+        if self.courses.is_empty() { &[] } else { self.scene.loose_pairs() }
+    }
+
+    /// Returns the trajectory of a pair's obstacle, if it moves.
+    #[must_use]
+    pub fn course(self, pair: Pair) -> Option<&'a Course> {
+        self.courses.get(self.scene.loose_index(pair)?)
+    }
+
+    /// Returns the obstacle of a pair at its place at a time, if it moves.
+    #[must_use]
+    pub fn obstacle(self, pair: Pair, time: f64) -> Option<Obstacle> {
+        self.course(pair).map(|course| self.scene.obstacle(pair.obstacle).at(&course.pose(time)))
+    }
+
+    /// Returns the poses of the moving obstacles at a time.
+    fn poses(self, time: f64) -> impl Iterator<Item = Pose> {
+        self.courses.iter().map(move |course| course.pose(time))
+    }
+
+    /// Returns the scene at a time: moving obstacles become static at their places then, after all static ones.
+    #[must_use]
+    pub fn frozen(self, time: f64) -> Scene {
+        self.scene.with_loose_at(self.poses(time))
+    }
+
+    /// Returns the reasons why `q` is not free of static and moving obstacles at a time.
+    #[must_use]
+    pub fn obstructions(self, q: Configuration, time: f64) -> Vec<Obstruction> {
+        self.scene.obstructions_among(q, &self.poses(time).collect::<Vec<_>>())
+    }
+}
