@@ -24,10 +24,10 @@ use std::path::PathBuf;
 /// The report gives errors and sweeps by relaxation, order, factor and drift.
 #[derive(Debug, Args)]
 #[command(after_help = "\
-The measured relaxations are Jacobi, weighted Jacobi (0.8), Gauss-Seidel and SOR.
-Gauss-Seidel and SOR go row by row, from the four corners in turn, and red-black;
-SOR uses the formula for empty rectangles. The cells are those of the harmonic
-planner: obstacles have the value 0, goals 1, and free cells begin with 0.
+The measured relaxations are Jacobi, weighted Jacobi (0.8), Gauss-Seidel and
+SOR. Gauss-Seidel and SOR go row by row, from the four corners in turn, and
+red-black; SOR uses the formula for empty rectangles. The cells are those of the
+harmonic planner: obstacles have the value 0, goals 1, free cells initially 0.
 
 The equations are harmonic, and oriented by central and upwind differences. In
 worlds with preferences, local (by both differences; --direction applies to

@@ -45,7 +45,8 @@ unless the time ran out.
 
 Examples:
   cplan explain robots/planar_2r.urdf workspaces/no_path.toml
-  cplan explain robots/planar_2r.urdf workspaces/limits_closed.toml --picture why.svg
+  cplan explain robots/planar_2r.urdf workspaces/limits_closed.toml \\
+    --picture why.svg
   cplan explain robots/planar_2r.urdf workspaces/shelf.toml --json
   cplan explain robots/planar_2r.urdf workspaces/shelf.toml --goal-tip 5,0
   cplan explain robots/planar_2r.urdf workspaces/no_path.toml --time 60

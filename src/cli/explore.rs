@@ -28,13 +28,13 @@ use std::path::{Path, PathBuf};
 The world file describes the real world. The arm knows only the space that its
 range sensor has seen; unseen space counts as solid. The table [sensor] of the
 world file describes the sensor: on the tip or the base, rays, field of view,
-range, noise. Before each motion begins, it is certified within known free space.
+range, noise. Each motion is certified within known free space before it begins.
 
 An exploration ends in one of these ways:
   reached      the arm is at the goal
   explored     no reachable configuration of the grid shows anything new
-  unreachable  proven: no path leads to the goal in the known space; cells of the
-               map that contain anything count as solid
+  unreachable  proven: no path leads to the goal in the known space, where cells
+               of the map that contain anything count as solid
 
 Examples:
   cplan explore robots/planar_2r.urdf workspaces/shelf.toml

@@ -18,8 +18,8 @@ Examples:
   cplan man > cplan.1
   cplan man man1
 
-`man ./cplan.1` shows a page. Pages in ~/.local/share/man/man1 are found by name,
-such as `man cplan-check`.
+`man ./cplan.1` shows a page. Pages in ~/.local/share/man/man1 are found by
+name, such as `man cplan-check`.
 
 Exit codes: 0 the pages are written, 1 I/O, 2 wrong command line.")]
 pub struct ManArgs {

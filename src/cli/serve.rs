@@ -26,9 +26,9 @@ Examples:
   cplan serve robots/planar_2r.urdf workspaces/shelf.toml \\
     --export page.html --engine target/page/cplan.wasm.gz
 
-The address is printed on stdout; Ctrl-C ends the server. It writes no files: save
-the world from the page. With --export, no server starts: cplan writes the page
-with the program inside it. Any web host can serve it, and it opens from disk.
+The address is printed on stdout; Ctrl-C ends the server. It writes no files:
+save the world from the page. With --export, no server starts: cplan writes the
+page with the program inside it. Any web host can serve it.
 
 Exit codes: 0 stopped by the user, or the page is written, 1 bad input or
 unavailable address, 2 wrong command line.")]

@@ -31,10 +31,11 @@ layout to layout, and the measured quantity:
   [[parameter]]
   name = \"base x\"
   unit = \"m\"
-  sets = \"world.robot.at[0]\"      # or urdf.joint.elbow.origin.xyz[0], or several
+  sets = \"world.robot.at[0]\"   # or urdf.joint.elbow.origin.xyz[0], or several
   from = -0.2
   to = 0.2
-  steps = 21                      # or values = [...], or draw = \"latin\" with draws = 1000 above
+  steps = 21                   # or values = [...], or draw = \"latin\", with
+                               # draws = 1000 above the first parameter
 
 Each layout is planned with its numbers in the two files and gives one row. Rows
 do not depend on the number of jobs. While a study runs, cplan keeps rows in

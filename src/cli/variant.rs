@@ -42,6 +42,11 @@ impl Variant {
         (planner, effort.levels(&planner))
     }
 
+    /// Returns a warning for each option that the planner ignores.
+    pub fn ignored(&self) -> Vec<String> {
+        self.options.ignored(self.planner.method())
+    }
+
     /// Returns the reason if the device for its field is unavailable, with a hint.
     pub fn missing(&self) -> Option<String> {
         self.options.missing()

@@ -309,7 +309,7 @@ fn meshes_of_collada_and_obj_are_those_of_stl() {
         ("t.dae", "<svg/>".to_owned(), "not Collada"),
         ("t.dae", "<COLLADA>".to_owned(), "not well-formed XML"),
         ("t.dae", spoilt("0.01", "-1"), "makes no sense"),
-        ("t.dae", spoilt("0 1 0 0 -1", "0 1 x 0 -1"), "\"x\" is no number"),
+        ("t.dae", spoilt("0 1 0 0 -1", "0 1 x 0 -1"), "\"x\" is not a number"),
         ("t.dae", spoilt("0 1 0 0 -1", "0 1 0 0"), "numbers for positions"),
         ("t.dae", spoilt("url=\"#g\"", "url=\"#none\""), "a geometry that the file does not have"),
         ("t.dae", spoilt("<instance_geometry url=\"#g\"/>", "<instance_node url=\"#inner\"/>"), "contains itself"),

@@ -179,8 +179,8 @@ const PUBLISHED: [Expected; 18] = [
     ("drake_acrobot", true, Some(["shoulder", "elbow"]), &[]),
     ("drake_double_pendulum", false, Some(["shaft1", "shaft2"]), &["has collision or visual geometry", "bar = 0.05"]),
     ("drake_pendulum_1dof", false, None, &["only one, \"theta\" (continuous)"]),
-    ("gepetto_asr_twodof", false, None, &["qb_c_flange_m.dae\" is not there"]),
-    ("gepetto_double_pendulum", false, Some(["joint1", "joint2"]), &["has no range", "link1.stl\" is not there"]),
+    ("gepetto_asr_twodof", false, None, &["qb_c_flange_m.dae\" does not exist"]),
+    ("gepetto_double_pendulum", false, Some(["joint1", "joint2"]), &["has no range", "link1.stl\" does not exist"]),
     ("gepetto_double_pendulum_continuous", false, Some(["joint1", "joint2"]), &["does not exist"]),
     ("gepetto_double_pendulum_simple", false, Some(["joint1", "joint2"]), &["has no range"]),
     ("icube_scara", true, Some(["joint1", "joint2"]), &["not perpendicular"]),
@@ -189,7 +189,7 @@ const PUBLISHED: [Expected; 18] = [
     ("ros2_control_rrbot", true, Some(["joint1", "joint2"]), &[]),
     ("sorydi3_scara", true, Some(["theta1", "theta2"]), &[]),
     ("sorydi3_theta_rho_RP", true, None, &[]),
-    ("yao_scara_solidworks", false, None, &["link2.STL\" is not there", "not perpendicular"]),
+    ("yao_scara_solidworks", false, None, &["link2.STL\" does not exist", "not perpendicular"]),
 ];
 
 #[test]

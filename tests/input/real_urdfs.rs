@@ -62,7 +62,7 @@ fn table() -> Vec<(&'static str, String, Outcome)> {
             "",
             Refused(&["joint \"joint1\" has no range", "limits = { joint1 = [-3.1, 3.1] }"]),
         ),
-        row("gepetto_double_pendulum", UNSET, Refused(&["link1.stl\" is not there", "ROS_PACKAGE_PATH"])),
+        row("gepetto_double_pendulum", UNSET, Refused(&["link1.stl\" does not exist", "ROS_PACKAGE_PATH"])),
         row("gepetto_double_pendulum", &format!("{UNSET}\nbar = 0.02"), Loads("RR", [Bar; 2], "link2")),
         row(
             "gepetto_double_pendulum_continuous",
@@ -89,7 +89,7 @@ fn table() -> Vec<(&'static str, String, Outcome)> {
         row("sorydi3_scara", "joints = [\"theta1\", \"theta2\"]", Loads("RR", [Visual; 2], "tmp43")),
         row("sorydi3_theta_rho_RP", "", Loads("RP", [Visual; 2], "L2")),
         row("sorydi3_theta_theta_2R", "", Loads("RR", [Visual; 2], "L2")),
-        row("yao_scara_solidworks", "", Refused(&["link2.STL\" is not there"])),
+        row("yao_scara_solidworks", "", Refused(&["link2.STL\" does not exist"])),
         row(
             "yao_scara_solidworks",
             "joints = [\"joint2\", \"joint3\"]\ntip = \"link4\"\nfixed = { joint1 = -0.1 }\nbar = 0.04",

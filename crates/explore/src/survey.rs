@@ -88,7 +88,7 @@ impl Survey {
                 let [x, y] = [cell % width, height - 1 - cell / width].map(|k| (k as f64 + 0.5) * map.resolution);
                 let at = map.pose.point(Point::new(x, y));
                 let (said, is) =
-                    if self.truth[cell].is_some() { ("free", "something") } else { ("occupied", "nothing") };
+                    if self.truth[cell].is_some() { ("free", "an obstacle") } else { ("occupied", "free space") };
                 return Err(format!("has {said} space near ({:.4}, {:.4}), but the world has {is} there", at.x, at.y));
             }
         }

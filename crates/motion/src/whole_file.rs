@@ -175,7 +175,7 @@ mod tests {
         assert!(message.contains("inner.csv") && message.contains("not a file"), "{message}");
         let message = write_whole(&folder.path().join("absent/a.csv"), b"x").unwrap_err().to_string();
         assert!(
-            message.contains("a.csv: there is no folder") && message.ends_with("absent, make it first"),
+            message.contains("a.csv: the folder") && message.ends_with("absent does not exist; create it first"),
             "{message}"
         );
         assert_eq!(names(folder.path()), ["inner.csv"]);

@@ -95,7 +95,7 @@ mod tests {
         let moved = [square("a", [0.1, 0.0]), b.clone(), c.clone()];
         assert_eq!(overlap(&files, &moved), None);
         let into = [a.clone(), b.clone(), square("c", [1.2, 0.0])];
-        assert_eq!(overlap(&files, &into).as_deref(), Some("\"c\" stands in \"b\""));
+        assert_eq!(overlap(&files, &into).as_deref(), Some("\"c\" overlaps \"b\""));
         let touching = [a.clone(), b.clone(), square("c", [1.5, 0.0])];
         assert_eq!(overlap(&files, &touching), None);
         // Above it there is room.
@@ -104,7 +104,7 @@ mod tests {
         (0..2).for_each(|k| above[k].heights = Heights { lower: 0.0, upper: 1.0 });
         assert_eq!(overlap(&files, &above), None);
         above[2].heights.lower = 0.9;
-        assert_eq!(overlap(&files, &above).as_deref(), Some("\"b\" stands in \"c\""));
+        assert_eq!(overlap(&files, &above).as_deref(), Some("\"b\" overlaps \"c\""));
         // A wall has no inside, and goes through nothing all the same.
         let wall = |y: f64| Obstacle::polyline("wall", [[-2.0, y], [2.0, y]]).unwrap();
         let files = [wall(3.0), a.clone()];

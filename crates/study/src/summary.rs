@@ -317,9 +317,9 @@ mod tests {
         let hits = "the start (shoulder -0.9 rad, elbow 0.4 rad) is not free: link \"forearm\" hits obstacle \"crate, 2\", 0.0130 m deep; \
                     link \"upper arm\" hits obstacle \"b\", 0.2 m deep";
         assert_eq!(cause(hits), "the start is not free: link \"forearm\" hits obstacle \"crate, 2\"");
-        let far = "step 3: (0.3, 0.1) m is out of reach of the tip \"flange\", whatever the joint limits: it is 2 m from joint \"a\"";
+        let far = "step 3: (0.3, 0.1) m is out of reach of the tip \"flange\", for all joint values: it is 2 m from joint \"a\"";
         assert_eq!(cause(far), "step #: (#, #) m is out of reach of the tip \"flange\"");
-        assert_eq!(cause("\"a (1)\" stands in \"b\""), "\"a (1)\" stands in \"b\"");
+        assert_eq!(cause("\"a (1)\" overlaps \"b\""), "\"a (1)\" overlaps \"b\"");
     }
 
     #[test]

@@ -121,7 +121,7 @@ pub(super) fn out_of_reach(scene: &Scene, what: &str, point: Point) -> String {
         [fixed(from_joint, 4), String::new()]
     };
     format!(
-        "{what} ({}, {}) m is out of reach of the tip \"{}\" for all joint values: it is {distance} m from joint \"{}\"{reach}",
+        "{what} ({}, {}) m is out of reach of the tip \"{}\", for all joint values: it is {distance} m from joint \"{}\"{reach}",
         point.x, point.y, arm.tip_name, arm.joints[0].name,
     )
 }

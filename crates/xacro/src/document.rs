@@ -139,7 +139,7 @@ pub(crate) fn read(file: &File, index: usize) -> Result<Tree, Error> {
         hint: Some(hint.to_owned()),
     };
     if let Some(at) = text.find("<!ENTITY").filter(|at| text[..*at].contains("<!DOCTYPE")) {
-        let message = "the document type defines entities, which a robot has no use for".to_owned();
+        let message = "the document type defines entities, which cplan does not read".to_owned();
         return Err(wrong(
             at..at + 8,
             message,
@@ -177,7 +177,7 @@ pub(crate) fn read(file: &File, index: usize) -> Result<Tree, Error> {
     // Elements nested deeper than an expansion allows are refused before they are walked.
     if let Some(node) = document.descendants().find(|node| node.ancestors().take(DEEPEST + 2).count() > DEEPEST + 1) {
         let message = format!("elements are nested more than {DEEPEST} deep");
-        return Err(wrong(node.range(), message, "no robot needs that"));
+        return Err(wrong(node.range(), message, "reduce the nesting"));
     }
     Ok(Tree { root: element(text, document.root_element(), index), namespaces })
 }

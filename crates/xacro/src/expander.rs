@@ -181,7 +181,7 @@ impl<'s> Expander<'s> {
         match OLD_DIRECTIVES.into_iter().find(|name| is_old && *name == element.name) {
             None => Ok(()),
             Some(name) => {
-                let message = format!("<{name}> without a prefix was xacro's only in its first versions");
+                let message = format!("<{name}> without a prefix is a directive only in the first versions of xacro");
                 Err(self.error(&element.place, Fault::with_hint(message, format!("write <xacro:{name} ...>"))))
             }
         }
@@ -198,7 +198,7 @@ impl<'s> Expander<'s> {
                 let [condition] = self.required(element, ["value"])?;
                 let value = self.value(&condition, scope)?;
                 let is_true = value.condition().ok_or_else(|| {
-                    let message = format!("'{}' is no condition", value.printed());
+                    let message = format!("'{}' is not a condition", value.printed());
                     self.error(
                         &condition.place,
                         Fault::with_hint(message, "write true, false, or an expression: ${a == 1}"),
@@ -207,7 +207,7 @@ impl<'s> Expander<'s> {
                 if is_true == (name == "if") { self.nodes(&element.children, scope, out) } else { Ok(()) }
             }
             "element" | "attribute" => {
-                let message = format!("xacro:{name} is not read");
+                let message = format!("cplan does not read xacro:{name}");
                 Err(self.error(&element.place, Fault::with_hint(message, "write the final element under xacro:if")))
             }
             "call" => {

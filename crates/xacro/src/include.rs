@@ -45,7 +45,7 @@ impl Expander<'_> {
 
     fn unread(&self, path: &Path, why: &str) -> Fault {
         let hint = match path.to_string_lossy().contains(['*', '?', '[']) {
-            true => "patterns are not read: include each file by its name",
+            true => "cplan does not read patterns: include each file by its name",
             false => "correct the path, which is relative to this file",
         };
         Fault::with_hint(format!("{} {why}", path.display()), hint)

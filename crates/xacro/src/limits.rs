@@ -26,7 +26,7 @@ pub(crate) struct Budget {
     depth: usize,
 }
 
-const HINT: &str = "a macro or include may repeat without end; give it a condition (xacro:if) that ends it";
+const HINT: &str = "a macro or include may repeat without end; end it by a condition (xacro:if)";
 
 impl Budget {
     /// Counts a step that makes a text of so many bytes.

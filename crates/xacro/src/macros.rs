@@ -90,8 +90,8 @@ impl Expander<'_> {
         let Some(called) = self.scopes.find_macro(scope, name) else {
             let known = self.scopes.macro_names(scope);
             let hint = match known.is_empty() {
-                true => "define it before it is called, or include the file that does".to_owned(),
-                false => format!("the macros that are defined before are {}", known.join(", ")),
+                true => "define it before its call, or include the file that defines it".to_owned(),
+                false => format!("the macros defined before are {}", known.join(", ")),
             };
             return Err(self.error(&element.place, Fault::with_hint(format!("there is no macro \"{name}\""), hint)));
         };
@@ -103,7 +103,7 @@ impl Expander<'_> {
                 let known: Vec<&str> = called.parameters.iter().map(|p| p.name.as_str()).collect();
                 let message = format!("the macro \"{name}\" has no parameter \"{}\"", attribute.name);
                 let hint = match known.is_empty() {
-                    true => "it has none".to_owned(),
+                    true => "it has no parameters".to_owned(),
                     false => format!("its parameters are {}", known.join(", ")),
                 };
                 return Err(self.error(&attribute.place, Fault::with_hint(message, hint)));

@@ -11,8 +11,8 @@ impl Expander<'_> {
         let is_name = name.value.starts_with(|c: char| c.is_alphabetic() || c == '_')
             && name.value.chars().all(|c| c.is_alphanumeric() || c == '_');
         if !is_name {
-            let message = format!("\"{}\" is no name of a property", name.value);
-            return Err(self.error(&name.place, Fault::with_hint(message, "names are letters, digits and _")));
+            let message = format!("\"{}\" is not a valid name of a property", name.value);
+            return Err(self.error(&name.place, Fault::with_hint(message, "names consist of letters, digits and _")));
         }
         let (name, words) = (name.value.as_str(), ["true", "True", "1"]);
         if element.attribute("remove").is_some_and(|remove| words.contains(&remove.value.as_str())) {

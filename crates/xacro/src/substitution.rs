@@ -138,10 +138,7 @@ impl Expander<'_> {
         let found = package::packages(name, &self.files[file].path).next().ok_or_else(|| {
             let message =
                 format!("the package \"{name}\" is not found: no folder near this file has a package.xml of that name");
-            Fault::with_hint(
-                message,
-                "put the package beside this one, or name the folder that it lies in in ROS_PACKAGE_PATH",
-            )
+            Fault::with_hint(message, "put the package beside this one, or add its parent folder to ROS_PACKAGE_PATH")
         })?;
         let found = found.to_string_lossy().into_owned();
         self.packages.insert((name.to_owned(), file), found.clone());

@@ -21,6 +21,7 @@ use super::memory::MemoryMeter;
 use super::program::Program;
 use super::progress::Progress;
 use super::sinks::{self, Sink};
+use super::variant::Variant;
 use super::words::message;
 use crate::engine::{Method, Options, Planner};
 use crate::input::LoadedScene;
@@ -43,7 +44,8 @@ pub fn run(args: &CompareArgs, program: &Program) -> Result<u8, Failure> {
     sinks::distinct(files())?;
     let cases = Cases::load(args)?;
     sinks::spare_inputs(files(), &cases.files)?;
-    cases.warnings.iter().for_each(|w| sinks::say(&format!("warning: {w}")));
+    let ignored = args.with.iter().flat_map(Variant::ignored);
+    cases.warnings.iter().cloned().chain(ignored).for_each(|w| sinks::say(&format!("warning: {w}")));
     for Refusal { problem, reason, .. } in &cases.refused {
         sinks::say(&format!("warning: {problem} is skipped: {reason}"));
     }
@@ -147,7 +149,7 @@ fn entries(args: &CompareArgs, cases: &Cases) -> Result<Vec<Vec<Entry>>, Failure
         Entry { label: method.to_string(), options: options(args, planner, args.effort.levels(&planner)) }
     });
     let plain: Vec<Entry> = plain.collect();
-    if let Some(missing) = args.with.iter().find_map(super::variant::Variant::missing) {
+    if let Some(missing) = args.with.iter().find_map(Variant::missing) {
         return Err(Failure::Option(missing));
     }
     let of = |case: &Case| {

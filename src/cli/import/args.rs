@@ -13,10 +13,10 @@ use std::path::PathBuf;
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Closed outlines become solid obstacles, open lines become thin walls, and cplan
-reports all parts of the drawing that it leaves out. NAME is a layer or the name
-of a part: a block in DXF, an element or a group in SVG, a feature in GeoJSON; or
-a name in the new world, such as \"feeder 2\". The drawing is scaled, then turned,
-then moved.
+reports all parts of the drawing that it leaves out. NAME is a layer, the name
+of a part (a block in DXF, an element or a group in SVG, a feature in GeoJSON),
+or a name in the new world, such as \"feeder 2\". The drawing is scaled, then
+turned, then moved.
 
 Examples:
   cplan import workspaces/drawings/cell.dxf --output cell.toml \\

@@ -155,7 +155,7 @@ fn far_off(taken: &[Taken], shift: [f64; 2]) -> String {
         (shift[k] - low.midpoint(high)).round()
     });
     match [0, 1].iter().all(|&k| (ends(k)[1] - ends(k)[0]) / 2.0 + 1.0 <= LARGEST) {
-        true => format!("move the drawing to the arm, such as with --move {x},{y}, or give its --unit"),
+        true => format!("move the drawing to the arm with --move {x},{y} or similar, or give its --unit"),
         false => "give the drawing's --unit, or --scale it: the whole drawing is too large".into(),
     }
 }

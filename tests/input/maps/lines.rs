@@ -160,7 +160,7 @@ fn malformed_maps_are_refused_with_their_line() {
         ("NumLines: 3", "NumLines: 4", &["line 4", "NumLines says 4, but 3 follow", "hint"]),
         ("NumLines: 3", "NumLines: 2", &["line 4", "NumLines says 2, but 3 follow"]),
         ("NumLines: 3", "NumLines: 2.5", &["line 4", "2.5 is not a number of lines"]),
-        ("NumLines: 3", "NumLines: -1", &["line 4", "-1 is no number"]),
+        ("NumLines: 3", "NumLines: -1", &["line 4", "-1 is not a number"]),
         ("NumLines: 3", "NumLines: 1e30", &["line 4", "not a number of lines"]),
         ("NumLines: 3", "NumLines 3", &["line 4", "expected \"NumLines:\""]),
         ("LINES\n", "", &["line 5", "expected \"LINES\""]),

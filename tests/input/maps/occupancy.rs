@@ -115,7 +115,7 @@ fn worlds_that_misuse_pictures_are_refused() {
 #[test]
 fn descriptions_are_refused_with_their_line() {
     for (from, to, parts) in [
-        ("resolution: 0.5", "resolution: 0", &["room.yaml: line 2, column 13", "0 is no length", "hint"][..]),
+        ("resolution: 0.5", "resolution: 0", &["room.yaml: line 2, column 13", "0 is not a valid length", "hint"][..]),
         ("resolution: 0.5", "resolution: -1", &["line 2", "-1"]),
         ("resolution: 0.5", "resolution: .nan", &["line 2", "NaN"]),
         ("resolution: 0.5", "resolution: 9e5", &["3 x 2 pixels", "900000 m extends beyond"]),

@@ -136,7 +136,7 @@ fn pngs_of_few_bits_and_palettes() {
 fn broken_greymaps_are_refused() {
     for (bytes, parts) in [
         (&b"P5 2 2 255\n\0\0\0"[..], &["room.bin", "ends early", "4 bytes, but the file has 3", "hint"][..]),
-        (b"P5 2 2 255\n\0\0\0\0\0", &["goes on", "at byte 16"]),
+        (b"P5 2 2 255\n\0\0\0\0\0", &["continues after", "at byte 16"]),
         (b"P5 2 2 256\n\0\0\0\0", &["8 bytes, but the file has 4"]),
         (b"P5 2 2 255", &["it has 0"]),
         (b"P5 2 2", &["ends early", "maxval"]),
@@ -149,9 +149,9 @@ fn broken_greymaps_are_refused() {
         (b"P5 0 2 255\n", &["no pixels: 0 x 2"]),
         (b"P5 1000000000 1 255\n", &["1000000000 x 1 pixels are too many", "hint"]),
         (b"P5 4294967296 4294967296 255\n", &["too many"]),
-        (b"P5 99999999999999999999 1 255\n", &["no whole number"]),
+        (b"P5 99999999999999999999 1 255\n", &["not a whole number"]),
         (b"P2 2 2 255 1 2 3", &["ends early", "value 4 of 4"]),
-        (b"P2 2 2 255 1 2 3 4 5", &["goes on", "at byte 20"]),
+        (b"P2 2 2 255 1 2 3 4 5", &["continues after", "at byte 20"]),
         (b"P2 2 2 255 1 2 x 4", &["value 3 of 4", "\"x\""]),
         (b"P2 2 2 255 1 2 1e2 4", &["value 3 of 4"]),
         (b"P2 30000 30000 255 1", &["too many"]),

@@ -205,7 +205,7 @@ fn limits_that_are_none_make_a_joint_continuous() {
     };
     run(sliding("lower=\"-800\" upper=\"800\""), "").found(&["-800.0000 m to 800.0000 m"]);
     for limits in ["lower=\"-1e16\" upper=\"1e16\"", "lower=\"-inf\" upper=\"inf\""] {
-        run(sliding(limits), "").found(&["taken as -1e6 to 1e6 m"]);
+        run(sliding(limits), "").found(&["cut to -1e6 to 1e6 m"]);
     }
 }
 
@@ -294,7 +294,7 @@ fn starts_are_taken_by_the_tip_if_one_ik_solution_alone_reaches_it() {
     let both = world.replace("[robot]\nlimits = { j2 = [0, 3] }\n", "");
     run(&both, "").refused(1, &["2 IK solutions put the tip at (1, 0.5)", "give joint values: joints = [", "line "]);
     run(&world.replace("[1, 0.5]", "[5, 0]"), "").refused(1, &["the start (5, 0) m is out of reach", "hint"]);
-    run(&both.replace("[1, 0.5]", "[0, 0]"), "").refused(1, &["leaves a joint free", "hint"]);
+    run(&both.replace("[1, 0.5]", "[0, 0]"), "").refused(1, &["infinitely many IK solutions", "hint"]);
     run(&world.replace("tip", "joints = [0, 1]\ntip"), "").refused(1, &["either `joints` or `tip`", "hint"]);
 }
 
@@ -306,7 +306,7 @@ fn values_beyond_a_limit_by_rounding_are_the_limit() {
     place.plan(&world, "").found(&[
         "the start has joint \"shoulder\"",
         "the goal has joint \"elbow\"",
-        "taken as -2.9 rad",
+        "-2.9 rad is used",
     ]);
     place.plan(FREE.replace("-0.9", "-2.90000001"), "").refused(1, &["exceeds its limits", "hint"]);
 }

@@ -86,11 +86,11 @@ fn a_bad_line_is_a_row() {
     let [urdf, world] = shelf();
     place.write("world.toml", format!("{FREE}clearanse = 1\n"));
     let bad: [(&str, &str, &[&str]); 11] = [
-        ("{", "input", &["no JSON", "EOF"]),
+        ("{", "input", &["not JSON", "EOF"]),
         ("[1, 2]", "input", &["not a JSON object"]),
-        ("\u{1b}", "input", &["no JSON"]),
-        (r#"{"id": 1}"#, "input", &["give `urdf` or `urdf_text`"]),
-        (r#"{"urdf": "U", "id": 2}"#, "input", &["give `world` or `world_text`"]),
+        ("\u{1b}", "input", &["not JSON"]),
+        (r#"{"id": 1}"#, "input", &["give either `urdf` or `urdf_text`"]),
+        (r#"{"urdf": "U", "id": 2}"#, "input", &["give either `world` or `world_text`"]),
         (r#"{"urdf": "U", "world": "W", "wrold": 1}"#, "input", &["unknown field `wrold`"]),
         (r#"{"urdf": "U", "world": 7}"#, "input", &["`world` is a path"]),
         (r#"{"urdf": "U", "world": {"start": null}}"#, "input", &["cannot be written as TOML"]),
@@ -148,7 +148,7 @@ fn an_id_comes_back_as_it_is_written() {
         let found = ids.map(|id| format!("{{\"id\":{id},\"status\":\"found\"}}"));
         assert_eq!(rows[..ids.len()], found);
         assert!(
-            rows[6].starts_with("{\"id\":1e400,\"status\":\"error\"") && rows[6].contains("give `urdf`"),
+            rows[6].starts_with("{\"id\":1e400,\"status\":\"error\"") && rows[6].contains("give either `urdf`"),
             "{}",
             rows[6]
         );

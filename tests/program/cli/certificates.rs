@@ -91,7 +91,7 @@ fn places_of_the_tip_that_are_shut_off_have_certificates_that_hold() {
         assert_eq!(done.code, 3, "{world}: {}", done.stderr);
         let certificate = place.read("c.json");
         let said = check(&read(&files[0]), &read(&files[1]), &certificate).unwrap();
-        assert!(said.contains("a place of the tip \"tool0\""), "{said}");
+        assert!(said.contains("a position of the tip \"tool0\""), "{said}");
         // The start itself is also on the start's side.
         let mut other: Value = serde_json::from_str(&certificate).unwrap();
         other.as_object_mut().unwrap().remove("goal_tip");
@@ -225,7 +225,7 @@ fn a_certificate_can_be_a_part_of_the_result() {
     let done = place.run(&["recheck", &closed[0], &closed[1]], "--proof r.json");
     assert_eq!(done.code, 0, "{}", done.stderr);
     let done = place.run(&files, "--quiet --certificate m.csv --output m.csv");
-    done.refused(1, &["m.csv", "one file"]);
+    done.refused(1, &["m.csv", "the same file"]);
 }
 
 /// Returns a block of 1 m along x as an STL, a little thinner in its middle. Its hull counts.

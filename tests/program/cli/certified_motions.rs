@@ -102,7 +102,7 @@ fn what_is_played_and_what_is_asked_is_in_the_certificate() {
         assert!(asked.contains(part), "{asked}");
     }
     let tip = said("--goal-tip 0.35,0.5");
-    assert!(tip.contains("goal (0.35, 0.5), a place of the tip") && tip.contains("within 1e-1"), "{tip}");
+    assert!(tip.contains("goal (0.35, 0.5), a position of the tip") && tip.contains("within 1e-1"), "{tip}");
 }
 
 /// Includes the motions of the other planners, and one with sharp corners.

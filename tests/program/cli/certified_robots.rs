@@ -104,13 +104,13 @@ impl Case<'_> {
 #[test]
 fn frames_and_axes_as_exporters_write_them() {
     for (what, robot, said) in [
-        ("upright", &[("{mounting}", r#"<origin rpy="1.5708 0 0"/>"#)][..], "by up to 1e-5 rad"),
-        ("roughly upright", &[("{mounting}", r#"<origin rpy="1.57 0 0"/>"#)], "by up to 1e-3 rad"),
+        ("upright", &[("{mounting}", r#"<origin rpy="1.5708 0 0"/>"#)][..], "up to 1e-5 rad"),
+        ("roughly upright", &[("{mounting}", r#"<origin rpy="1.57 0 0"/>"#)], "up to 1e-3 rad"),
         ("upright in all digits", &[("{mounting}", r#"<origin rpy="1.5707963267948966 0 0"/>"#)], "read as"),
-        ("upside down", &[("{mounting}", r#"<origin rpy="3.14159 0 0"/>"#)], "by up to 1e-5 rad"),
-        ("an axis in single precision", &[("{axis}", "-1.19e-5 0 0.9999")], "by up to 1e-4 rad"),
-        ("a second axis that is off", &[("{second}", "0 4e-4 1")], "by up to 1e-3 rad"),
-        ("an elbow turned over", &[("{turned}", r#"rpy="3.14159 0 0""#), ("{second}", "0 0 -1")], "by up to 1e-5"),
+        ("upside down", &[("{mounting}", r#"<origin rpy="3.14159 0 0"/>"#)], "up to 1e-5 rad"),
+        ("an axis in single precision", &[("{axis}", "-1.19e-5 0 0.9999")], "up to 1e-4 rad"),
+        ("a second axis that is off", &[("{second}", "0 4e-4 1")], "up to 1e-3 rad"),
+        ("an elbow turned over", &[("{turned}", r#"rpy="3.14159 0 0""#), ("{second}", "0 0 -1")], "up to 1e-5"),
         ("an oblique plane", &[("{axis}", "0 1 1"), ("{second}", "0 3 3")], "read as"),
         ("a quaternion", &[("{mounting}", r#"<origin quat_xyzw="0 0 0 2"/>"#)], "read as"),
         ("an upright quaternion", &[("{mounting}", r#"<origin quat_xyzw="0.70710678 0 0 0.70710678"/>"#)], "leads"),

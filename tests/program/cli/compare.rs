@@ -173,7 +173,7 @@ fn worlds_with_steps_are_left_out_and_said_to_be() {
     place.write("worlds/moving.toml", format!("{FREE}{moving}"));
     let done = place.run(&["compare", &robot, "--suite", "worlds"], "--planner trapezoid --json");
     assert!(
-        done.code == 0 && done.stderr.contains("moving.toml is left out: something moves in it"),
+        done.code == 0 && done.stderr.contains("moving.toml is left out: it has moving obstacles or objects"),
         "{}",
         done.stderr
     );
@@ -249,7 +249,7 @@ fn every_file_is_written_or_none() {
     for (options, code, part) in [
         ("--output new.txt", 2, ".md, .csv, .json, .html or .log"),
         ("--output new.md --output new.md", 1, "are the same file"),
-        ("--output new.md --output absent/new.md", 1, "no folder absent"),
+        ("--output new.md --output absent/new.md", 1, "the folder absent does not exist"),
         ("--markdown --csv", 2, "--csv"),
         ("--jobs 0", 2, "1..=1024"),
         ("--picture new.svg", 2, "--picture"),

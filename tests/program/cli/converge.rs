@@ -184,7 +184,7 @@ fn bad_input_gives_one_error() {
         ("--measure norm", 2, ["squares", ""]),
         ("--output a.txt", 2, ["a.txt", ".csv or .json"]),
         ("--picture a.pdf", 2, ["a.pdf", ".svg, .png, .gif or .html"]),
-        ("--output a.json --output ./a.json", 1, ["one file", ""]),
+        ("--output a.json --output ./a.json", 1, ["the same file", ""]),
         ("--output nowhere/a.csv", 1, ["nowhere", ""]),
     ] {
         let mut words = vec!["converge".to_owned()];

@@ -85,7 +85,7 @@ fn a_known_map_is_taken_up() {
     assert!(text.contains(one));
     place.write("moved.toml", text.replace(one, "[0.65, -0.1], [0.7, -0.1], [0.7, 0.4], [0.65, 0.4]"));
     let moved = place.run(&["explore", &robot, "moved.toml"], &format!("{COARSE} --known rooms.yaml"));
-    moved.refused(1, &["rooms.yaml", "says that it is occupied about (0.6", "there is nothing", "hint"]);
+    moved.refused(1, &["rooms.yaml", "has occupied space near (0.6", "the world has free space", "hint"]);
     place.write("finer.toml", text.replace("cell = 0.025", "cell = 0.02"));
     let finer = place.run(&["explore", &robot, "finer.toml"], &format!("{COARSE} --known rooms.yaml"));
     finer.refused(1, &["rooms.yaml", "has other cells"]);
@@ -188,7 +188,7 @@ fn the_clearance_is_kept_from_what_lies_beyond_reach() {
 fn what_makes_no_exploration_is_refused() {
     let place = Place::new();
     let explore = |options: &str| explore(&place, &rooms(), options);
-    explore("--strategy goal").refused(1, &["has no goal"]);
+    explore("--strategy goal").refused(1, &["needs a goal"]);
     explore("--output a.mcap").refused(2, &["a.mcap", ".json, .csv or .yaml"]);
     explore("--map a.pgm").refused(2, &["a.pgm", "must end in .yaml"]);
     explore("--grid 0").refused(2, &["grid"]);

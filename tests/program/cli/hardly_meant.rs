@@ -82,7 +82,7 @@ fn speeds_that_no_drive_has_are_noticed() {
     hinted(
         &[("velocity=\"3.0\"", "velocity=\"0.0\"")],
         FREE,
-        &["joint \"elbow\": velocity=\"0\" in the URDF is taken as not given"],
+        &["joint \"elbow\": velocity=\"0\" in the URDF counts as missing"],
     );
     // The hint helps.
     let place = Place::new();

@@ -349,14 +349,14 @@ fn what_is_wrong_is_said_with_its_place_and_cure() {
     assert!(!done.stderr.contains("taken as"), "{}", done.stderr);
     refused("cut.dxf", "", &["cut.dxf: line ", "ends in the middle"]);
     refused("broken.svg", "", &["broken.svg: line 3", "not well-formed XML"]);
-    refused("broken.json", "", &["broken.json: line 2", "no JSON"]);
+    refused("broken.json", "", &["broken.json: line 2", "not JSON"]);
     refused("none.dxf", "", &["none.dxf: cannot be read", "hint: "]);
     refused(
         "one.dxf",
         "--layer b",
         &["--layer: the drawing has no layer or part \"b\"", "hint: the drawing has \"a\""],
     );
-    refused("one.dxf", "--output no/w.toml", &["there is no folder"]);
+    refused("one.dxf", "--output no/w.toml", &["the folder no does not exist"]);
     assert!(!place.path("w.toml").exists());
     for (file, options, part) in [
         ("one.step", "", "must end in .dxf, .svg, .geojson or .json"),

@@ -14,7 +14,7 @@ fn bad_worlds_are_refused_with_their_place() {
         (b"[start\n".to_vec(), "line 1, column 7"),
         (b"colour = 1\n".to_vec(), "unknown key `colour`"),
         (with("[robot]\ncolour = 1"), "line 6, column 1"),
-        (with("tip = [1, 1]"), "it has both"),
+        (with("tip = [1, 1]"), "but has both"),
         (obstacle("radius = 1"), "unknown key `radius`"),
         (obstacle("name = \"x\""), "exactly one shape"),
         (obstacle("polyline = [[1, 1]]"), "at least two points"),

@@ -36,7 +36,9 @@ fn outputs_are_written_behind_links() {
         assert!(place.path("link.json").is_symlink() && place.read("behind/plan.json").contains("\"found\""));
     }
     std::os::unix::fs::symlink("none/plan.json", place.path("dangling.json")).unwrap();
-    place.run(&["arm.urdf", "world.json", "--output", "dangling.json"], "").refused(1, &["there is no folder none"]);
+    place
+        .run(&["arm.urdf", "world.json", "--output", "dangling.json"], "")
+        .refused(1, &["the folder none does not exist"]);
     // One of two outputs may be the target of the other.
     std::os::unix::fs::symlink("late.json", place.path("late.svg")).unwrap();
     let both = ["arm.urdf", "world.json", "--output", "late.json", "--picture", "late.svg"];
@@ -56,7 +58,7 @@ fn an_input_is_not_overwritten_by_any_path_to_it() {
         spellings.extend(["soft.json", "hard.json"]);
     }
     for output in &spellings {
-        refused(&place, &["arm.urdf", "world.json", "--output", output], &["the input world.json", output]);
+        refused(&place, &["arm.urdf", "world.json", "--output", output], &["the input file world.json", output]);
     }
     // By the other name of the world, too.
     refused(&place, &["arm.urdf", spellings[spellings.len() - 1], "--output", "world.json"], &["world.json"]);
@@ -96,7 +98,7 @@ fn what_an_input_refers_to_is_an_input_too() {
     let before = place.read("den.yaml");
     let done = place.run(&[&urdf, "den.toml", "--output", "den.yaml"], "");
     assert_eq!(done.code, 1, "{}", done.stdout);
-    assert!(done.stderr.contains("the input den.yaml"), "{}", done.stderr);
+    assert!(done.stderr.contains("the input file den.yaml"), "{}", done.stderr);
     assert_eq!(place.read("den.yaml"), before);
 }
 

@@ -111,9 +111,9 @@ fn files_that_cannot_be_written_are_known_before_any_work() {
     std::fs::create_dir(place.path("folder.json")).unwrap();
     for (option, part) in [
         ("--output folder.json", "is not a file"),
-        ("--output absent/a.json", "no folder absent"),
-        ("--picture absent/a.svg", "no folder absent"),
-        ("--output first.json --output absent/a.json", "no folder absent"),
+        ("--output absent/a.json", "the folder absent does not exist"),
+        ("--picture absent/a.svg", "the folder absent does not exist"),
+        ("--output first.json --output absent/a.json", "the folder absent does not exist"),
     ] {
         place.run(&shelf(), option).refused(1, &[part]);
     }

@@ -164,7 +164,7 @@ fn a_study_that_is_killed_goes_on_and_ends_with_the_same_bytes() {
     std::fs::write(&part, &text).unwrap();
     let done = run(&place, "--output t.csv --jobs 2");
     assert_eq!(done.code, 0, "{}", done.stderr);
-    assert!(done.stderr.contains("layouts that are known already"), "{}", done.stderr);
+    assert!(done.stderr.contains("layouts of the stopped study"), "{}", done.stderr);
     assert_eq!(place.read("t.csv"), place.read("whole.csv"));
     assert!(!part.exists());
     // Rows of another study are neither used nor lost.
@@ -264,7 +264,7 @@ fn what_one_layout_lacks_is_its_row_and_no_best_layout_is_no_failure() {
     study(&place, "conditions = [\"duration <= 0.01\"]\ndraws = 3", CRATE);
     let done = run(&place, "--output t.csv --output best.toml --json");
     assert_eq!(done.code, 0, "{}", done.stderr);
-    assert!(done.stderr.contains("best.toml is not written: no layout fits"), "{}", done.stderr);
+    assert!(done.stderr.contains("best.toml is not written: no layout meets the requirements"), "{}", done.stderr);
     assert!(!place.path("best.toml").exists() && rows(&place.read("t.csv")).len() == 12);
     assert_eq!(done.json()["best"], Value::Null);
 }
@@ -302,7 +302,7 @@ fn what_is_wrong_with_a_study_has_its_place_and_cure() {
         (
             "",
             x.replace("from = 0", "from = \"9deg\"") + "steps = 2\n",
-            &["world.obstacle.crate.at[0] is no angle", "line 7"],
+            &["world.obstacle.crate.at[0] is not an angle", "line 7"],
         ),
         (
             "options = [\"--planer=first\"]",
@@ -315,7 +315,7 @@ fn what_is_wrong_with_a_study_has_its_place_and_cure() {
             &["options: --picture is about files or printed output", "give files to `cplan study` itself"],
         ),
         ("", String::new(), &["the study has no parameters", "[[parameter]]"]),
-        ("", x.into(), &["line 4, column 1", "which values parameter \"x\" takes", "from, to and steps"]),
+        ("", x.into(), &["line 4, column 1", "parameter \"x\" does not define its values", "from, to and steps"]),
         ("", format!("{x}steps = 1\n"), &["line 9", "1 values from 0 to 1"]),
         ("", format!("{x}draw = \"latin\"\n"), &["is drawn: how often?", "draws = 1000"]),
         ("draws = 5", format!("{x}steps = 3\n"), &["line 3", "no parameter is drawn"]),
@@ -333,7 +333,7 @@ fn what_is_wrong_with_a_study_has_its_place_and_cure() {
         ("", x.replace("from = 0", "from = 2") + "steps = 2\n", &["2 is more than 1"]),
         ("", format!("{x}steps = 2\n{x}steps = 2\n"), &["another column \"x\""]),
         ("measure = [\"speed\"]", format!("{x}steps = 2\n"), &["line 3", "\"speed\" is not measured; there is length"]),
-        ("conditions = [\"length < 3\"]", format!("{x}steps = 2\n"), &["is no condition", "clearance >= 0.01"]),
+        ("conditions = [\"length < 3\"]", format!("{x}steps = 2\n"), &["is not a condition", "clearance >= 0.01"]),
         ("options = [\"--planner=nobody\"]", format!("{x}steps = 2\n"), &["line 3", "nobody"]),
         ("size = 3", format!("{x}steps = 2\n"), &["line 3", "unknown key `size`"]),
         ("", format!("{x}steps = 200000000\n"), &["200000000 values"]),
@@ -368,11 +368,11 @@ fn obstacles_stand_in_nothing_but_what_the_world_lets_them() {
     for row in &inside {
         let [x, y]: [f64; 2] = ["x", "y"].map(|name| field(row, name).parse().unwrap());
         let overlaps = x > 1.01 && y > 0.04 && y < 0.445;
-        assert_eq!(field_of(row) == ("refused", "\"crate\" stands in \"shelf\""), overlaps, "{row:?}");
+        assert_eq!(field_of(row) == ("refused", "\"crate\" overlaps \"shelf\""), overlaps, "{row:?}");
         count += usize::from(overlaps);
     }
     assert_eq!((inside.len(), count), (24, 4));
-    assert!(done.stdout.contains("         4  refused: \"crate\" stands in \"shelf\"\n"), "{}", done.stdout);
+    assert!(done.stdout.contains("         4  refused: \"crate\" overlaps \"shelf\"\n"), "{}", done.stdout);
     // Low things are below the shelf.
     let low = format!("{FREE}{WORLD}").replace("name = \"crate\"", "name = \"crate\"\nheight = [0.0, 0.1]");
     place.write("world.toml", low.replace("name = \"shelf\"", "name = \"shelf\"\nheight = [0.1, 0.3]"));

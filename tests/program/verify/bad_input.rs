@@ -132,12 +132,12 @@ fn files_of_other_kinds() {
 fn held_joints_may_move_along_the_normal() {
     let rows = |a: f64, b: f64| format!("time,lift,j1,j2\n0,{a},0,0\n1,{b},0,0.1\n");
     let notes = read("m.csv", rows(0.25, 0.250_001)).unwrap();
-    assert!(notes.iter().any(|n| n.contains("\"lift\" stands still at 0.25")), "{notes:?}");
+    assert!(notes.iter().any(|n| n.contains("\"lift\" stays at 0.25")), "{notes:?}");
     let notes = read("m.csv", rows(0.25, 0.3)).unwrap();
     assert!(notes.iter().any(|n| n.contains("\"lift\" moves, from 0.25 to 0.3 m")), "{notes:?}");
     let point = |t: u8, lift: f64| format!("- {{positions: [0, {lift}, 0], time_from_start: {{sec: {t}}}}}\n");
     let message = |lift: f64| format!("joint_names: [j2, lift, j1]\npoints:\n{}{}", point(0, 0.25), point(1, lift));
-    for (lift, said) in [(0.25, "\"lift\" stands still at 0.25"), (0.5, "\"lift\" moves, from 0.25 to 0.5 m")] {
+    for (lift, said) in [(0.25, "\"lift\" stays at 0.25"), (0.5, "\"lift\" moves, from 0.25 to 0.5 m")] {
         let notes = read("m.yaml", message(lift)).unwrap();
         assert!(notes.iter().any(|note| note.contains(said)), "{notes:?}");
     }

@@ -153,7 +153,7 @@ fn each_false_claim_of_a_motion_is_named() {
     case.refused(|r| r["units"] = json!(["rad", "m"]), "claims", "units");
     case.refused(|r| r["length"] = json!(3.0), "claims", "length");
     case.refused(|r| r["clearance"] = json!(1.2 * kept), "claims", "clearance");
-    case.refused(|r| r["clearance"] = Value::Null, "claims", "nothing can be hit");
+    case.refused(|r| r["clearance"] = Value::Null, "claims", "no obstacle within reach");
     case.refused(|r| r["duration"] = json!(1.0), "claims", "duration");
     case.refused(|r| r["blends"]["count"] = json!(500), "claims", "blends.count");
     case.refused(|r| r["blends"]["largest_radius"] = json!(0.0), "claims", "does not follow");

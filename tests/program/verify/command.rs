@@ -69,7 +69,7 @@ fn summary_picture_clearance_and_quiet() {
     let near = "shoulder,elbow\n-0.9,0.4\n-0.8,0.4\n";
     let (code, stdout, _) = verify("planar_2r", "shelf", near, &["--clearance", "5"]);
     assert_eq!(code, 3);
-    assert!(stdout.contains("apart") && stdout.contains("nearer than the clearance"), "{stdout}");
+    assert!(stdout.contains("apart") && stdout.contains("nearer than the required clearance"), "{stdout}");
 }
 
 #[test]

@@ -52,7 +52,7 @@ fn what_is_taken_is_said_and_what_is_not_clear_is_refused() {
     // There are two samples at one time, commas for decimals, and two kinds of separators.
     for (table, part) in [
         (PLAIN.replace("2,-0.7", "1,-0.7"), "line 4"),
-        (PLAIN.replace(',', ";").replace('.', ","), "no number"),
+        (PLAIN.replace(',', ";").replace('.', ","), "not a number"),
         (PLAIN.replacen(',', ";", 1), "time;shoulder"),
     ] {
         let error = verify(&table).unwrap_err();

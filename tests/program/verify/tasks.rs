@@ -325,7 +325,7 @@ fn another_start() {
     assert!(error.contains("--picture"), "{error}");
     // More than there is.
     let (code, text, _) = shipped("sorting").said(&["--clearance", "0.01"]);
-    assert!(code == 3 && text.contains("nearer than the clearance to keep"), "{text}");
+    assert!(code == 3 && text.contains("nearer than the required clearance"), "{text}");
 }
 
 #[test]

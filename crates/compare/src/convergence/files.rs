@@ -23,7 +23,7 @@ impl Convergence {
             self.stopping.below,
             self.stopping.max_sweeps
         );
-        text += "\nrate: factor of the error per sweep, finally; error: greatest, over the initial greatest\n";
+        text += "\nrate: final error factor per sweep; error: greatest, over the initial greatest\n";
         text += &self.table().to_text();
         text +=
             &format!("\nsweeps of SOR ({}) by its factor: best of a scan, by the formula for an empty\n", self.order);

@@ -26,7 +26,7 @@ pub(super) fn without_entities(source: &Source) -> Result<(), Diagnostic> {
         Some(at) => {
             let diagnostic = source
                 .diagnostic_at(at..at + ENTITY.len(), "the document type defines entities, which cplan does not read");
-            Err(diagnostic.help("write their values where they are used, and remove the <!DOCTYPE ...>"))
+            Err(diagnostic.help("write the entities' values directly, and remove the <!DOCTYPE ...>"))
         }
     }
 }

@@ -106,7 +106,7 @@ pub(super) fn blocked_by(problem: &MotionProblem, answer: &Answer<Motion>) -> Op
     let is_small = scene.pairs().len() <= FEW_PAIRS;
     let set = is_small.then(|| blocking_set(&Question::from(problem), Some(proof.clone()), [BOXES; 2]));
     let told = set.filter(BlockingSet::is_irreducible).map(|set| set.describe(scene));
-    Some(("blocked by", told.unwrap_or_else(|| "not known so quickly; `cplan explain` takes more time".into())))
+    Some(("blocked by", told.unwrap_or_else(|| "unknown so far; `cplan explain` takes more time".into())))
 }
 
 /// Describes the clearance of the motion, and the nearest place.

@@ -166,7 +166,7 @@ fn motion_view(plan: &Plan, problem: &MotionProblem, answer: &Answer<Motion>, co
         Outcome::Found(motion) => {
             format!("{method}: length {:.4}, {}", motion.path.path().length(), kept(plan.clearance()))
         }
-        Outcome::Infeasible(proof) => format!("{method}: infeasible: there is no path; {}", proof.describe()),
+        Outcome::Infeasible(proof) => format!("{method}: there is no path; {}", proof.describe()),
         Outcome::Unknown(_) => method.to_string(),
     };
     View::of_picture(&Picture {
@@ -194,7 +194,7 @@ fn task_picture<'a>(plan: &'a Plan, task: &'a Task, answer: &'a TaskAnswer) -> T
             let kept = kept(plan.clearance());
             ("found, certified", format!("{planner}: {steps} in {:.3} s, {kept}", answer.duration()))
         }
-        Status::Infeasible => ("infeasible: proven", before()),
+        Status::Infeasible => ("proven", before()),
         Status::Unknown => ("unknown", before()),
     };
     TaskPicture {

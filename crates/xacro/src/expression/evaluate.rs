@@ -124,8 +124,8 @@ impl Evaluator<'_> {
         }
         functions::constant(name).ok_or_else(|| {
             let hint = match functions::is_function(name) {
-                true => "it is a function: write ( and ) behind it".to_owned(),
-                false => "define it before it is used: <xacro:property name=\"...\" value=\"...\"/>, or in a file that is included".into(),
+                true => "it is a function: write ( and ) after it".to_owned(),
+                false => "define it before its use: <xacro:property name=\"...\" value=\"...\"/>, here or in an included file".into(),
             };
             Fault::with_hint(format!("there is no property \"{name}\""), hint)
         })
@@ -232,8 +232,8 @@ fn binary(sign: &str, a: &Value, b: &Value) -> Result<Value, Fault> {
         }
         _ => {
             let message =
-                format!("\"{sign}\" does not go with '{}' ({}) and '{}' ({})", short(a), a.kind(), short(b), b.kind());
-            Err(Fault::with_hint(message, "make both numbers, or both texts with str(...)"))
+                format!("\"{sign}\" cannot combine '{}' ({}) and '{}' ({})", short(a), a.kind(), short(b), b.kind());
+            Err(Fault::with_hint(message, "use two numbers, or two texts by str(...)"))
         }
     }
 }
@@ -270,7 +270,7 @@ fn arithmetic(sign: &str, a: Number, b: Number) -> Result<Value, Fault> {
         _ => x.powf(y),
     };
     match value.is_nan() && !x.is_nan() && !y.is_nan() {
-        true => Err(format!("\"{sign}\" of {x} and {y} is no number").into()),
+        true => Err(format!("\"{sign}\" of {x} and {y} is not a number").into()),
         false => Ok(Value::Float(value)),
     }
 }
@@ -280,7 +280,7 @@ fn holds(a: &Value, sign: &str, b: &Value) -> Result<bool, Fault> {
         (Value::Text(a), Value::Text(b)) => Ok(b.contains(&**a)),
         (_, Value::List(items)) => Ok(items.iter().any(|item| item.equals(a))),
         (_, Value::Dict(items)) => Ok(items.iter().any(|(key, _)| key.equals(a))),
-        _ => Err(Fault::from(format!("nothing is \"in\" a {}", b.kind()))),
+        _ => Err(Fault::from(format!("\"in\" does not apply to a {}", b.kind()))),
     };
     match sign {
         "==" => return Ok(a.equals(b)),
@@ -292,7 +292,7 @@ fn holds(a: &Value, sign: &str, b: &Value) -> Result<bool, Fault> {
     let is_number = |value: &Value| value.number().is_some();
     let order = a.compare(b);
     if order.is_none() && !(is_number(a) && is_number(b)) {
-        return Err(format!("\"{sign}\" does not compare a {} with a {}", a.kind(), b.kind()).into());
+        return Err(format!("\"{sign}\" cannot compare a {} with a {}", a.kind(), b.kind()).into());
     }
     Ok(match sign {
         "<" => order == Some(Ordering::Less),
@@ -338,7 +338,7 @@ fn slice(of: &Value, bounds: [Option<Value>; 2]) -> Result<Value, Fault> {
                 let at = if *at < 0 { at.saturating_add(length) } else { *at };
                 Ok(usize::try_from(at.clamp(0, length)).unwrap_or(open))
             }
-            Some(other) => Err(Fault::from(format!("a {} is no position", other.kind()))),
+            Some(other) => Err(Fault::from(format!("a {} is not a position", other.kind()))),
         };
         let (from, to) = (bound(&bounds[0], 0)?, bound(&bounds[1], length)?);
         Ok((from, to.max(from)))

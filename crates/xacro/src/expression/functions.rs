@@ -79,8 +79,8 @@ pub(super) fn call(name: &str, arguments: &[Value]) -> Result<Value, Fault> {
     if !is_function(name) {
         let known: Vec<&str> = OF_ONE.iter().map(|f| f.0).chain(OF_TWO.iter().map(|f| f.0)).chain(MORE).collect();
         return Err(Fault::with_hint(
-            format!("the function {name}() is not known"),
-            format!("those that are: {}", known.join(", ")),
+            format!("the function {name}() is unknown"),
+            format!("known functions: {}", known.join(", ")),
         ));
     }
     let numbers: Option<Vec<Number>> = arguments.iter().map(Value::number).collect();
@@ -96,7 +96,7 @@ pub(super) fn call(name: &str, arguments: &[Value]) -> Result<Value, Fault> {
     }
     more(name, arguments)?.ok_or_else(|| {
         let kinds: Vec<&str> = arguments.iter().map(Value::kind).collect();
-        format!("{name}() does not go with ({})", kinds.join(", ")).into()
+        format!("{name}() does not accept ({})", kinds.join(", ")).into()
     })
 }
 
@@ -132,10 +132,10 @@ fn more(name: &str, arguments: &[Value]) -> Result<Option<Value>, Fault> {
         ("abs", [Value::Float(x)]) => Value::Float(x.abs()),
         ("bool", [x]) => Value::Bool(x.is_true()),
         ("str", [x]) => Value::text(x.printed()),
-        ("float", [Value::Text(text)]) => Value::Float(float(text).ok_or_else(|| format!("'{text}' is no number"))?),
+        ("float", [Value::Text(text)]) => Value::Float(float(text).ok_or_else(|| format!("'{text}' is not a number"))?),
         ("float", [x]) if x.number().is_some() => Value::Float(x.number().map_or(0.0, Number::as_f64)),
         ("int", [Value::Text(text)]) => {
-            Value::Int(text.trim().parse().map_err(|_| format!("'{text}' is no whole number"))?)
+            Value::Int(text.trim().parse().map_err(|_| format!("'{text}' is not a whole number"))?)
         }
         ("int" | "trunc", [Value::Float(x)]) => whole(name, x.trunc())?,
         ("int" | "trunc", [Value::Int(x)]) => Value::Int(*x),

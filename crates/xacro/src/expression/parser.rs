@@ -75,7 +75,7 @@ impl<'t> Parser<'t> {
     fn unexpected(&self, token: &Token) -> Fault {
         match token {
             Token::Name(word) if UNKNOWN_WORDS.contains(&word.as_str()) => Fault::with_hint(
-                format!("\"{word}\" is not known: comprehensions, lambdas and \"is\" are not read"),
+                format!("\"{word}\" is unknown: cplan does not read comprehensions, lambdas and \"is\""),
                 "write the expression without it, or expand the file with ROS's own xacro",
             ),
             Token::Name(word) => format!("\"{word}\" is not expected there").into(),
@@ -198,7 +198,7 @@ impl<'t> Parser<'t> {
                 return Err(format!("it is nested more than {DEEPEST_EXPRESSION} deep").into());
             }
             if self.takes_sign(".") {
-                let Some(Token::Name(name)) = self.peek() else { return Err("a name is missing behind \".\"".into()) };
+                let Some(Token::Name(name)) = self.peek() else { return Err("a name is missing after \".\"".into()) };
                 self.at += 1;
                 value = Expression::Member(boxed(value), name.clone());
             } else if self.takes_sign("[") {

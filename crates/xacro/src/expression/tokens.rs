@@ -83,7 +83,7 @@ fn number(text: &str) -> Result<(Token, usize), Fault> {
     }
     let token = match is_whole {
         true => Token::Int(word.parse().map_err(|_| format!("the number {word} is too large"))?),
-        false => Token::Float(float(&word).ok_or_else(|| format!("{word} is no number"))?),
+        false => Token::Float(float(&word).ok_or_else(|| format!("{word} is not a number"))?),
     };
     Ok((token, end))
 }
