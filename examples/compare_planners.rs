@@ -27,7 +27,7 @@ fn main() -> Result<(), Box<dyn Error>> {
                 );
             }
             Outcome::Infeasible(Refutation::Motion(proof)) => {
-                println!("{method:<11} no path: {} stuck boxes separate start and goal", proof.stuck().len());
+                println!("{method:<11} no path: {} stuck boxes separate start and goal", proof.collision_boxes().len());
             }
             Outcome::Infeasible(Refutation::Step(failed)) => {
                 println!("{method:<11} step {} cannot be done", failed.step.number);

@@ -47,8 +47,8 @@ fn errors() -> Result<(), Box<dyn Error>> {
     println!("  preferences at");
     let [rows, corners] = [Order::Lines(Scan::ROWS), Order::Corners(Lines::Rows)];
     let relaxations = [
-        Relaxation::gauss_seidel(rows).kept(Precision::Single),
-        Relaxation::gauss_seidel(corners).kept(Precision::Single),
+        Relaxation::gauss_seidel(rows).with_precision(Precision::Single),
+        Relaxation::gauss_seidel(corners).with_precision(Precision::Single),
         Relaxation::sor(Factor::Formula, rows).clamped([0.0, 1.0]),
         Relaxation::sor(Factor::Formula, corners).clamped([0.0, 1.0]),
     ];

@@ -76,10 +76,10 @@ pub mod model {
     pub use cplan_core::model::*;
     pub use cplan_dynamics::{Torques, TorquesAt, keep_efforts};
     pub use cplan_handling::{
-        Action, BlendsClaim, Claims, Course, CourseError, Driver, Drives, EventClaim, HeldEffect, HeldJoint,
-        HeldMotion, Holding, Item, LATEST, Leg, Mover, Object, OptimumClaim, Payload, RecordedStep, RecordedTurn,
-        RobotJoint, RobotJoints, Step, StepClaims, Stop, Stroke, Task, TaskClaims, TaskError, TimedScene,
-        TimedWorkspace, ToolJoint, Wrist,
+        Action, BlendsClaim, Claims, Driver, Drives, EventClaim, HeldEffect, HeldJoint, HeldMotion, Holding, Item, Leg,
+        MAX_STOP_TIME, MovingObstacle, Object, ObstacleTrajectory, ObstacleTrajectoryError, OptimumClaim, Payload,
+        RecordedStep, RecordedTurn, RobotJoint, RobotJoints, Step, StepClaims, Stop, Stroke, Task, TaskClaims,
+        TaskError, TimedScene, TimedWorkspace, ToolJoint, Wrist,
     };
     pub use cplan_robot::AssumedLimits;
     pub use cplan_world::{Mount, Sensor};
@@ -91,7 +91,7 @@ pub mod space {
     pub use cplan_handling::{
         Derivative, INTERPOLATION, Interpolation, Piece, Recording, RecordingError, SMOOTH_INTERPOLATION, State,
     };
-    pub use cplan_motion::{Blend, BlendedPath, HAIR, Stretch};
+    pub use cplan_motion::{BLEND_TOLERANCE, Blend, BlendedPath, Stretch};
 }
 
 /// The judge of paths, proofs, bounds and recorded motions.
@@ -105,7 +105,7 @@ pub mod check {
 pub mod input {
     pub use cplan_robot::{
         AngleOrLength, BodyEntry, Diagnostic, DiagnosticKind, FileIdentity, Frame, InputError, Inspection, JointEntry,
-        LARGEST, LimitEntry, LimitSource, LinkEntry, OutlineEntry, PairEntry, PlaneEntry, Position, Quantity,
+        LimitEntry, LimitSource, LinkEntry, MAX_LENGTH, OutlineEntry, PairEntry, PlaneEntry, Position, Quantity,
         RateEntry, RateSource, ReachEntry, RobotFile, RobotReport, Role, SelfObstacleEntry, Source, meshes_elsewhere,
         read_bytes,
     };
@@ -116,7 +116,7 @@ pub mod input {
 pub mod engine {
     pub use cplan_engine::*;
     pub use cplan_explain as explain;
-    pub use cplan_explain::{Access, MOST_PLACES, Reach, Solution, reach};
+    pub use cplan_explain::{Access, MAX_PLACES, Reach, Solution, reach};
     pub use cplan_movers::{Timing, Wait};
     pub use cplan_solver::*;
 
@@ -139,8 +139,9 @@ pub mod field {
     pub use cplan_core::waves::{FreeCells, Move, Neighborhood, StepLabels, search};
     pub use cplan_fields::*;
     pub use cplan_harmonic::{
-        Component, Field, Guide, Lattice, LatticePoint, LocalMaximum, Place, Potential, Room, STEP, Streamline,
-        UNREACHED, Uphill, Wave, advance, direction, follow, harmonic, harmonic_way, residual, rough_harmonic,
+        Component, Field, Guide, Lattice, LatticePoint, LocalMaximum, Place, Potential, PotentialGuide, Room,
+        STEP_LENGTH, Streamline, UNREACHED, Wave, advance, direction, estimated_harmonic, follow, harmonic,
+        harmonic_path, residual,
     };
     pub use cplan_multigrid as multigrid;
 }

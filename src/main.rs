@@ -13,11 +13,11 @@ static ALLOCATOR: PeakMemAlloc<System> = PeakMemAlloc::system();
 /// Size of a block that is allocated and freed at the start, so that the GNU C library keeps more freed memory. It
 /// keeps twice the size of the largest block returned to the system, at most twice 32 MiB. It returns the rest at once,
 /// page by page, and getting it again costs a fifth of a decision of `explore`.
-const KEPT: usize = 31 << 20;
+const KEPT_MEMORY_BYTES: usize = 31 << 20;
 
 fn main() -> ExitCode {
     // The block is never touched, so it takes no memory.
-    drop(black_box(Vec::<u8>::with_capacity(KEPT)));
+    drop(black_box(Vec::<u8>::with_capacity(KEPT_MEMORY_BYTES)));
     cplan::cli::run(Some(MemoryMeter {
         peak: || ALLOCATOR.get_peak_memory(),
         restart: || ALLOCATOR.reset_peak_memory(),

@@ -3,8 +3,8 @@
 
 use super::row::{Claim, Count};
 use cplan::field::{
-    Boundary, Cell, Difference, Direction, Domain, Equation, Factor, Levels, Measure, Order, Relaxation, Relaxed, Scan,
-    Stopping, relax,
+    Boundary, Cell, Difference, Direction, Domain, Equation, Factor, Levels, Measure, Order, Relaxation, RelaxedField,
+    Scan, Stopping, relax,
 };
 
 /// Rows and columns: 20 m / 0.5 m, 40 m / 0.5 m; row 0 is the north wall.
@@ -49,17 +49,17 @@ fn room(at: [f64; 2], is_solid: &dyn Fn(usize) -> bool) -> Domain {
 }
 
 /// Relaxes the harmonic field of a goal (algorithm 13), if it converges.
-pub fn harmonic(at: [f64; 2], is_solid: &dyn Fn(usize) -> bool, stopping: &Stopping) -> Option<Relaxed> {
+pub fn harmonic(at: [f64; 2], is_solid: &dyn Fn(usize) -> bool, stopping: &Stopping) -> Option<RelaxedField> {
     let sor = Relaxation::sor(Factor::Given(1.8), Order::Lines(Scan::ROWS));
-    relax(&room(at, is_solid), &Equation::Harmonic, &sor, stopping).ok().filter(Relaxed::converged)
+    relax(&room(at, is_solid), &Equation::Harmonic, &sor, stopping).ok().filter(RelaxedField::converged)
 }
 
 /// Relaxes the oriented field of a goal for a direction (rows downwards, columns), if it converges (algorithm 14).
-pub fn oriented(at: [f64; 2], direction: [f64; 2], is_solid: &dyn Fn(usize) -> bool) -> Option<Relaxed> {
+pub fn oriented(at: [f64; 2], direction: [f64; 2], is_solid: &dyn Fn(usize) -> bool) -> Option<RelaxedField> {
     let direction = Direction::of(direction)?;
     let equation = Equation::Oriented { direction, epsilon: 0.5, difference: Difference::Central };
     let relaxation = Relaxation::gauss_seidel(Order::Lines(Scan::ROWS));
-    relax(&room(at, is_solid), &equation, &relaxation, &STOPPING).ok().filter(Relaxed::converged)
+    relax(&room(at, is_solid), &equation, &relaxation, &STOPPING).ok().filter(RelaxedField::converged)
 }
 
 /// Returns name, field and count of every published number, in an empty room.
@@ -69,7 +69,7 @@ pub fn rows() -> Vec<(String, Count)> {
 
 /// Does the same in a room with these solid cells.
 pub fn rows_among(is_solid: &dyn Fn(usize) -> bool) -> Vec<(String, Count)> {
-    let count = |published: usize, field: Option<Relaxed>| {
+    let count = |published: usize, field: Option<RelaxedField>| {
         // The source prints the index of the last sweep, which counts from 0.
         Count::of_sweeps(published, field.map(|field| field.sweeps() - 1), Claim::Unmatched)
     };

@@ -36,7 +36,7 @@ pub const RELAXATIONS: [&str; 4] = ["GS simple", "GS simultaneous", "SOR simple"
 fn relaxation(of: usize) -> Relaxation {
     let order = if of.is_multiple_of(2) { Order::Lines(Scan::ROWS) } else { Order::Corners(Lines::Rows) };
     match of {
-        0 | 1 => Relaxation::gauss_seidel(order).kept(Precision::Single),
+        0 | 1 => Relaxation::gauss_seidel(order).with_precision(Precision::Single),
         _ => Relaxation::sor(Factor::Formula, order).clamped([0.0, 1.0]),
     }
 }

@@ -16,14 +16,14 @@ use std::error::Error;
 use std::process::ExitCode;
 
 /// The options of the command line.
-struct Asked {
+struct QueryGraph {
     frames: usize,
     seed: u64,
     page: Option<String>,
 }
 
-fn asked(mut arguments: impl Iterator<Item = String>) -> Result<Asked, String> {
-    let mut asked = Asked { frames: 600, seed: 1, page: None };
+fn asked(mut arguments: impl Iterator<Item = String>) -> Result<QueryGraph, String> {
+    let mut asked = QueryGraph { frames: 600, seed: 1, page: None };
     while let Some(key) = arguments.next() {
         let value =
             arguments.next().ok_or_else(|| format!("{key} needs a value: --frames N, --seed N, --page FILE"))?;

@@ -3,8 +3,8 @@
 
 use super::play::{CELLS, Frame, MOST, RATE, walls};
 use cplan::field::{
-    Boundary, Difference, Equation, Factor, Moment, MovingField, Order, RelaxError, Relaxation, Scan, Slope, Solver,
-    around, direction, eliminated,
+    Boundary, Difference, Equation, Factor, Moment, MovingField, Order, RelaxError, Relaxation, Scan, Solver,
+    ValueGuide, around, direction, eliminated,
 };
 use std::fmt;
 use std::time::Instant;
@@ -238,7 +238,7 @@ pub fn exact(frames: &[Frame]) -> Result<Vec<Exact>, RelaxError> {
         let equation = Equation::LocallyOriented { drift, difference: Difference::Upwind };
         let Some(values) = eliminated(domain, &equation) else { continue };
         let is_led = domain.cell_at(at.map(|x| x.round() as i64)).is_some_and(|cell| 1.0 - values[cell] > LEVEL);
-        let slope = Slope::new(domain, &values, |place| domain.cell_at(place));
+        let slope = ValueGuide::new(domain, &values, |place| domain.cell_at(place));
         let direction = direction(&slope, [1.0; 2], at).filter(|_| is_led);
         found.extend(direction.map(|direction| Exact { frame: k, at, direction }));
     }

@@ -7,7 +7,7 @@
 
 use cplan::field::{
     Boundary, Cell, Difference, Direction, Disc, Factor, Influence, Moment, MovingField, Order, RelaxError, Relaxation,
-    STEP, Scan, Solver,
+    STEP_LENGTH, Scan, Solver,
 };
 
 /// Cells along the field, with the goals, and across it.
@@ -27,7 +27,7 @@ pub const RATE: f64 = 60.0;
 /// Number of curve steps that a robot moves per frame: 0.96 m/s.
 const STEPS: usize = 4;
 /// Greatest distance that a robot moves in a frame.
-pub const REACH: f64 = STEPS as f64 * STEP;
+pub const REACH: f64 = STEPS as f64 * STEP_LENGTH;
 /// Distance at which a robot pushes the ball, and the radius of the seeker's goal around the ball.
 const CONTACT: f64 = BODY + BALL + 0.6;
 const SOUGHT: f64 = CONTACT - 0.3;

@@ -6,7 +6,7 @@ mod files;
 #[path = "shipped.rs"]
 mod shipped;
 
-use cplan::check::limits_kept;
+use cplan::check::limit_violations;
 use cplan::input::{LoadedScene, load_recording, load_scene};
 use files::Files;
 use libfuzzer_sys::fuzz_target;
@@ -29,7 +29,7 @@ fuzz_target!(|bytes: &[u8]| {
                 assert!(recording.times().is_none_or(|t| t.windows(2).all(|w| w[0] < w[1])));
                 let topology = SCENE.scene.arm().topology();
                 let _ = (recording.turns(&topology), recording.clone().unwrapped(&topology));
-                let _ = limits_kept(&SCENE.scene.arm().joints, &recording);
+                let _ = limit_violations(&SCENE.scene.arm().joints, &recording);
             }
             Err(error) => assert!(!error.to_string().is_empty()),
         }

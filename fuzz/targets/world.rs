@@ -19,7 +19,7 @@ use std::sync::LazyLock;
 static FILES: LazyLock<Files> = LazyLock::new(Files::new);
 
 /// Longer tasks are only loaded.
-const MOST_STEPS: usize = 4;
+const MAX_STEPS: usize = 4;
 
 /// Reads the task of a world with steps: it is refused with a message, or can be planned and reported.
 fn task(scene: LoadedScene) {
@@ -28,7 +28,7 @@ fn task(scene: LoadedScene) {
         Err(error) => return assert!(!error.to_string().is_empty()),
     };
     assert!(task.start.iter().all(|v| v.is_finite()));
-    if task.steps().count() > MOST_STEPS {
+    if task.steps().count() > MAX_STEPS {
         return;
     }
     let options = Options { levels: 1, boxes: 200, ..Method::Visibility.into() };

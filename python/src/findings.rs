@@ -5,7 +5,7 @@ use crate::error::{raised, refused};
 use crate::geometry::array;
 use crate::problem::{Arm, Options, World};
 use crate::signals::interruptible;
-use cplan::cli::{Explained, Failure, compare_in};
+use cplan::cli::{ExplanationResult, Failure, compare_in};
 use cplan::cspace::Slice;
 use cplan::engine::explain::TIME_LIMIT;
 use cplan::engine::findings;
@@ -140,12 +140,13 @@ fn explained<T: Send>(
     world: &World,
     options: Option<&Options>,
     time: f64,
-    told: impl FnOnce(&Explained) -> T + Send,
+    told: impl FnOnce(&ExplanationResult) -> T + Send,
 ) -> PyResult<T> {
     let limit = Duration::try_from_secs_f64(time).map_err(refused)?;
     let overrides = options.map_or_else(Overrides::default, |options| options.overrides.clone());
-    let found =
-        interruptible(py, |_| Explained::of(arm.among(world)?, &overrides, limit).map(|explained| told(&explained)))?;
+    let found = interruptible(py, |_| {
+        ExplanationResult::of(arm.among(world)?, &overrides, limit).map(|explained| told(&explained))
+    })?;
     found.map_err(|failure| failed(py, failure))
 }
 

@@ -6,7 +6,7 @@ use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
 use pyo3::prelude::*;
 
 /// Largest coordinate in metres, the same as for arms and worlds.
-const LARGEST: f64 = 1e15;
+const MAX_COORDINATE: f64 = 1e15;
 
 /// Creates a convex polygon from corners, shape (n, 2), counter-clockwise; one corner is a point, two are a segment.
 fn polygon(name: &str, corners: &PyReadonlyArray2<'_, f64>) -> PyResult<Convex> {
@@ -15,8 +15,8 @@ fn polygon(name: &str, corners: &PyReadonlyArray2<'_, f64>) -> PyResult<Convex> 
         return Err(refused(format!("{name}: expected shape (n, 2), not {:?}", corners.shape())));
     }
     // Products of larger coordinates overflow.
-    if corners.iter().any(|x| x.abs() > LARGEST) {
-        return Err(refused(format!("{name}: coordinates are at most {LARGEST:e}")));
+    if corners.iter().any(|x| x.abs() > MAX_COORDINATE) {
+        return Err(refused(format!("{name}: coordinates are at most {MAX_COORDINATE:e}")));
     }
     let points = corners.rows().into_iter().map(|row| Point::new(row[0], row[1])).collect();
     Convex::new(points, 0.0).map_err(|error| refused(format!("{name}: {error}")))
@@ -69,7 +69,7 @@ impl PolygonTest {
         Self { meet, a_inside, b_inside, crossings }
     }
 
-    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Parts)> {
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, PolygonTestParts)> {
         let Self { meet, a_inside, b_inside, crossings } = slf.get();
         let parts = (*meet, a_inside.clone(), b_inside.clone(), crossings.clone());
         Ok((slf.get_type().getattr("restored")?, parts))
@@ -77,7 +77,7 @@ impl PolygonTest {
 }
 
 /// The parts of a [`PolygonTest`].
-type Parts = (bool, Vec<usize>, Vec<usize>, Vec<(usize, usize)>);
+type PolygonTestParts = (bool, Vec<usize>, Vec<usize>, Vec<(usize, usize)>);
 
 /// Finds the corners of each convex polygon in the other, and sides that cross. Exact.
 ///

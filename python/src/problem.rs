@@ -16,10 +16,10 @@ use std::path::PathBuf;
 /// leaves open.
 #[pyclass(frozen, module = "cplan", eq)]
 #[derive(Clone, PartialEq)]
-pub struct Arm(What);
+pub struct Arm(ArmSource);
 
 #[derive(Clone, PartialEq, Serialize, Deserialize)]
-enum What {
+enum ArmSource {
     Urdf(Source),
     Made(Box<cplan::Arm>),
 }
@@ -27,12 +27,12 @@ enum What {
 impl Arm {
     /// Creates an arm from a URDF.
     pub fn of(urdf: Source) -> Self {
-        Self(What::Urdf(urdf))
+        Self(ArmSource::Urdf(urdf))
     }
 
     /// Returns the URDF; `None` for an arm that is made in code.
     pub fn source(&self) -> Option<&Source> {
-        if let What::Urdf(source) = &self.0 { Some(source) } else { None }
+        if let ArmSource::Urdf(source) = &self.0 { Some(source) } else { None }
     }
 }
 
@@ -45,7 +45,7 @@ impl Arm {
         let xacro_args = xacro_args.unwrap_or_default().into_iter().collect();
         RobotFile { path: absolute(path)?, xacro_args }
             .read()
-            .map(|source| Self(What::Urdf(source)))
+            .map(|source| Self(ArmSource::Urdf(source)))
             .map_err(|error| raised(py, &error))
     }
 
@@ -53,7 +53,7 @@ impl Arm {
     #[staticmethod]
     #[pyo3(signature = (text, name = "arm.urdf"))]
     fn from_text(text: String, name: &str) -> Self {
-        Self(What::Urdf(Source::in_memory(name, text)))
+        Self(ArmSource::Urdf(Source::in_memory(name, text)))
     }
 
     /// Creates an arm of two bars with round ends, of these lengths and this width in metres. The joints "joint 1" and
@@ -77,13 +77,13 @@ impl Arm {
             let rise = acceleration.map_or(joint.acceleration * speed / joint.velocity, |acceleration| acceleration[k]);
             *joint = joint.clone().at_most(speed, rise);
         }
-        Ok(Self(What::Made(Box::new(arm))))
+        Ok(Self(ArmSource::Made(Box::new(arm))))
     }
 
     /// The text of the URDF; None for an arm that is made in code.
     #[getter]
     fn urdf(&self) -> Option<&str> {
-        if let What::Urdf(source) = &self.0 { Some(source.text()) } else { None }
+        if let ArmSource::Urdf(source) = &self.0 { Some(source.text()) } else { None }
     }
 
     /// Returns the names of the two joints that are planned in a world, base to tip.
@@ -94,8 +94,8 @@ impl Arm {
 
     fn __repr__(&self) -> String {
         match &self.0 {
-            What::Urdf(source) => format!("<cplan.Arm: URDF of {} characters>", source.text().len()),
-            What::Made(arm) => format!("<cplan.Arm: {} with a reach of {} m>", arm.kind(), arm.reach()),
+            ArmSource::Urdf(source) => format!("<cplan.Arm: URDF of {} characters>", source.text().len()),
+            ArmSource::Made(arm) => format!("<cplan.Arm: {} with a reach of {} m>", arm.kind(), arm.reach()),
         }
     }
 
@@ -115,8 +115,8 @@ impl Arm {
     pub fn among(&self, world: &World) -> Result<LoadedScene, InputError> {
         let world = world.source.clone();
         match &self.0 {
-            What::Urdf(source) => scene_from(source.clone(), world),
-            What::Made(arm) => scene_of(*arm.clone(), world),
+            ArmSource::Urdf(source) => scene_from(source.clone(), world),
+            ArmSource::Made(arm) => scene_of(*arm.clone(), world),
         }
     }
 }

@@ -7,7 +7,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 /// Interval at which work checks for signals.
-const EVERY: Duration = Duration::from_millis(20);
+const SIGNAL_CHECK_INTERVAL: Duration = Duration::from_millis(20);
 
 /// Does `work` while other Python threads run. An exception of a signal handler, usually [`KeyboardInterrupt`], ends
 /// it.
@@ -15,10 +15,10 @@ const EVERY: Duration = Duration::from_millis(20);
 /// Handlers run in Python's main thread, so Ctrl-C does not end work in another thread.
 ///
 /// An exception that `work` puts into `raised` also ends it, at the next checkpoint, and is raised.
-pub fn interruptible<T: Send>(py: Python<'_>, work: impl FnOnce(&Raised) -> T + Send) -> PyResult<T> {
-    let raised = Raised::default();
+pub fn interruptible<T: Send>(py: Python<'_>, work: impl FnOnce(&RaisedException) -> T + Send) -> PyResult<T> {
+    let raised = RaisedException::default();
     let here = raised.clone();
-    let interrupt = Interrupt::new().asking(EVERY, move || {
+    let interrupt = Interrupt::new().with_callback(SIGNAL_CHECK_INTERVAL, move || {
         if let Err(signal) = Python::attach(|py| py.check_signals()) {
             here.put(signal);
         }
@@ -33,9 +33,9 @@ pub fn interruptible<T: Send>(py: Python<'_>, work: impl FnOnce(&Raised) -> T + 
 
 /// The first exception that occurred.
 #[derive(Clone, Default)]
-pub struct Raised(Arc<Mutex<Option<PyErr>>>);
+pub struct RaisedException(Arc<Mutex<Option<PyErr>>>);
 
-impl Raised {
+impl RaisedException {
     /// Keeps an exception, if it is the first.
     pub fn put(&self, error: PyErr) {
         self.slot().get_or_insert(error);

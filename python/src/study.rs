@@ -168,10 +168,10 @@ impl Study {
 }
 
 /// A function that receives each row. It returns an error to end the work.
-type Each<'a> = &'a mut dyn FnMut(Row) -> Result<(), ()>;
+type RowCallback<'a> = &'a mut dyn FnMut(Row) -> Result<(), ()>;
 
 /// Returns all rows that `work` reports, until Ctrl-C.
-fn collected(py: Python<'_>, work: impl FnOnce(Each) -> Result<(), ()> + Send) -> PyResult<Rows> {
+fn collected(py: Python<'_>, work: impl FnOnce(RowCallback) -> Result<(), ()> + Send) -> PyResult<Rows> {
     let rows = interruptible(py, |raised| {
         let mut rows = Vec::new();
         // The exception that ended it early is raised below.

@@ -12,7 +12,7 @@ use crate::input::{self, JointValues, LoadedScene, RobotReport};
 use crate::model::Scene;
 use crate::output::{configuration, contours, range};
 use crate::space::{Configuration, JointRange};
-use crate::text::{Columns, at_least, fixed, told_apart};
+use crate::text::{Columns, fixed, format_distinct, round_down};
 use clap::{Args, ValueHint};
 use std::path::PathBuf;
 
@@ -65,7 +65,7 @@ pub fn run(args: &CheckArgs) -> Result<u8, Failure> {
     let mut loaded = input::load_scene(args.files.robot(), &args.files.world)?.keeping(args.clearance)?;
     loaded.scene = loaded.timed().frozen(args.time);
     sinks::spare_inputs(sinks.iter().map(Sink::path), &loaded.files())?;
-    loaded.robot.warnings.iter().for_each(|w| sinks::say(&format!("warning: {w}")));
+    loaded.robot.warnings.iter().for_each(|w| sinks::print_status(&format!("warning: {w}")));
     let scene = &loaded.scene;
     let q = args.at.resolve(&scene.arm().joints, "--at").map_err(input::InputError::from)?;
     let findings = check(scene, q);
@@ -106,7 +106,7 @@ fn text(loaded: &LoadedScene, q: Configuration, findings: &ConfigurationFindings
             "limits",
             match joint.range {
                 JointRange::Interval { lower, upper } if !findings.within_limits[k] => {
-                    let [value, lower, upper] = joint.told_apart([q[k], lower, upper]);
+                    let [value, lower, upper] = joint.format_distinct([q[k], lower, upper]);
                     format!("{name}: {value} is OUTSIDE {lower} to {upper}")
                 }
                 _ => format!("{name}: {value} is within {}", range(joint)),
@@ -120,7 +120,7 @@ fn text(loaded: &LoadedScene, q: Configuration, findings: &ConfigurationFindings
             (true, true) => format!("penetrates by {depth:.6} m"),
             (true, false) => "touches".into(),
             (false, _) => {
-                let [distance, _] = told_apart([-depth, findings.required], 6);
+                let [distance, _] = format_distinct([-depth, findings.required], 6);
                 format!("is {distance} m away, less than the clearance of {} m", findings.required)
             }
         };
@@ -138,7 +138,7 @@ fn text(loaded: &LoadedScene, q: Configuration, findings: &ConfigurationFindings
     }
     if let Some(clearance) = findings.clearance.filter(|c| *c > 0.0) {
         let nearest = scene.closest(q).map(|c| scene.describe(c.pair)).unwrap_or_default();
-        line("distance", format!("{} m to the nearest obstacle: {nearest}", at_least(clearance, 6)));
+        line("distance", format!("{} m to the nearest obstacle: {nearest}", round_down(clearance, 6)));
     }
     match &findings.nearest_free {
         Some(NearestFinding { configuration: at, distance, resolution, .. }) => {

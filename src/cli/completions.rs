@@ -60,7 +60,7 @@ fn for_fish(script: &str, grammar: &Command) -> String {
     });
     let topics = names.iter().map(|name| values_rule("help", name));
     let values: String = values.chain(topics).collect();
-    format!("set -g __fish_cplan_commands {}\n\n{FISH}\n{rules}{values}", names.join(" "))
+    format!("set -g __fish_cplan_commands {}\n\n{FISH_RULE}\n{rules}{values}", names.join(" "))
 }
 
 fn values_rule(command: &str, value: &str) -> String {
@@ -68,7 +68,7 @@ fn values_rule(command: &str, value: &str) -> String {
 }
 
 /// The subcommand is the first word, if there is one.
-const FISH: &str = "\
+const FISH_RULE: &str = "\
 function __fish_cplan_needs_command
     test (count (commandline -opc)) -eq 1
 end

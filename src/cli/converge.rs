@@ -93,15 +93,15 @@ pub struct ConvergeArgs {
 /// # Errors
 /// Bad input and I/O.
 pub fn run(args: &ConvergeArgs) -> Result<u8, Failure> {
-    let told = "the name of a file of measurements must end in .csv or .json";
-    let outputs = sinks::outputs(&args.output, &[("csv", true), ("json", false)], told)?;
+    let description = "the name of a file of measurements must end in .csv or .json";
+    let outputs = sinks::outputs(&args.output, &[("csv", true), ("json", false)], description)?;
     let pictures = sinks::sinks(&[], &args.picture)?;
     let files = || outputs.iter().map(|(path, _)| path.as_path()).chain(pictures.iter().map(Sink::path));
     sinks::distinct(files())?;
     let loaded = input::load_scene(args.files.robot(), &args.files.world)?;
     sinks::spare_inputs(files(), &loaded.files())?;
-    loaded.robot.warnings.iter().for_each(|w| sinks::say(&format!("warning: {w}")));
-    loaded.require_standing("fields are for worlds without moving obstacles")?;
+    loaded.robot.warnings.iter().for_each(|w| sinks::print_status(&format!("warning: {w}")));
+    loaded.require_static_obstacles("fields are for worlds without moving obstacles")?;
     let problem = Problem::of_scene(loaded, &args.query.overrides())?;
     let motion = problem.motion().ok_or_else(|| {
         let world = args.files.world.display();
@@ -112,7 +112,7 @@ pub fn run(args: &ConvergeArgs) -> Result<u8, Failure> {
     let (space, domain) = field_on_cells(motion, args.cells as usize, args.limits)
         .map_err(|reason| Failure::Option(format!("{reason}\n  hint: more --cells")))?;
     let setup = args.setup(title_of(problem.scene()), &space, &domain).map_err(Failure::Option)?;
-    let measured = convergence(&setup, &mut |text| args.print.say(&format!("{text} ...")))
+    let measured = convergence(&setup, &mut |text| args.print.print_status(&format!("{text} ...")))
         .map_err(|error| Failure::Option(error.to_string()))?;
     let json = || sinks::pretty(&measured.to_json());
     let mut written = Vec::new();
@@ -126,7 +126,7 @@ pub fn run(args: &ConvergeArgs) -> Result<u8, Failure> {
         }
     }
     write_whole_set(&written)?;
-    args.print.tell(DONE, json, || measured.to_text())?;
+    args.print.report(DONE, json, || measured.to_text())?;
     Ok(DONE)
 }
 

@@ -3,7 +3,7 @@
 use std::process::exit;
 
 /// The exit code of a process that Ctrl-C ends, as in shells.
-const STOPPED: i32 = 130;
+const EXIT_STOPPED: i32 = 130;
 
 /// Runs `last` before Ctrl-C ends the process. On systems without a handler for it, Ctrl-C ends the process as usual.
 pub fn before_it_ends(last: impl FnOnce() + Send + 'static) {
@@ -12,6 +12,6 @@ pub fn before_it_ends(last: impl FnOnce() + Send + 'static) {
         if let Some(last) = last.take() {
             last();
         }
-        exit(STOPPED);
+        exit(EXIT_STOPPED);
     });
 }

@@ -11,13 +11,13 @@ use clap::{Args, ValueHint};
 use std::path::{Path, PathBuf};
 
 /// The robot of the cell.
-pub const ROBOT: &str = include_str!("../../robots/scara.urdf");
+pub const DEMO_ROBOT: &str = include_str!("../../robots/scara.urdf");
 /// The world of the demonstration: the SCARA cell.
-pub const WORLD: &str = include_str!("../../workspaces/scara_cell.toml");
+pub const DEMO_WORLD: &str = include_str!("../../workspaces/scara_cell.toml");
 
 /// Names of the files that are written.
-const RESULT: &str = "plan.json";
-const PICTURE: &str = "plan.html";
+const RESULT_FILE: &str = "plan.json";
+const PICTURE_FILE: &str = "plan.html";
 
 /// Plan in a built-in SCARA cell; write plan.json and plan.html.
 ///
@@ -50,15 +50,15 @@ pub struct DemoArgs {
 /// # Errors
 /// Existing files, I/O, and options that do not fit the cell.
 pub fn run(args: &mut DemoArgs) -> Result<u8, Failure> {
-    let [result, picture] = [RESULT, PICTURE].map(|name| in_folder(&args.dir, name));
+    let [result, picture] = [RESULT_FILE, PICTURE_FILE].map(|name| in_folder(&args.dir, name));
     spare(&[result.clone(), picture.clone()], args.force, "--dir DIR writes elsewhere")?;
     folder(&args.dir)?;
     args.plan.output.insert(0, result);
     args.plan.picture.insert(0, picture.clone());
     let code = plan::answer(&args.plan, None, || {
         scene_from(
-            Source::in_memory("built-in scara.urdf", ROBOT),
-            Source::in_memory("built-in scara_cell.toml", WORLD),
+            Source::in_memory("built-in scara.urdf", DEMO_ROBOT),
+            Source::in_memory("built-in scara_cell.toml", DEMO_WORLD),
         )
     })?;
     if code == DONE && !args.plan.print.quiet && !args.plan.print.json {
@@ -83,7 +83,7 @@ fn next(picture: &Path) -> String {
         "cplan init                                a small arm and world, every line explained".into(),
         "cplan --help                              all commands and options, with examples".into(),
     ];
-    let labelled: Vec<_> =
+    let labeled: Vec<_> =
         lines.into_iter().enumerate().map(|(i, line)| (if i == 0 { "next" } else { "" }, line)).collect();
-    laid_out(&labelled)
+    laid_out(&labeled)
 }

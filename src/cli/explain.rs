@@ -11,7 +11,7 @@ use super::query_args::QueryArgs;
 use super::sinks::{self, Sink};
 use super::values::time_limit;
 use crate::draw::View;
-use crate::engine::explain::{Explanation, Question, TIME_LIMIT, explain};
+use crate::engine::explain::{Explanation, MotionQuestion, TIME_LIMIT, explain};
 use crate::engine::task::FailedStep;
 use crate::engine::{Options, Plan, Problem, plan};
 use crate::input::{self, DiagnosticKind, LoadedEnds, LoadedScene, Overrides};
@@ -78,8 +78,8 @@ pub fn run(args: &ExplainArgs) -> Result<u8, Failure> {
     let sinks = sinks::sinks(&[], &args.picture)?;
     let loaded = input::load_scene(args.files.robot(), &args.files.world)?;
     sinks::spare_inputs(sinks.iter().map(Sink::path), &loaded.files())?;
-    loaded.robot.warnings.iter().for_each(|warning| args.print.say(&format!("warning: {warning}")));
-    let explained = Explained::of(loaded, &args.query.overrides(), Duration::from_secs_f64(args.time))?;
+    loaded.robot.warnings.iter().for_each(|warning| args.print.print_status(&format!("warning: {warning}")));
+    let explained = ExplanationResult::of(loaded, &args.query.overrides(), Duration::from_secs_f64(args.time))?;
     if !sinks.is_empty() {
         let view = explained.view();
         for sink in &sinks {
@@ -89,7 +89,7 @@ pub fn run(args: &ExplainArgs) -> Result<u8, Failure> {
         }
     }
     let code = exit_code(explained.status());
-    args.print.tell(code, || sinks::pretty(&explained.to_json()), || explained.summary())?;
+    args.print.report(code, || sinks::pretty(&explained.to_json()), || explained.summary())?;
     Ok(code)
 }
 
@@ -108,21 +108,21 @@ pub fn hint(files: &Files, query: &QueryArgs) -> Option<String> {
 
 /// An explanation of a world's motion or task.
 #[derive(Debug)]
-pub enum Explained {
+pub enum ExplanationResult {
     /// Explains the motion, or that of the failed step, with notes about its input, line by line.
     Motion(Box<Explanation>, Vec<String>),
     /// All steps can be done, so there is nothing to explain.
     Done(Box<Plan>),
 }
 
-impl Explained {
+impl ExplanationResult {
     /// Explains the world's motion or task, or `overrides` instead, within a time limit
-    /// ([`Question::with_time_limit`]).
+    /// ([`MotionQuestion::with_time_limit`]).
     ///
     /// # Errors
     /// Overrides that do not fit the world; an invalid task.
     pub fn of(loaded: LoadedScene, overrides: &Overrides, limit: Duration) -> Result<Self, Failure> {
-        loaded.require_standing("explanations are for worlds without moving obstacles")?;
+        loaded.require_static_obstacles("explanations are for worlds without moving obstacles")?;
         let (question, notes) = if loaded.has_steps() {
             match Problem::of_scene(loaded.clone(), overrides) {
                 Ok(problem) => {
@@ -137,13 +137,13 @@ impl Explained {
                     notes.push(
                         "the start is blocked, so no step can begin: this explanation is about the start alone".into(),
                     );
-                    (Question::of_goals(scene, start, &goals), notes)
+                    (MotionQuestion::of_goals(scene, start, &goals), notes)
                 }
                 Err(error) => return Err(error.into()),
             }
         } else {
             let query = loaded.query(overrides)?;
-            (Question::of_goals(query.scene, query.start, &query.goals), query.notes)
+            (MotionQuestion::of_goals(query.scene, query.start, &query.goals), query.notes)
         };
         let question = question.with_time_limit(limit);
         Ok(Self::Motion(Box::new(explain(&question, &Options::default())), notes))
@@ -188,13 +188,13 @@ impl Explained {
 
 /// Returns the motion of the failed step, with the objects and the payload at that time, and the description of the
 /// step.
-fn failed_step(plan: &Plan) -> Option<(Question, String)> {
+fn failed_step(plan: &Plan) -> Option<(MotionQuestion, String)> {
     let (task, answer) = plan.task()?;
     let FailedStep { step, scene, from, ik_solutions, .. } = answer.failed()?;
     let goals: GoalSet = ik_solutions.iter().map(|unreached| Segment::point(unreached.ik_solution)).collect();
     let what = step.action.describe(&task.objects);
     let note = format!("step {} fails, and this explanation is about its motion: {what} ({})", step.number, step.place);
-    Some((Question::new((**scene).clone(), *from, goals), note))
+    Some((MotionQuestion::new((**scene).clone(), *from, goals), note))
 }
 
 fn exit_code(status: Status) -> u8 {

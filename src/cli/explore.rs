@@ -133,14 +133,14 @@ pub fn run(args: &ExploreArgs) -> Result<u8, Failure> {
     let loaded = input::load_scene(args.files.robot(), &args.files.world)?;
     let mut inputs = loaded.files();
     let world = loaded.explorable(&args.query.overrides())?;
-    world.robot.warnings.iter().for_each(|w| sinks::say(&format!("warning: {w}")));
-    args.options.ignored(args.planner).iter().for_each(|w| args.print.say(&format!("warning: {w}")));
+    world.robot.warnings.iter().for_each(|w| sinks::print_status(&format!("warning: {w}")));
+    args.options.ignored(args.planner).iter().for_each(|w| args.print.print_status(&format!("warning: {w}")));
     let settings = args.settings(world.goals.is_some())?;
     inputs.extend(args.known.clone());
     inputs.extend(settings.known.as_ref().and_then(|map| map.picture.clone()));
     sinks::spare_inputs(files(), &inputs)?;
-    let mut say = |text: &str| args.print.say(&format!("{text} ..."));
-    let done = explore(&world.scene, &world.sensor, world.start, world.goals.as_ref(), &settings, &mut say)
+    let mut print_status = |text: &str| args.print.print_status(&format!("{text} ..."));
+    let done = explore(&world.scene, &world.sensor, world.start, world.goals.as_ref(), &settings, &mut print_status)
         .map_err(|error| args.refused(&error))?;
     let joints = world.scene.arm().joints.each_ref().map(|joint| joint.name.clone());
     let json = || done.to_json(joints.each_ref().map(String::as_str), &world.sensor, args.timings).to_string() + "\n";
@@ -179,7 +179,7 @@ pub fn run(args: &ExploreArgs) -> Result<u8, Failure> {
         Ending::Unreachable(_) => INFEASIBLE,
         Ending::Unknown(_) => UNKNOWN,
     };
-    args.print.tell(code, || Ok(json()), || summary(&world, &done, args.timings))?;
+    args.print.report(code, || Ok(json()), || summary(&world, &done, args.timings))?;
     Ok(code)
 }
 
@@ -232,14 +232,14 @@ fn map_files(description: &Path) -> Result<[PathBuf; 2], Failure> {
 }
 
 /// Returns the whole route, all legs one after the other.
-fn way(done: &Exploration, start: Configuration) -> JointPath {
+fn explored_path(done: &Exploration, start: Configuration) -> JointPath {
     let legs = done.legs.iter().flat_map(|leg| leg.curve.curve().path().waypoints().iter().copied());
     JointPath::new(std::iter::once(start).chain(legs).collect())
 }
 
 fn view(world: &Explorable, done: &Exploration) -> View {
     let scene: &Scene = &world.scene;
-    let way = way(done, world.start);
+    let explored_path = explored_path(done, world.start);
     let status = match done.ending {
         Ending::Reached | Ending::Explored { .. } => Status::Found,
         Ending::Unreachable(_) => Status::Infeasible,
@@ -254,7 +254,7 @@ fn view(world: &Explorable, done: &Exploration) -> View {
         ending: Some(status),
         facts: facts(done).into_iter().map(|(name, value)| [name.to_owned(), value]).collect(),
         goals: world.goals.as_ref().filter(|_| done.strategy == Strategy::Goal).map_or(&[], |goals| goals.pieces()),
-        paths: vec![("way".to_owned(), &way)],
+        paths: vec![("way".to_owned(), &explored_path)],
         trajectory: done.trajectory.as_ref(),
         c_obstacles: &contours(scene),
         ..Picture::new(scene, world.start)

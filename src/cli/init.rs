@@ -11,12 +11,12 @@ use clap::{Args, ValueEnum, ValueHint};
 use std::path::{Path, PathBuf};
 
 /// Names of the files that are written.
-const ROBOT: &str = "arm.urdf";
-const WORLD: &str = "world.toml";
-const SCHEMA: &str = "world.schema.json";
+const ROBOT_FILE: &str = "arm.urdf";
+const WORLD_FILE: &str = "world.toml";
+const SCHEMA_FILE: &str = "world.schema.json";
 
 /// The world, with `{{marks}}` where the kinds of arms differ.
-const TEMPLATE: &str = include_str!("starter/world.toml");
+const WORLD_TEMPLATE: &str = include_str!("starter/world.toml");
 
 /// Write a robot and a world with comments, as a start.
 #[derive(Debug, Args)]
@@ -56,7 +56,7 @@ pub enum Kind {
 }
 
 /// Values for the marks of the template.
-struct Marks {
+struct TemplateMarks {
     name: &'static str,
     joints: [&'static str; 2],
     units: [&'static str; 2],
@@ -75,7 +75,7 @@ struct Marks {
     is_above: bool,
 }
 
-const RR: Marks = Marks {
+const RR_MARKS: TemplateMarks = TemplateMarks {
     name: "my cell",
     joints: ["shoulder", "elbow"],
     units: ["rad", "rad"],
@@ -90,7 +90,7 @@ const RR: Marks = Marks {
     is_above: false,
 };
 
-const RP: Marks = Marks {
+const RP_MARKS: TemplateMarks = TemplateMarks {
     name: "my cell",
     joints: ["turret", "ram_slide"],
     units: ["rad", "m"],
@@ -105,7 +105,7 @@ const RP: Marks = Marks {
     is_above: false,
 };
 
-const PR: Marks = Marks {
+const PR_MARKS: TemplateMarks = TemplateMarks {
     name: "my cell",
     joints: ["rail", "pivot"],
     units: ["m", "rad"],
@@ -120,7 +120,7 @@ const PR: Marks = Marks {
     is_above: false,
 };
 
-const PP: Marks = Marks {
+const PP_MARKS: TemplateMarks = TemplateMarks {
     name: "my table",
     joints: ["bridge_slide", "head_slide"],
     units: ["m", "m"],
@@ -135,7 +135,7 @@ const PP: Marks = Marks {
     is_above: true,
 };
 
-impl Marks {
+impl TemplateMarks {
     /// Returns the world of this arm.
     fn world(&self) -> String {
         let [joint1, joint2] = self.joints;
@@ -143,8 +143,8 @@ impl Marks {
         let height = "height = [0.0, 0.3]";
         let above = |text: &str| if self.is_above { text.to_owned() } else { String::new() };
         let marks: [(&str, &str); 20] = [
-            ("arm", ROBOT),
-            ("world", WORLD),
+            ("arm", ROBOT_FILE),
+            ("world", WORLD_FILE),
             ("name", self.name),
             ("joint1", joint1),
             ("joint2", joint2),
@@ -164,7 +164,9 @@ impl Marks {
             ("wall_height", &above(&format!("\n#{height}"))),
             ("region", self.region),
         ];
-        marks.iter().fold(TEMPLATE.to_owned(), |text, (mark, with)| text.replace(&format!("{{{{{mark}}}}}"), with))
+        marks
+            .iter()
+            .fold(WORLD_TEMPLATE.to_owned(), |text, (mark, with)| text.replace(&format!("{{{{{mark}}}}}"), with))
     }
 }
 
@@ -176,21 +178,22 @@ impl Kind {
             Kind::Rp => include_str!("starter/rp.urdf"),
             Kind::Pr => include_str!("starter/pr.urdf"),
             Kind::Pp => include_str!("starter/pp.urdf"),
-            Kind::Scara => demo::ROBOT,
+            Kind::Scara => demo::DEMO_ROBOT,
         }
     }
 
     /// Returns the world's file.
     fn world(self) -> String {
         match self {
-            Kind::Rr => RR.world(),
-            Kind::Rp => RP.world(),
-            Kind::Pr => PR.world(),
-            Kind::Pp => PP.world(),
+            Kind::Rr => RR_MARKS.world(),
+            Kind::Rp => RP_MARKS.world(),
+            Kind::Pr => PR_MARKS.world(),
+            Kind::Pp => PP_MARKS.world(),
             Kind::Scara => {
                 // Lines for the tests of the shipped worlds are of no use here.
-                let lines = demo::WORLD.lines().filter(|l| !l.starts_with("# robot:") && !l.starts_with("# expect:"));
-                lines.fold(format!("#:schema ./{SCHEMA}\n"), |text, line| text + line + "\n")
+                let lines =
+                    demo::DEMO_WORLD.lines().filter(|l| !l.starts_with("# robot:") && !l.starts_with("# expect:"));
+                lines.fold(format!("#:schema ./{SCHEMA_FILE}\n"), |text, line| text + line + "\n")
             }
         }
     }
@@ -201,7 +204,7 @@ impl Kind {
 /// # Errors
 /// Existing files, and I/O; nothing is written then.
 pub fn run(args: &InitArgs) -> Result<u8, Failure> {
-    let [robot, world, schema_file] = [ROBOT, WORLD, SCHEMA].map(|name| in_folder(&args.dir, name));
+    let [robot, world, schema_file] = [ROBOT_FILE, WORLD_FILE, SCHEMA_FILE].map(|name| in_folder(&args.dir, name));
     spare(&[robot.clone(), world.clone(), schema_file.clone()], args.force, "`cplan init DIR` writes elsewhere")?;
     folder(&args.dir)?;
     let files = [
@@ -210,7 +213,7 @@ pub fn run(args: &InitArgs) -> Result<u8, Failure> {
         (schema_file.clone(), schema::text()),
     ];
     write_whole_set(&files)?;
-    sinks::tell(&description(&robot, &world, &schema_file))?;
+    sinks::report(&description(&robot, &world, &schema_file))?;
     Ok(DONE)
 }
 

@@ -87,7 +87,10 @@ pub fn run(args: &InspectArgs) -> Result<u8, Failure> {
         let Sink::Picture(format, path) = sink else { continue };
         match view(&inspection) {
             Some(view) => sinks::save_picture(*format, path, &view)?,
-            None => sinks::say(&format!("warning: {} is not written: there is no planar arm to draw", path.display())),
+            None => sinks::print_status(&format!(
+                "warning: {} is not written: there is no planar arm to draw",
+                path.display()
+            )),
         }
     }
     if args.json {
@@ -114,7 +117,7 @@ fn write_expanded(robot: &RobotFile, path: &Path) -> Result<(), Failure> {
     write_whole(path, source.text().as_bytes())?;
     for mesh in input::meshes_elsewhere(&source, path) {
         let [file, robot] = [path, &robot.path].map(|path| path.display().to_string());
-        sinks::say(&format!("warning: mesh \"{mesh}\" is not found from {file}; write that beside {robot}"));
+        sinks::print_status(&format!("warning: mesh \"{mesh}\" is not found from {file}; write that beside {robot}"));
     }
     Ok(())
 }

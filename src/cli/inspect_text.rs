@@ -7,7 +7,7 @@ use crate::input::{
 use crate::text::{Columns, counted};
 
 /// Greatest number of pairs of joints that are named with the reason why they form no arm: the others are similar.
-const REFUSED_SHOWN: usize = 12;
+const MAX_SHOWN_REFUSALS: usize = 12;
 
 /// Returns the whole report.
 pub fn text(report: &Inspection) -> String {
@@ -160,9 +160,9 @@ fn pairs(lines: &mut Columns, report: &Inspection) {
     };
     pairs.iter().filter(|p| p.planar).for_each(|p| lines.add("pairs", &line(p)));
     let refused: Vec<&PairEntry> = pairs.iter().filter(|p| !p.planar).collect();
-    refused.iter().take(REFUSED_SHOWN).for_each(|p| lines.add("pairs", &line(p)));
-    if refused.len() > REFUSED_SHOWN {
-        lines.add("pairs", &format!("and {} more that do not form a planar arm", refused.len() - REFUSED_SHOWN));
+    refused.iter().take(MAX_SHOWN_REFUSALS).for_each(|p| lines.add("pairs", &line(p)));
+    if refused.len() > MAX_SHOWN_REFUSALS {
+        lines.add("pairs", &format!("and {} more that do not form a planar arm", refused.len() - MAX_SHOWN_REFUSALS));
     }
     if pairs.is_empty() {
         // Directions in the root frame are known only where the tree is.

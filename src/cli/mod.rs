@@ -46,7 +46,7 @@ mod verify;
 mod words;
 
 pub use compare::compare_in;
-pub use explain::Explained;
+pub use explain::ExplanationResult;
 pub use failure::Failure;
 pub use memory::MemoryMeter;
 pub use words::read_words;
@@ -208,7 +208,7 @@ pub fn run_with(arguments: Vec<OsString>, meter: Option<MemoryMeter>) -> u8 {
             // If stdout is closed, the error cannot be reported there.
             let _ = sinks::print(&ErrorJson::of_failure(&failure).text());
         }
-        sinks::say(&format!("error: {failure}"));
+        sinks::print_status(&format!("error: {failure}"));
         failure.exit_code()
     })
 }
@@ -229,7 +229,7 @@ fn unread(error: &clap::Error, in_json: bool) -> u8 {
         if in_json {
             let _ = sinks::print(&ErrorJson::of_usage(error).text());
         }
-        sinks::say(error.to_string().trim_end());
+        sinks::print_status(error.to_string().trim_end());
     } else {
         // Like clap's `exit`, this ignores a closed stream.
         let _ = error.print();

@@ -152,10 +152,10 @@ pub fn answer(
         return Err(Failure::Usage("--per-step needs a world with steps ([[step]])".into()));
     }
     let asked = args.query.overrides();
-    let said = loaded.said_ends();
+    let stated_ends = loaded.resolved_ends();
     // The warnings may explain why start or goal is refused.
     let ignored = args.options.ignored(args.planner);
-    loaded.robot.warnings.iter().chain(&ignored).for_each(|w| args.print.say(&format!("warning: {w}")));
+    loaded.robot.warnings.iter().chain(&ignored).for_each(|w| args.print.print_status(&format!("warning: {w}")));
     let explanation = || given.and_then(|files| explain::hint(files, &args.query));
     let problem = Problem::of_scene(loaded, &asked).map_err(|error| blocked(error, explanation))?.read_since(begun);
     if let Some(lack) = options.planner.lack(&problem.scene().workspace().preferences) {
@@ -163,12 +163,12 @@ pub fn answer(
     }
     let steps = problem.task().map_or(1, |task| task.steps().count());
     let files = ResultFiles::new(&sinks, &inputs, args.per_step, steps)?;
-    let plan = plan_with(&problem, &options, &mut |text| args.print.say(text))?;
+    let plan = plan_with(&problem, &options, &mut |text| args.print.print_status(text))?;
     let begun = Instant::now();
     // If ends come from a place of the tip, or were moved to a limit, the certificate states them.
     let start = problem.motion().map(MotionProblem::start).or(problem.task().map(|task| task.start));
-    let goal = problem.motion().filter(|_| said[1].is_some()).map(|motion| motion.goals().pieces()[0].ends()[0]);
-    let asked = with_ends(asked, said, [start, goal]);
+    let goal = problem.motion().filter(|_| stated_ends[1].is_some()).map(|motion| motion.goals().pieces()[0].ends()[0]);
+    let asked = with_ends(asked, stated_ends, [start, goal]);
     let written = written(&plan, &sinks, &files, (&asked, about.as_ref()), args)?;
     let after = [("write", begun.elapsed())];
     let code = match plan.status() {
@@ -181,7 +181,7 @@ pub fn answer(
         let hint: Vec<Line> = hint.into_iter().map(|hint| ("hint", hint)).collect();
         summary_with(&plan, &written, &after, args.verbose) + &laid_out(&hint)
     };
-    args.print.tell(code, || Ok(plan.to_json()), summary)?;
+    args.print.report(code, || Ok(plan.to_json()), summary)?;
     Ok(code)
 }
 
@@ -198,13 +198,13 @@ fn blocked(error: InputError, hint: impl FnOnce() -> Option<String>) -> Failure 
 /// Returns the overrides, with the start and the goal that were found if the files do not state them as joint values.
 pub fn with_ends(
     asked: Overrides,
-    said: [Option<Configuration>; 2],
+    stated_ends: [Option<Configuration>; 2],
     [start, goal]: [Option<Configuration>; 2],
 ) -> Overrides {
-    let implied = |end: Option<Configuration>, said| end.filter(|_| end != said).map(JointValues::from);
+    let implied = |end: Option<Configuration>, stated_ends| end.filter(|_| end != stated_ends).map(JointValues::from);
     Overrides {
-        start: asked.start.or(implied(start, said[0])),
-        goal: asked.goal.or(implied(goal, said[1]).filter(|_| asked.goal_tip.is_none())),
+        start: asked.start.or(implied(start, stated_ends[0])),
+        goal: asked.goal.or(implied(goal, stated_ends[1]).filter(|_| asked.goal_tip.is_none())),
         ..asked
     }
 }
@@ -236,7 +236,7 @@ fn written(
     let certificate = args.certificate.as_deref().and_then(|path| match plan.certificate(asked, about) {
         Ok(certificate) => Some((path, certificate)),
         Err(why) => {
-            sinks::say(&format!("warning: {} is not written: {why}", shown(path, sinks)));
+            sinks::print_status(&format!("warning: {} is not written: {why}", shown(path, sinks)));
             None
         }
     });

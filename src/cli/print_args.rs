@@ -19,9 +19,9 @@ pub struct PrintArgs {
 
 impl PrintArgs {
     /// Prints progress on stderr, unless `--quiet` is set.
-    pub fn say(&self, text: &str) {
+    pub fn print_status(&self, text: &str) {
         if !self.quiet {
-            sinks::say(text);
+            sinks::print_status(text);
         }
     }
 
@@ -29,7 +29,7 @@ impl PrintArgs {
     ///
     /// # Errors
     /// I/O, and results that `json` cannot represent.
-    pub fn tell(
+    pub fn report(
         &self,
         code: u8,
         json: impl FnOnce() -> Result<String, Failure>,

@@ -8,24 +8,24 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 /// Time between lines where stderr is no terminal.
-const INTERVAL: Duration = Duration::from_secs(10);
+const LINE_INTERVAL: Duration = Duration::from_secs(10);
 
 /// Time between two drawings of the bar.
-const REDRAWN: Duration = Duration::from_millis(50);
+const REDRAW_INTERVAL: Duration = Duration::from_millis(50);
 
 /// Characters of the bar.
-const BAR: usize = 16;
+const BAR_WIDTH: usize = 16;
 
 /// Characters of a line: narrower than any terminal, since a wrapped line cannot be redrawn.
-const WIDTH: usize = 78;
+const LINE_WIDTH: usize = 78;
 
 /// The display of progress.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Manner {
+enum ProgressMode {
     /// Prints nothing.
     Silent,
     /// Prints events line by line, for one problem.
-    Told,
+    Reported,
     /// Redraws a bar.
     Bar,
     /// Prints a line at intervals.
@@ -35,7 +35,7 @@ enum Manner {
 /// Counts runs and shows their number.
 #[derive(Debug)]
 pub struct Progress {
-    manner: Manner,
+    manner: ProgressMode,
     /// Name of the counted items: runs, or layouts.
     things: &'static str,
     total: usize,
@@ -57,10 +57,10 @@ impl Progress {
     /// seconds.
     pub fn new(total: usize, things: &'static str, single: bool, quiet: bool) -> Self {
         let manner = match (quiet, single) {
-            (true, _) => Manner::Silent,
-            (false, true) => Manner::Told,
-            (false, false) if std::io::stderr().is_terminal() => Manner::Bar,
-            (false, false) => Manner::Lines,
+            (true, _) => ProgressMode::Silent,
+            (false, true) => ProgressMode::Reported,
+            (false, false) if std::io::stderr().is_terminal() => ProgressMode::Bar,
+            (false, false) => ProgressMode::Lines,
         };
         let now = Instant::now();
         Self {
@@ -75,12 +75,12 @@ impl Progress {
     /// Shows the beginning of a run.
     pub fn begin(&self, problem: &str, planner: &str) {
         match self.manner {
-            Manner::Silent | Manner::Lines => {}
-            Manner::Told => sinks::say(&format!("{planner} ...")),
-            Manner::Bar => {
+            ProgressMode::Silent | ProgressMode::Lines => {}
+            ProgressMode::Reported => sinks::print_status(&format!("{planner} ...")),
+            ProgressMode::Bar => {
                 let mut state = self.state();
                 state.now = format!("{planner} on {problem}");
-                if state.done == 0 || state.shown.elapsed() >= REDRAWN {
+                if state.done == 0 || state.shown.elapsed() >= REDRAW_INTERVAL {
                     state.shown = Instant::now();
                     self.draw(&state);
                 }
@@ -89,9 +89,9 @@ impl Progress {
     }
 
     /// Shows a planner's message.
-    pub fn say(&self, text: &str) {
-        if self.manner == Manner::Told {
-            sinks::say(text);
+    pub fn print_status(&self, text: &str) {
+        if self.manner == ProgressMode::Reported {
+            sinks::print_status(text);
         }
     }
 
@@ -101,24 +101,24 @@ impl Progress {
         state.done += 1;
         match self.manner {
             // The next run draws the bar.
-            Manner::Silent | Manner::Told | Manner::Bar => {}
-            Manner::Lines if state.shown.elapsed() >= INTERVAL => {
+            ProgressMode::Silent | ProgressMode::Reported | ProgressMode::Bar => {}
+            ProgressMode::Lines if state.shown.elapsed() >= LINE_INTERVAL => {
                 state.shown = Instant::now();
-                sinks::say(&line(state.done, self.total, self.things, self.started.elapsed()));
+                sinks::print_status(&line(state.done, self.total, self.things, self.started.elapsed()));
             }
-            Manner::Lines => {}
+            ProgressMode::Lines => {}
         }
     }
 
     /// Ends the display: removes the bar, or prints a last line.
     pub fn end(&self) {
         match self.manner {
-            Manner::Silent | Manner::Told => {}
-            Manner::Bar => put(&format!("\r{:WIDTH$}\r", "")),
-            Manner::Lines => {
+            ProgressMode::Silent | ProgressMode::Reported => {}
+            ProgressMode::Bar => put(&format!("\r{:LINE_WIDTH$}\r", "")),
+            ProgressMode::Lines => {
                 // A search may end before all runs that were possible.
                 let done = self.state().done;
-                sinks::say(&line(done, done, self.things, self.started.elapsed()));
+                sinks::print_status(&line(done, done, self.things, self.started.elapsed()));
             }
         }
     }
@@ -164,23 +164,24 @@ fn line(done: usize, total: usize, things: &str, elapsed: Duration) -> String {
 
 /// Returns a bar, the same numbers in short, and the present run, if there is room; always of the same width.
 fn bar(done: usize, total: usize, elapsed: Duration, now: &str) -> String {
-    let full = (BAR * done).checked_div(total).unwrap_or(BAR).min(BAR);
+    let full = (BAR_WIDTH * done).checked_div(total).unwrap_or(BAR_WIDTH).min(BAR_WIDTH);
     let (rate, left) = rate(done, total, elapsed);
     let left = left.map_or_else(String::new, |left| format!(" {left} left"));
-    let text = format!("[{}{}] {done}/{total} {rate:.1}/s{left}  {now}", "#".repeat(full), ".".repeat(BAR - full));
-    let cut: String = text.chars().map(|c| if c.is_control() { ' ' } else { c }).take(WIDTH).collect();
-    format!("{cut:WIDTH$}")
+    let text =
+        format!("[{}{}] {done}/{total} {rate:.1}/s{left}  {now}", "#".repeat(full), ".".repeat(BAR_WIDTH - full));
+    let cut: String = text.chars().map(|c| if c.is_control() { ' ' } else { c }).take(LINE_WIDTH).collect();
+    format!("{cut:LINE_WIDTH$}")
 }
 
 /// Returns a function that reports at intervals how many frames of an animation are done, if that takes long.
 pub fn pictures_done(path: &Path, print: &PrintArgs) -> impl FnMut(usize, usize) {
     const PICTURE_INTERVAL: Duration = Duration::from_secs(5);
     let begun = Instant::now();
-    let mut told = begun;
+    let mut reported = begun;
     move |done, all| {
-        if told.elapsed() > PICTURE_INTERVAL {
-            told = Instant::now();
-            print.say(&format!("{}: {}", path.display(), line(done, all, "pictures", begun.elapsed())));
+        if reported.elapsed() > PICTURE_INTERVAL {
+            reported = Instant::now();
+            print.print_status(&format!("{}: {}", path.display(), line(done, all, "pictures", begun.elapsed())));
         }
     }
 }
@@ -194,9 +195,9 @@ mod tests {
         let second = Duration::from_secs(1);
         for (done, full) in [(0, 0), (5, 8), (10, 16)] {
             let bar = bar(done, 10, second, "a planner with a very long name on a problem with a very long name");
-            assert_eq!((bar.chars().count(), bar.matches('#').count()), (WIDTH, full), "{bar}");
+            assert_eq!((bar.chars().count(), bar.matches('#').count()), (LINE_WIDTH, full), "{bar}");
         }
-        assert_eq!(bar(0, 0, second, "\n").chars().count(), WIDTH);
+        assert_eq!(bar(0, 0, second, "\n").chars().count(), LINE_WIDTH);
     }
 
     #[test]
@@ -205,7 +206,7 @@ mod tests {
     }
 
     #[test]
-    fn lines_tell_the_rate_and_what_is_left() {
+    fn lines_show_rate_and_remaining_time() {
         assert_eq!(line(20, 100, "runs", Duration::from_secs(4)), "20 of 100 runs, 5.0 a second, 16 s left");
         assert_eq!(line(100, 100, "layouts", Duration::from_secs(4)), "100 of 100 layouts, 25.0 a second");
         let bar = bar(20, 100, Duration::from_secs(4), "visibility on shelf");

@@ -8,7 +8,7 @@ use super::print_args::PrintArgs;
 use super::sinks;
 use super::values::clearance;
 use crate::draw::{Picture, View};
-use crate::engine::{Access, MOST_PLACES, Reach, reach};
+use crate::engine::{Access, MAX_PLACES, Reach, reach};
 use crate::grammar::positive;
 use crate::input::{self, Explorable, JointValues, Overrides};
 use crate::motion::{check_writable, write_whole_set};
@@ -19,7 +19,7 @@ use serde_json::{Value, json};
 use std::path::PathBuf;
 
 /// Default number of cells across the arm's reach.
-const CELLS: f64 = 60.0;
+const DEFAULT_CELLS: f64 = 60.0;
 
 /// Report where the tip can go, and with which IK solutions.
 #[derive(Debug, Args)]
@@ -82,10 +82,10 @@ pub fn run(args: &ReachArgs) -> Result<u8, Failure> {
     sinks::spare_inputs(files(), &loaded.files())?;
     let world = loaded.explorable(&overrides);
     let world = world.map_err(|error| error.with_option("--start", "--home"))?;
-    world.robot.warnings.iter().for_each(|warning| sinks::say(&format!("warning: {warning}")));
-    let cell = args.cell.unwrap_or(world.scene.arm().reach() / CELLS);
+    world.robot.warnings.iter().for_each(|warning| sinks::print_status(&format!("warning: {warning}")));
+    let cell = args.cell.unwrap_or(world.scene.arm().reach() / DEFAULT_CELLS);
     let reach = reach(&world.scene, world.start, cell).ok_or_else(|| {
-        Failure::Option(format!("--cell {cell} gives more than {MOST_PLACES} cells: choose a larger size"))
+        Failure::Option(format!("--cell {cell} gives more than {MAX_PLACES} cells: choose a larger size"))
     })?;
     let mut written = Vec::new();
     for (path, is_json) in &tables {
@@ -96,7 +96,7 @@ pub fn run(args: &ReachArgs) -> Result<u8, Failure> {
         written.push((path.clone(), format.bytes(&view(&world, &reach))?));
     }
     write_whole_set(&written)?;
-    args.print.tell(DONE, || sinks::pretty(&object(&world, &reach)), || summary(&world, &reach))?;
+    args.print.report(DONE, || sinks::pretty(&object(&world, &reach)), || summary(&world, &reach))?;
     Ok(DONE)
 }
 

@@ -6,7 +6,7 @@ use super::files::Files;
 use super::plan::with_ends;
 use super::query_args::QueryArgs;
 use super::sinks;
-use crate::check::{ProofFormatError, StuckBox, read_proof};
+use crate::check::{CollisionBox, ProofFormatError, read_proof};
 use crate::engine::{Bound, certificate_of_bound, certificate_of_boxes};
 use crate::input::{self, LoadedScene, Overrides, Source};
 use crate::model::MotionProblem;
@@ -20,9 +20,9 @@ use std::path::{Path, PathBuf};
 
 /// Share of a bound that its evidence may miss, because the evidence is computed again and finds walls at finitely many
 /// points.
-const MISSED: f64 = 1e-3;
+const EVIDENCE_LOSS: f64 = 1e-3;
 /// Share of a bound that is lost to rounding, too little to report.
-const ROUNDING: f64 = 1e-6;
+const UNREPORTED_LOSS: f64 = 1e-6;
 
 /// Check a proof, a bound or a certificate independently.
 ///
@@ -57,18 +57,18 @@ pub struct RecheckArgs {
 /// Bad input, a file without claims, and claims that do not hold.
 pub fn run(args: &RecheckArgs) -> Result<u8, Failure> {
     let scene = input::load_scene(args.files.robot(), &args.files.world)?;
-    scene.robot.warnings.iter().for_each(|w| sinks::say(&format!("warning: {w}")));
+    scene.robot.warnings.iter().for_each(|w| sinks::print_status(&format!("warning: {w}")));
     let source = Source::read(&args.proof)?;
     let asked = args.query.overrides();
     let evidence = Evidence::of(source.text());
     // A certificate contains its query.
-    let said = if asked == Overrides::default() && evidence.certificate {
+    let stated_ends = if asked == Overrides::default() && evidence.certificate {
         format!("the certificate holds: {}", judged(args, "certificate", source.text())?)
     } else {
         let problem = scene.clone().problem(&asked)?.problem;
         let asked = in_full(&problem, &scene, asked);
         match read_proof(source.text()) {
-            Ok(claim) => proof_holds(args, &problem, claim.stuck(), &asked)?,
+            Ok(claim) => proof_holds(args, &problem, claim.collision_boxes(), &asked)?,
             Err(missing @ ProofFormatError::Missing) => {
                 // A file without a proof and a bound may be no recording.
                 let stated = if evidence.bound { stated(args, &scene)? } else { None };
@@ -78,7 +78,7 @@ pub fn run(args: &RecheckArgs) -> Result<u8, Failure> {
             Err(error) => return Err(failed(args, error)),
         }
     };
-    sinks::print(&(said + "\n"))?;
+    sinks::print(&(stated_ends + "\n"))?;
     Ok(DONE)
 }
 
@@ -138,9 +138,9 @@ fn judged(args: &RecheckArgs, what: &str, certificate: &str) -> Result<String, F
 
 /// Returns the overrides, with the ends that the world does not state as joint values.
 fn in_full(problem: &MotionProblem, scene: &LoadedScene, asked: Overrides) -> Overrides {
-    let said = scene.said_ends();
-    let goal = said[1].map(|_| problem.goals().pieces()[0].ends()[0]);
-    with_ends(asked, said, [Some(problem.start()), goal])
+    let stated_ends = scene.resolved_ends();
+    let goal = stated_ends[1].map(|_| problem.goals().pieces()[0].ends()[0]);
+    with_ends(asked, stated_ends, [Some(problem.start()), goal])
 }
 
 /// Returns the bound in the result file.
@@ -157,7 +157,7 @@ fn stated(args: &RecheckArgs, scene: &LoadedScene) -> Result<Option<Bound>, Fail
 fn proof_holds(
     args: &RecheckArgs,
     problem: &MotionProblem,
-    stuck: &[StuckBox],
+    stuck: &[CollisionBox],
     asked: &Overrides,
 ) -> Result<String, Failure> {
     let never = |odd| failed(args, format!("the proof does not hold: box {odd} names shapes that cannot meet"));
@@ -186,13 +186,13 @@ fn bound_holds(
                 .into(),
         )
     })?;
-    if found.length < lower * (1.0 - MISSED) {
+    if found.length < lower * (1.0 - EVIDENCE_LOSS) {
         return Err(unconfirmed(format!("the file states {lower}, but only {} is proven", found.length)));
     }
     judged(args, "bound", &found.text)?;
     let walls = counted(found.walls, "wall");
     let missed = 1.0 - found.length / lower;
-    let (holds, stated) = if missed > ROUNDING {
+    let (holds, stated) = if missed > UNREPORTED_LOSS {
         (format!("holds within {:.1e} %", 100.0 * missed), format!(" (the file states {lower:.6})"))
     } else {
         ("holds".to_owned(), String::new())

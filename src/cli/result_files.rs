@@ -10,7 +10,7 @@ use serde_json::value::RawValue;
 use std::path::{Path, PathBuf};
 
 /// Least number of digits of a step's number in file names, so that names sort in the order of the steps.
-const DIGITS: usize = 3;
+const MIN_STEP_DIGITS: usize = 3;
 
 /// The result files to write.
 pub struct ResultFiles {
@@ -87,7 +87,7 @@ impl ResultFiles {
 
     /// Returns the file of one step, from 1: `plan-001.yaml` for `plan.yaml`.
     fn part(&self, path: &Path, number: usize) -> PathBuf {
-        let digits = self.steps.to_string().len().max(DIGITS);
+        let digits = self.steps.to_string().len().max(MIN_STEP_DIGITS);
         let mut name = path.file_stem().unwrap_or_default().to_os_string();
         name.push(format!("-{number:0digits$}"));
         if let Some(extension) = path.extension() {
@@ -107,7 +107,7 @@ impl ResultFiles {
     fn warn_of_more(&self, path: &Path) {
         let next = self.part(path, self.steps + 1);
         if next.exists() {
-            sinks::say(&format!(
+            sinks::print_status(&format!(
                 "warning: {} is left from an earlier task, and perhaps other files are too",
                 next.display()
             ));

@@ -25,12 +25,12 @@ Exit codes: 0 printed, 1 I/O, 2 wrong command line.")]
 pub struct SchemaArgs {
     /// Kind of file.
     #[arg(value_name = "FILES", default_value = "world")]
-    of: Described,
+    of: SchemaKind,
 }
 
 /// Files that have a schema.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Described {
+enum SchemaKind {
     /// World files (TOML).
     World,
     /// Study files (TOML).
@@ -46,10 +46,10 @@ enum Described {
 /// I/O.
 pub fn run(args: &SchemaArgs) -> Result<u8, Failure> {
     sinks::print(&match args.of {
-        Described::World => text(),
+        SchemaKind::World => text(),
         #[cfg(feature = "study")]
-        Described::Study => format!("{:#}\n", crate::study::study_schema()),
-        Described::Cspace => format!("{:#}\n", cspace_schema()),
+        SchemaKind::Study => format!("{:#}\n", crate::study::study_schema()),
+        SchemaKind::Cspace => format!("{:#}\n", cspace_schema()),
     })?;
     Ok(DONE)
 }

@@ -7,7 +7,7 @@ use super::{demo, sinks};
 use crate::grammar::number_in;
 use crate::input::{Source, scene_from};
 use crate::live::serve;
-use crate::live::{Files, Host, Options, page_alone};
+use crate::live::{Files, Host, Options, standalone_page};
 use crate::motion::write_whole;
 use clap::{Args, ValueHint};
 use std::io::ErrorKind;
@@ -75,13 +75,13 @@ pub fn run(args: &ServeArgs) -> Result<u8, Failure> {
     let (urdf, world) = match (&args.urdf, &args.world) {
         (Some(urdf), Some(world)) => (args.xacro.robot(urdf).read()?, Source::read(world)?),
         _ => (
-            Source::in_memory("built-in scara.urdf", demo::ROBOT),
-            Source::in_memory("built-in scara_cell.toml", demo::WORLD),
+            Source::in_memory("built-in scara.urdf", demo::DEMO_ROBOT),
+            Source::in_memory("built-in scara_cell.toml", demo::DEMO_WORLD),
         ),
     };
     let scene = scene_from(urdf.clone(), world.clone())?;
     if let (Some(page), Some(engine)) = (&args.export, &args.engine) {
-        scene.robot.warnings.iter().for_each(|warning| sinks::say(&format!("warning: {warning}")));
+        scene.robot.warnings.iter().for_each(|warning| sinks::print_status(&format!("warning: {warning}")));
         return export(args, [urdf, world], page, engine);
     }
     let wanted = SocketAddr::new(args.bind, args.port);
@@ -93,32 +93,34 @@ pub fn run(args: &ServeArgs) -> Result<u8, Failure> {
         };
         Failure::Option(format!("cannot listen at {wanted}: {error}\n  hint: {cure}"))
     })?;
-    scene.robot.warnings.iter().for_each(|warning| sinks::say(&format!("warning: {warning}")));
+    scene.robot.warnings.iter().for_each(|warning| sinks::print_status(&format!("warning: {warning}")));
     if !args.bind.is_loopback() {
-        sinks::say("warning: other machines can open this page and plan on this machine: there is no password");
+        sinks::print_status(
+            "warning: other machines can open this page and plan on this machine: there is no password",
+        );
     }
     let host = Host::new(urdf, world, scene, args.with.clone(), args.time_limit)
         .ok_or_else(|| Failure::Option("the world is no TOML".into()))?;
     sinks::print(&format!("http://{address}/\n"))?;
-    sinks::say("open this address in a browser; Ctrl-C ends the server");
+    sinks::print_status("open this address in a browser; Ctrl-C ends the server");
     serve::run(listener, host).map_err(|error| Failure::Option(format!("cannot serve: {error}")))?;
     Ok(DONE)
 }
 
 /// First bytes of a file packed by gzip.
-const GZIP: [u8; 2] = [0x1f, 0x8b];
+const GZIP_MAGIC: [u8; 2] = [0x1f, 0x8b];
 
 /// Writes the page with the program inside it.
 fn export(args: &ServeArgs, [urdf, world]: [Source; 2], page: &Path, engine: &Path) -> Result<u8, Failure> {
     let cure = "\n  hint: build it with .ci/page in cplan's sources";
     let wrong = |what: String| Failure::Option(format!("{}: {what}{cure}", engine.display()));
     let program = std::fs::read(engine).map_err(|error| wrong(format!("cannot be read: {error}")))?;
-    if !program.starts_with(&GZIP) {
+    if !program.starts_with(&GZIP_MAGIC) {
         return Err(wrong("is not packed by gzip".into()));
     }
     let text = |source: &Source| source.text().to_owned();
     let files = Files { urdf: text(&urdf), world: text(&world), options: args.with.clone() };
-    write_whole(page, page_alone(files, args.time_limit, &program).as_bytes())?;
-    sinks::say(&format!("{} written", page.display()));
+    write_whole(page, standalone_page(files, args.time_limit, &program).as_bytes())?;
+    sinks::print_status(&format!("{} written", page.display()));
     Ok(DONE)
 }

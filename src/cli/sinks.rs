@@ -124,7 +124,7 @@ pub fn spare_inputs<'a>(mut outputs: impl Iterator<Item = &'a Path>, inputs: &[P
 /// Reports on stderr that a format cannot hold a result without its content: a trajectory, or a grid.
 pub fn warn_unwritten(path: &Path, content: &str) {
     let is_old = if path.exists() { "; the existing file is from an earlier run" } else { "" };
-    say(&format!("warning: {} is not written: the result has no {content}{is_old}", path.display()));
+    print_status(&format!("warning: {} is not written: the result has no {content}{is_old}", path.display()));
 }
 
 /// Writes a picture.
@@ -136,7 +136,7 @@ pub fn save_picture(format: PictureFormat, path: &Path, view: &View) -> Result<(
 }
 
 /// Prints a line on stderr: progress, warnings and errors. A closed stream stops no job.
-pub fn say(text: &str) {
+pub fn print_status(text: &str) {
     let _ = writeln!(anstream::stderr(), "{}", terminal::message(&plain(text)));
 }
 
@@ -144,7 +144,7 @@ pub fn say(text: &str) {
 ///
 /// # Errors
 /// I/O.
-pub fn tell(text: &str) -> Result<(), Failure> {
+pub fn report(text: &str) -> Result<(), Failure> {
     print(&plain(text))
 }
 

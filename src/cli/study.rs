@@ -102,16 +102,16 @@ pub fn run(args: &StudyArgs) -> Result<u8, Failure> {
     let journal = files.first().map(|(path, _)| part(path));
     sinks::spare_inputs(journal.iter().map(PathBuf::as_path), &inputs)?;
     let opened = journal.map(|path| Journal::open(&path, &study, args.fresh)).transpose()?;
-    study.remarks().iter().for_each(|remark| args.print.say(remark));
+    study.remarks().iter().for_each(|remark| args.print.print_status(remark));
     let (journal, mut rows) = opened.map_or((None, Vec::new()), |(journal, rows)| (Some(journal), rows));
     if !rows.is_empty() {
-        args.print.say(&format!("continues after {} of the stopped study", counted(rows.len(), "layout")));
+        args.print.print_status(&format!("continues after {} of the stopped study", counted(rows.len(), "layout")));
     }
     let total = study.count() + study.searched;
-    let kept = Kept::new(journal, rows.len());
+    let kept = SharedRows::new(journal, rows.len());
     ctrl_c::before_it_ends({
         let kept = kept.clone();
-        move || sinks::say(&kept.stopped(total))
+        move || sinks::print_status(&kept.stopped(total))
     });
     let progress = Progress::new(total.saturating_sub(rows.len()), "layouts", false, args.print.quiet);
     let jobs = args.jobs.map_or_else(|| available_parallelism().map_or(1, NonZeroUsize::get), usize::from);
@@ -142,9 +142,10 @@ pub fn run(args: &StudyArgs) -> Result<u8, Failure> {
     for (path, content) in &files {
         match bytes(&study, &rows, &summary, *content, &files)? {
             Some(bytes) => written.push((path.clone(), bytes)),
-            None => {
-                sinks::say(&format!("warning: {} is not written: no layout meets the requirements", path.display()))
-            }
+            None => sinks::print_status(&format!(
+                "warning: {} is not written: no layout meets the requirements",
+                path.display()
+            )),
         }
     }
     write_whole_set(&written)?;
@@ -152,7 +153,7 @@ pub fn run(args: &StudyArgs) -> Result<u8, Failure> {
     kept.remove()?;
     let planned = summary.best().and_then(|best| Some((best.layout, command(&study, &files)?)));
     let planned = planned.map_or_else(String::new, |(best, command)| format!("to plan layout {best}: {command}\n"));
-    args.print.tell(DONE, || sinks::pretty(&summary.to_json()), || summary.to_text(args.wide) + &planned)?;
+    args.print.report(DONE, || sinks::pretty(&summary.to_json()), || summary.to_text(args.wide) + &planned)?;
     Ok(DONE)
 }
 
@@ -171,8 +172,8 @@ fn contents(outputs: &[PathBuf], is_layout: bool) -> Result<Vec<(PathBuf, Conten
         false => {
             #[cfg(not(feature = "parquet"))]
             refuse_parquet(outputs)?;
-            let told = "the name must end in .csv, .parquet, .html or .json for the study, or .toml or .urdf for the best layout";
-            sinks::outputs(outputs, &[&whole[..], &layout].concat(), told)?
+            let description = "the name must end in .csv, .parquet, .html or .json for the study, or .toml or .urdf for the best layout";
+            sinks::outputs(outputs, &[&whole[..], &layout].concat(), description)?
         }
     };
     sinks::distinct(contents.iter().map(|(path, _)| path.as_path()))?;
@@ -184,8 +185,8 @@ fn contents(outputs: &[PathBuf], is_layout: bool) -> Result<Vec<(PathBuf, Conten
 fn refuse_parquet(outputs: &[PathBuf]) -> Result<(), Failure> {
     let is_parquet = |path: &&PathBuf| path.extension().is_some_and(|end| end.eq_ignore_ascii_case("parquet"));
     outputs.iter().find(is_parquet).map_or(Ok(()), |path| {
-        let told = "this program was built without Parquet; use .csv, or build with --features parquet";
-        Err(Failure::Option(format!("{}: {told}", path.display())))
+        let description = "this program was built without Parquet; use .csv, or build with --features parquet";
+        Err(Failure::Option(format!("{}: {description}", path.display())))
     })
 }
 
@@ -219,7 +220,10 @@ fn note_robot(study: &Study, files: &[(PathBuf, Content)]) {
     let of = |wanted: Content| files.iter().find(|(_, content)| *content == wanted);
     if let (Some((world, _)), None, true) = (of(Content::World), of(Content::Robot), study.varies_robots()) {
         let robot = world.with_extension("urdf");
-        sinks::say(&format!("note: the layout has its own robot; --output {} writes it as well", robot.display()));
+        sinks::print_status(&format!(
+            "note: the layout has its own robot; --output {} writes it as well",
+            robot.display()
+        ));
     }
 }
 
@@ -292,7 +296,7 @@ fn short(name: &str) -> String {
 
 /// Rows of a running study, which the handler of Ctrl-C needs, too.
 #[derive(Debug, Clone)]
-struct Kept(Arc<Mutex<Rows>>);
+struct SharedRows(Arc<Mutex<Rows>>);
 
 #[derive(Debug)]
 struct Rows {
@@ -300,7 +304,7 @@ struct Rows {
     count: usize,
 }
 
-impl Kept {
+impl SharedRows {
     fn new(journal: Option<Journal>, count: usize) -> Self {
         Self(Arc::new(Mutex::new(Rows { journal, count })))
     }

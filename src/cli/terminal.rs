@@ -1,14 +1,14 @@
 //! Formats text for a terminal: within its width, and with colours. Other outputs get the text unchanged, for scripts.
 
 use super::exit::{DONE, INFEASIBLE, UNKNOWN};
-use crate::text::{INDENT, wrapped};
+use crate::text::{SECOND_COLUMN, wrapped};
 use clap::builder::styling::{AnsiColor, Style};
 use std::io::IsTerminal;
 
 use terminal_size::{Height, Width, terminal_size_of};
 
 /// Least width: a narrower terminal would show one word per line.
-const NARROWEST: usize = 40;
+const MIN_WIDTH: usize = 40;
 
 /// Greatest width of messages and help: longer lines are hard to read.
 pub const WIDEST: usize = 80;
@@ -18,7 +18,7 @@ fn width(is_terminal: bool, size: Option<(Width, Height)>) -> Option<usize> {
     let stated = || std::env::var("COLUMNS").ok()?.parse().ok();
     let seen = || size.map(|(Width(width), _)| usize::from(width));
     let width = is_terminal.then(|| stated().or_else(seen)).flatten().filter(|width| *width > 0);
-    width.map(|width| width.max(NARROWEST))
+    width.map(|width| width.max(MIN_WIDTH))
 }
 
 /// Returns a summary within the terminal's width, with its verdict in the colour of the exit code. Colours are escape
@@ -56,8 +56,8 @@ fn folded(text: &str, width: usize) -> String {
 fn narrowed(text: &str, width: usize) -> String {
     let narrowed = |line: &str| {
         let blanks = line.chars().take_while(|c| *c == ' ').count();
-        let has_key = line.chars().nth(INDENT - 1) == Some(' ');
-        wrapped(line, width, if blanks == 0 && has_key { INDENT } else { blanks }) + "\n"
+        let has_key = line.chars().nth(SECOND_COLUMN - 1) == Some(' ');
+        wrapped(line, width, if blanks == 0 && has_key { SECOND_COLUMN } else { blanks }) + "\n"
     };
     text.lines().map(narrowed).collect()
 }
@@ -104,7 +104,7 @@ mod tests {
     }
 
     #[test]
-    fn the_verdict_alone_is_coloured() {
+    fn only_the_verdict_is_colored() {
         let text = "shelf\nresult     free: proven\nresult     free\n";
         let green = painted(text, DONE);
         assert_eq!(anstream::adapter::strip_str(&green).to_string(), text);
@@ -115,7 +115,7 @@ mod tests {
     }
 
     #[test]
-    fn labels_are_coloured() {
+    fn labels_are_colored() {
         assert!(
             message("error: no").ends_with("error:\u{1b}[0m no")
                 && message("warning: no").ends_with("warning:\u{1b}[0m no")

@@ -3,7 +3,7 @@
 use crate::grammar::number_in;
 
 /// The longest time limit of a job, seconds: some thirty years.
-const LONGEST_JOB: f64 = 1e9;
+const MAX_JOB_SECONDS: f64 = 1e9;
 
 /// Parses a least distance from obstacles, metres.
 pub fn clearance(text: &str) -> Result<f64, String> {
@@ -12,5 +12,9 @@ pub fn clearance(text: &str) -> Result<f64, String> {
 
 /// Parses a time limit, seconds.
 pub fn time_limit(text: &str) -> Result<f64, String> {
-    number_in(text, |x| x > 0.0 && x <= LONGEST_JOB, &format!("of seconds, greater than 0 and at most {LONGEST_JOB:e}"))
+    number_in(
+        text,
+        |x| x > 0.0 && x <= MAX_JOB_SECONDS,
+        &format!("of seconds, greater than 0 and at most {MAX_JOB_SECONDS:e}"),
+    )
 }

@@ -36,9 +36,9 @@ impl Variant {
     }
 
     /// Returns the planner and its number of attempts; settings that it leaves open come from `base`.
-    pub fn over(&self, base: &EffortArgs) -> (Planner, usize) {
-        let effort = self.options.effort.over(base);
-        let planner = effort.put_into(self.planner);
+    pub fn or_from(&self, base: &EffortArgs) -> (Planner, usize) {
+        let effort = self.options.effort.or_from(base);
+        let planner = effort.apply_to(self.planner);
         (planner, effort.levels(&planner))
     }
 

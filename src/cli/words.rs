@@ -29,7 +29,7 @@ struct Words {
 
 /// Settings from words.
 #[derive(Debug, Clone)]
-pub(super) struct Asked {
+pub(super) struct ParsedWords {
     pub options: Options,
     pub overrides: Overrides,
 }
@@ -46,12 +46,12 @@ pub fn read_words(words: &[String]) -> Result<(Options, Overrides), String> {
 ///
 /// # Errors
 /// The defect, in a line or two.
-pub(super) fn asked(words: &[String]) -> Result<Asked, Failure> {
+pub(super) fn asked(words: &[String]) -> Result<ParsedWords, Failure> {
     let refused = |error| Failure::Usage(misplaced(&error).unwrap_or_else(|| message(&error)));
     let words = Words::try_parse_from(words).map_err(refused)?;
     let Words { planner, query, motion, message, options: given } = words;
     let options = plan::options(planner, &given, &motion, &message)?;
-    Ok(Asked { options, overrides: query.overrides() })
+    Ok(ParsedWords { options, overrides: query.overrides() })
 }
 
 /// Returns a message for options of `cplan plan` that are about files and printing, not about planning.
@@ -66,6 +66,6 @@ fn misplaced(error: &clap::Error) -> Option<String> {
 /// Returns the error in words, without the usage of a program.
 pub(super) fn message(error: &clap::Error) -> String {
     let text = error.to_string();
-    let said = text.split("\n\nUsage").next().unwrap_or_default();
-    said.strip_prefix("error: ").unwrap_or(said).trim_end().to_owned()
+    let message = text.split("\n\nUsage").next().unwrap_or_default();
+    message.strip_prefix("error: ").unwrap_or(message).trim_end().to_owned()
 }

@@ -10,7 +10,7 @@ fn table(file: &str) -> toml::Table {
 }
 
 #[test]
-fn what_comes_twice_is_known() {
+fn duplicate_dependencies_are_known() {
     let (lock, deny) = (table("Cargo.lock"), table("deny.toml"));
     let names = |list: &toml::Value| -> Vec<String> {
         let entries = list.as_array().expect("a list").iter();
@@ -98,7 +98,7 @@ impl Build {
 }
 
 #[test]
-fn tables_of_dependencies_are_what_cargo_says() {
+fn dependency_tables_agree_with_cargo() {
     let page = std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/dependencies.md")).unwrap();
     let mut build = Build::of_cargo();
     let all = build.without(&[]);

@@ -15,7 +15,7 @@ fn ours(folder: &str, table: &str) -> Vec<String> {
 }
 
 #[test]
-fn the_checker_depends_on_nothing_of_ours() {
+fn the_checker_shares_no_crate_with_the_planner() {
     assert_eq!(ours("crates/check", "dependencies"), [""; 0]);
     assert_eq!(ours("crates/check", "dev-dependencies"), [""; 0]);
     assert_eq!(ours("crates/check-files", "dependencies"), ["cplan-check"]);

@@ -154,7 +154,7 @@ fn places(path: &Path, patterns: &[(Regex, &str)], fragment: &Regex, message: &R
 }
 
 #[test]
-fn fewer_places_ask_to_be_read_twice_than_before() {
+fn the_count_of_unclear_lines_does_not_grow() {
     let compiled = |pattern: &str| Regex::new(&format!("(?i){pattern}")).unwrap();
     let patterns: Vec<(Regex, &str)> = PATTERNS.iter().map(|(pattern, advice)| (compiled(pattern), *advice)).collect();
     let fragment = Regex::new(FRAGMENT).unwrap();

@@ -11,7 +11,7 @@ pub use cplan_cases as random;
 pub use cplan_cases::dice;
 pub use shapes::{convex, disc, wall};
 
-use cplan::check::{Disconnection, ProofError, StuckBox};
+use cplan::check::{CollisionBox, Disconnection, ProofError};
 use cplan::geometry::{Convex, Point, Vector};
 use cplan::input::{self, Overrides};
 use cplan::model::{
@@ -26,7 +26,7 @@ pub fn q(a: f64, b: f64) -> Configuration {
 
 /// Returns the judge's verdict on the claim that these boxes separate the start from all goals.
 pub fn recheck(
-    stuck: &[StuckBox],
+    stuck: &[CollisionBox],
     scene: &Scene,
     start: Configuration,
     goals: &GoalSet,

@@ -119,7 +119,7 @@ proptest! {
 
     /// Free places keep a quarter of the margin, and places that keep three margins are free.
     #[test]
-    fn what_is_shown_free_is_free_and_hardly_less(
+    fn displayed_free_space_is_tight(
         kind in 0..3_usize, choice in any::<u64>(), margin in prop_oneof![Just(2e-3), 2e-3..0.05f64],
     ) {
         let scene = scene(obstacle(kind, choice, 1100));
@@ -156,7 +156,7 @@ fn ten_times_the_corners_in_the_same_room_are_no_more_to_trace() {
 
 /// Pieces that the arm cannot come near to are not traced at all.
 #[test]
-fn what_is_out_of_reach_is_nothing_to_trace() {
+fn obstacles_out_of_reach_are_not_traced() {
     let mut far = polyline(3, 5_000, true);
     far.pieces = far.pieces.iter().map(|piece| piece.at(&Pose::translation(Vector::new(9.0, 0.0)))).collect();
     far.shape = far.shape.at(&Pose::translation(Vector::new(9.0, 0.0)));

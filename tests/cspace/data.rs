@@ -35,7 +35,7 @@ fn distance(scene: &Scene, q: Values, number: usize) -> f64 {
     for (link, pose) in arm.links.iter().zip(&poses).skip(usize::from(is_carried)) {
         let can_meet = |part: &&Part| match own {
             None => part.heights.meet(obstacle.heights),
-            Some(own) => part.heights.surely_meet(obstacle.heights) && !own.ignores(&part.body),
+            Some(own) => part.heights.definitely_meet(obstacle.heights) && !own.ignores(&part.body),
         };
         for part in link.parts.iter().filter(can_meet) {
             let shape = part.shape.at(pose);
@@ -70,7 +70,7 @@ fn between([a, b]: [Values; 2], share: f64) -> Values {
 }
 
 #[test]
-fn c_obstacles_hold_what_hits_and_little_more() {
+fn c_obstacles_contain_collisions_tightly() {
     for (robot, world) in [
         ("planar_2r", "shelf"),
         ("planar_2r_continuous", "wrap_around"),
@@ -107,7 +107,7 @@ fn c_obstacles_hold_what_hits_and_little_more() {
 }
 
 #[test]
-fn what_planners_saw_is_free() {
+fn cells_of_planners_are_free() {
     for planner in
         ["shortest", "visibility", "trapezoid", "triangles", "voronoi", "prm", "wavefront", "harmonic", "subdivision"]
     {

@@ -170,7 +170,7 @@ proptest! {
     }
 
     #[test]
-    fn outside_its_reach_range_a_pair_keeps_its_distance(scene in any_scene(), grow in 0.0..0.2f64) {
+    fn pairs_outside_their_reach_range_stay_apart(scene in any_scene(), grow in 0.0..0.2f64) {
         outside_reach_ranges_pairs_keep_their_distance(&scene, grow)?;
     }
 
@@ -241,7 +241,7 @@ fn bitmaps_of_the_benchmarks_are_their_grids() {
 }
 
 #[test]
-fn bitmaps_are_what_collision_tests_say() {
+fn bitmaps_agree_with_collision_tests() {
     for scene in [common::benchmark(Benchmark::A).0, common::w20()] {
         let cells = [256, 256];
         let (bits, sampled) = (bitmap(&scene, cells, 0.0), sampled_grid(&scene, cells, 0.0));

@@ -76,7 +76,7 @@ fn no_configuration_of_a_lattice_is_free_and_nearer() {
 
 /// With one bar in front of a disc, the nearest escape is a turn of joint 1 whose angle has a closed form.
 #[test]
-fn the_way_out_has_the_known_angle() {
+fn the_nearest_free_configuration_has_the_known_angle() {
     let turn = JointType::Revolute { sign: 1.0 };
     let limits = JointRange::Interval { lower: -3.0, upper: 3.0 };
     let blind = arm(
@@ -110,7 +110,7 @@ fn the_short_way_round_the_circle_counts() {
 }
 
 #[test]
-fn an_arm_that_is_buried_has_no_way_out() {
+fn a_buried_arm_has_no_free_configuration() {
     let obstacles = vec![obstacle("rock", disc(Point::zeros(), 5.0))];
     let workspace = Workspace { name: String::new(), obstacles, clearance: 0.0, preferences: Vec::new() };
     assert_eq!(nearest_free(&placed(rr([JointRange::Circle; 2]), workspace), q(0.0, 0.0)), None);

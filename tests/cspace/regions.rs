@@ -227,7 +227,7 @@ proptest! {
     #![proptest_config(cplan_cases::cases(96))]
 
     #[test]
-    fn what_gantries_lose_is_no_more_than_the_margin(scene in any_gantry(), margin in prop_oneof![Just(1e-4), 0.001..0.02f64]) {
+    fn gantry_polygons_lose_at_most_the_margin(scene in any_gantry(), margin in prop_oneof![Just(1e-4), 0.001..0.02f64]) {
         // Pieces and tools thinner than the margin vanish.
         if let Some(regions) = inner_regions(&scene, margin) {
             loses_no_more_than_its_margin(&scene, &regions, margin)?;
@@ -358,7 +358,7 @@ fn windows_follow_axes() {
 }
 
 #[test]
-fn nothing_to_hit_leaves_the_window_free() {
+fn without_obstacles_the_window_is_free() {
     let (arm, workspace) = torus(0.0).into_parts();
     let scene = placed(arm, Workspace { obstacles: Vec::new(), ..workspace });
     let regions = regions(&scene, 1e-3, Configuration::zeros(), 1);

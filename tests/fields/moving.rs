@@ -75,7 +75,7 @@ fn greatest_difference(a: &[f64], b: &[f64]) -> f64 {
 }
 
 #[test]
-fn each_moment_is_what_it_would_be_from_nothing() {
+fn each_moment_equals_a_fresh_solution() {
     let gauss_seidel = Solver::Relaxation(Relaxation::gauss_seidel(Order::Lines(Scan::ROWS)));
     let (mut compared, mut moved) = (0, 0);
     for seed in random::seeds(24) {
@@ -138,7 +138,7 @@ fn directions_are_those_of_the_published_formula_at_centres() {
 }
 
 #[test]
-fn ways_stay_in_free_cells_and_lead_to_the_goal() {
+fn paths_stay_in_free_cells_and_reach_the_goal() {
     let (mut arrived, cells) = (0, [16, 19]);
     for seed in random::seeds(30) {
         let mut dice = Dice::new(seed);
@@ -205,7 +205,7 @@ fn multigrid_agrees_with_elimination_for_strong_drifts() {
 }
 
 #[test]
-fn what_makes_no_sense_is_refused_and_changes_nothing() {
+fn invalid_moments_are_refused_without_effect() {
     let refused = |result: Result<_, RelaxError>, word: &str| match result {
         Err(RelaxError::Refused(reason)) => assert!(reason.contains(word), "{reason}"),
         _ => panic!("not refused: {word}"),
@@ -245,7 +245,7 @@ fn what_makes_no_sense_is_refused_and_changes_nothing() {
 }
 
 #[test]
-fn moments_without_goals_or_without_room_have_no_way() {
+fn moments_without_goals_or_room_have_no_path() {
     let mut field = MovingField::new([5, 5], vec![false; 25], [Boundary::High; 2], Difference::Central).unwrap();
     let covered = Disc { center: [2.0; 2], radius: 9.0 };
     for (obstacles, goals) in [(vec![], vec![]), (vec![covered], vec![covered]), (vec![covered], vec![])] {

@@ -47,7 +47,7 @@ fn the_summary_names_the_adapter() {
 #[test]
 #[cfg(target_os = "linux")]
 #[ignore = "needs a Vulkan loader: .ci/gpu"]
-fn without_a_driver_it_says_what_to_do() {
+fn a_missing_driver_gives_a_hint() {
     let mut command = cplan("shelf", "--planner harmonic --on gpu");
     DRIVERS.iter().for_each(|name| _ = command.env(name, NOWHERE));
     let done = command.output().unwrap();

@@ -93,7 +93,7 @@ proptest! {
 
 #[test]
 #[ignore = "needs a Vulkan driver: .ci/gpu"]
-fn what_a_gpu_cannot_do_is_said() {
+fn unsupported_gpu_options_are_reported() {
     let domain = Domain::new([2, 2], vec![Cell::Free; 4], [Boundary::High; 2], Levels::PUBLISHED);
     let stopping = Stopping { measure: Measure::GreatestChange, below: 1e-3, max_sweeps: 10 };
     let rows = Relaxation::gauss_seidel(Order::Lines(cplan::field::Scan::ROWS));

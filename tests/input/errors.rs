@@ -1,6 +1,6 @@
 //! Invalid input of every kind: refused with the file, the line, the defect, and a hint.
 
-use cplan::input::{InputError, Loaded, Overrides, load};
+use cplan::input::{InputError, LoadedProblem, Overrides, load};
 use cplan::model::Region;
 use std::fs;
 
@@ -40,7 +40,12 @@ name = "post"
 circle = { center = [-1.5, 0], radius = 0.2 }
 "#;
 
-pub fn load_files(urdf_name: &str, urdf: &str, world: &str, overrides: &Overrides) -> Result<Loaded, InputError> {
+pub fn load_files(
+    urdf_name: &str,
+    urdf: &str,
+    world: &str,
+    overrides: &Overrides,
+) -> Result<LoadedProblem, InputError> {
     let folder = tempfile::tempdir().unwrap();
     let (u, w) = (folder.path().join(urdf_name), folder.path().join("world.toml"));
     fs::write(&u, urdf).unwrap();
@@ -48,7 +53,7 @@ pub fn load_files(urdf_name: &str, urdf: &str, world: &str, overrides: &Override
     load(&u, &w, overrides)
 }
 
-fn refused(result: Result<Loaded, InputError>, parts: &[&str]) {
+fn refused(result: Result<LoadedProblem, InputError>, parts: &[&str]) {
     let error = result.expect_err("should be refused").to_string();
     for part in parts {
         assert!(error.contains(part), "no \"{part}\" in:\n{error}");

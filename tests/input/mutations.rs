@@ -35,7 +35,7 @@ polygon = [[0.2, 0.3], [0.5, 0.3], [0.5, 0.6]]
 "#;
 
 /// Greatest number of convex pieces of obstacles with a few corners.
-const MOST_PIECES: usize = 100;
+const MAX_PIECES: usize = 100;
 
 /// Greatest number of bytes of the plain URDF that a few macros make.
 const LONGEST: usize = 1 << 16;
@@ -68,7 +68,7 @@ fn slips_in_worlds_and_robots_are_read_or_refused() {
         match loaded {
             Ok(pieces) => {
                 read += 1;
-                assert!(pieces <= MOST_PIECES, "{pieces} pieces\n{urdf}{world}");
+                assert!(pieces <= MAX_PIECES, "{pieces} pieces\n{urdf}{world}");
             }
             Err(error) => {
                 refused += 1;

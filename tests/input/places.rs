@@ -53,7 +53,7 @@ fn a_robot_stands_where_the_world_puts_it() {
 /// If robot and obstacles are moved together, the plan stays the same. A placed obstacle equals one with corners at
 /// that place.
 #[test]
-fn what_moves_together_plans_alike() {
+fn robots_moved_with_their_world_plan_alike() {
     let ends = "[start]\njoints = [-0.9, 0.4]\n[goal]\njoints = [1.55, -0.35]\n";
     let shelf = [[1.15, 0.18], [1.6, 0.18], [1.6, 0.3], [1.15, 0.3]];
     let corners = |points: [[f64; 2]; 4]| points.map(|[x, y]| format!("[{x:?}, {y:?}]")).join(", ");

@@ -36,7 +36,7 @@ fn worlds(folder: &str) -> Vec<PathBuf> {
 }
 
 #[test]
-fn the_kept_schema_is_the_one_of_the_program() {
+fn the_committed_schema_is_up_to_date() {
     let printed = Command::new(env!("CARGO_BIN_EXE_cplan")).arg("schema").output().unwrap();
     assert_eq!(String::from_utf8(printed.stdout).unwrap(), kept(), "run `cplan schema > docs/world.schema.json`");
     assert_eq!(serde_json::from_str::<Value>(&kept()).unwrap(), cplan::input::world_schema());
@@ -223,7 +223,7 @@ fn worlds_with_every_key_are_valid() {
 }
 
 #[test]
-fn the_kept_reference_is_made_from_the_schema() {
+fn the_committed_reference_is_up_to_date() {
     let kept = std::fs::read_to_string(root().join("docs/world_reference.md")).unwrap();
     assert_eq!(page::page(&cplan::input::world_schema()), kept, "run `cargo run --example world_reference`");
     for key in keys(&cplan::input::world_schema()) {

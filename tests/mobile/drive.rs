@@ -57,7 +57,7 @@ fn without_obstacles_each_component_follows_its_closed_form() {
 
 /// Equation 4 is the inverse of the motion of a point ahead of the wheels.
 #[test]
-fn the_point_ahead_moves_as_it_is_told() {
+fn the_point_ahead_follows_its_command() {
     for seed in seeds(200) {
         let mut dice = dice(seed);
         let pose = Pose { at: Point::new(dice.within(-5.0, 5.0), 1.0), heading: dice.within(-4.0, 4.0) };

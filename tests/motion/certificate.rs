@@ -2,7 +2,7 @@
 
 use crate::common::{all_kinds, clutter, disc, q, scene};
 use crate::curve;
-use cplan::check::{CollisionCheck, blend, certify, check_collision, limits_kept};
+use cplan::check::{CollisionCheck, blend, certify, check_collision, limit_violations};
 use cplan::model::Scene;
 use cplan::motion::{Limits, time};
 use cplan::space::{Configuration, Path, Recording};
@@ -28,7 +28,7 @@ proptest! {
     #![proptest_config(cplan_cases::cases(96))]
 
     #[test]
-    fn blends_keep_what_is_proven(
+    fn blends_satisfy_the_proven_clearance(
         kind in 0_usize..5, corners in prop::collection::vec(prop::array::uniform2(0.0..1.0_f64), 3..5),
         reach in 0.05..0.7_f64, asked in prop_oneof![Just(0.0), 0.0..0.05_f64],
     ) {
@@ -56,7 +56,7 @@ proptest! {
         let recording =
             Recording::new(rows(&trajectory.position), Some(trajectory.time.clone()), Some(rows(&trajectory.velocity)));
         let recording = recording.unwrap();
-        prop_assert_eq!(limits_kept(&scene.arm().joints, &recording), []);
+        prop_assert_eq!(limit_violations(&scene.arm().joints, &recording), []);
         let verdict = check_collision(&scene, &recording, asked);
         let CollisionCheck::Free { clearance, .. } = verdict else { panic!("{verdict:?}") };
         prop_assert!(clearance >= 0.9 * curve.clearance());

@@ -252,7 +252,7 @@ const PATHS: [Case; 12] = [
 const OFF: f64 = 5e-3;
 
 /// Largest number of steps.
-const MOST_STEPS: usize = 20_000;
+const MAX_STEPS: usize = 20_000;
 
 #[test]
 fn near_the_least_time_along_the_same_curve() {
@@ -265,7 +265,7 @@ fn near_the_least_time_along_the_same_curve() {
                 break;
             }
             steps *= 2;
-            assert!(steps <= MOST_STEPS, "path {i}: the oracle itself is off: {coarse} {fine}");
+            assert!(steps <= MAX_STEPS, "path {i}: the oracle itself is off: {coarse} {fine}");
         }
         let took = motion.duration();
         println!("path {i}: {took:.4} s, least {fine:.4} s ({steps} steps), {:.2} % more", 100.0 * (took / fine - 1.0));

@@ -3,9 +3,9 @@
 use crate::common::{placed, q};
 use crate::sampled::{as_vector, between, recording};
 use crate::{curve, empty, waypoints};
-use cplan::check::{Limit, limits_kept};
+use cplan::check::{Limit, limit_violations};
 use cplan::model::{Joint, Scene};
-use cplan::motion::{Limits, SHORTEST_INTERVAL, Timed, TipSpeed, time};
+use cplan::motion::{Limits, MIN_INTERVAL, TimedMotion, TipSpeed, time};
 use cplan::space::Configuration;
 use proptest::prelude::*;
 
@@ -48,14 +48,14 @@ fn shortest(points: &[Configuration], joints: &[Joint; 2]) -> (f64, f64) {
         let (whole, phase) = closed_form(leg.norm(), v, a, j);
         sum += whole;
         // Seven phases of whole nanoseconds.
-        floor += if phase >= SHORTEST_INTERVAL { 7e-9 } else { 12.0 * SHORTEST_INTERVAL };
+        floor += if phase >= MIN_INTERVAL { 7e-9 } else { 12.0 * MIN_INTERVAL };
     }
     (sum, floor)
 }
 
 /// Integrates only the jerk, from rest at the start. The integrals must be the accelerations, velocities and positions
 /// of all samples, and the last sample must be at rest. Checks the limits, also between samples.
-fn check(joints: &[Joint; 2], timed: &Timed) {
+fn check(joints: &[Joint; 2], timed: &TimedMotion) {
     let trajectory = &timed.trajectory;
     let path = timed.curve.curve().path();
     let n = trajectory.time.len();
@@ -102,7 +102,7 @@ fn check(joints: &[Joint; 2], timed: &Timed) {
             }
         }
     }
-    assert_eq!(limits_kept(joints, &recording(trajectory)), []);
+    assert_eq!(limit_violations(joints, &recording(trajectory)), []);
 }
 
 #[test]
@@ -150,7 +150,7 @@ fn a_jump_of_the_acceleration_is_a_broken_limit() {
     let scene = room([1.0, 1.0], [4.0, 4.0], [None, None]);
     let timed = time(curve(&scene, &[[0.0, 0.0], [1.0, 0.5]], 0.3), &Limits::from(&scene.arm().joints), 0.01).unwrap();
     let smooth = room([1.0, 1.0], [4.0, 4.0], [None, Some(1000.0)]);
-    let found = limits_kept(&smooth.arm().joints, &recording(&timed.trajectory));
+    let found = limit_violations(&smooth.arm().joints, &recording(&timed.trajectory));
     assert_eq!(found.iter().map(|e| (e.joint, e.limit)).collect::<Vec<_>>(), [(1, Limit::AccelerationJump)]);
     assert!((found[0].value.abs() - 2.0).abs() < 1e-9 && found[0].allowed == 0.0 && found[0].moment.sample == 0);
 }
@@ -160,13 +160,13 @@ fn a_jerk_beyond_the_limit_is_a_broken_limit() {
     let scene = room([1.0, 1.0], [4.0, 4.0], [Some(20.2), Some(20.2)]);
     let timed = time(curve(&scene, &[[0.0, 0.0], [0.7, 0.7]], 0.3), &Limits::from(&scene.arm().joints), 0.01).unwrap();
     let gentler = room([1.0, 1.0], [4.0, 4.0], [Some(20.0), Some(20.2)]);
-    let found = limits_kept(&gentler.arm().joints, &recording(&timed.trajectory));
+    let found = limit_violations(&gentler.arm().joints, &recording(&timed.trajectory));
     assert_eq!(found.iter().map(|e| (e.joint, e.limit)).collect::<Vec<_>>(), [(0, Limit::Jerk)]);
     assert!((found[0].value.abs() - 20.2).abs() < 1e-6 && found[0].allowed == 20.0);
 }
 
 #[test]
-fn the_tip_keeps_its_limit() {
+fn the_tip_satisfies_its_speed_limit() {
     let scene = room([3.0, 3.0], [40.0, 40.0], [Some(300.0), Some(900.0)]);
     let limits = Limits { tip: Some(TipSpeed { arm: scene.arm(), speed: 0.5 }), ..Limits::from(&scene.arm().joints) };
     let timed = time(curve(&scene, &[[0.0, 0.0], [0.3, 0.4], [1.0, 0.4]], 0.3), &limits, 0.01).unwrap();

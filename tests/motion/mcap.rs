@@ -143,7 +143,7 @@ fn names() -> [String; 2] {
 }
 
 #[test]
-fn the_file_says_what_it_is() {
+fn the_file_has_its_header_and_schemas() {
     let motion = trajectory(&names(), &[0.0, 0.5], &[[0.0; 6]; 2]);
     let file = mcap(&[(&motion, 0.0)], None);
     let Some(Ok(Record::Header(header))) = LinearReader::new(&file).unwrap().next() else { panic!("no header") };

@@ -5,7 +5,7 @@ use crate::mcap::Decoder;
 use ::mcap::read::MessageStream;
 use cplan::PlanOutput as _;
 use cplan::geometry::{Convex, Point, Vector};
-use cplan::model::{Course, Heights, Mover, Stop, TimedWorkspace};
+use cplan::model::{Heights, MovingObstacle, ObstacleTrajectory, Stop, TimedWorkspace};
 use cplan::motion::Format;
 use cplan::output::FileFormat;
 use cplan::{Arm, Obstacle, Options, Problem, Workspace, plan};
@@ -184,10 +184,10 @@ fn frames_follow_the_states_and_surfaces_are_closed() {
 
 /// A cart arrives and stops. Its frame follows the straight line between its stops.
 #[test]
-fn what_moves_has_a_frame_that_follows_its_course() {
+fn moving_obstacles_have_moving_frames() {
     let stop = |time: f64, x: f64| Stop { time, at: Point::new(x, 0.2), angle: time / 2.0 };
-    let course = Course::new(vec![stop(0.0, 3.0), stop(0.5, 2.2)], Vector::zeros()).unwrap();
-    let cart = Mover { obstacle: Obstacle::circle("cart", [0.0, 0.0], 0.1).unwrap(), course };
+    let course = ObstacleTrajectory::new(vec![stop(0.0, 3.0), stop(0.5, 2.2)], Vector::zeros()).unwrap();
+    let cart = MovingObstacle { obstacle: Obstacle::circle("cart", [0.0, 0.0], 0.1).unwrap(), course };
     let workspace = TimedWorkspace { movers: vec![cart], ..Workspace::new([]).into() };
     let problem = Problem::new(Arm::rr([1.0, 0.8], 0.06).unwrap(), workspace, [-0.6, 0.2], [0.6, 0.2]).unwrap();
     let file = plan(&problem, &Options::default()).unwrap().bytes(FileFormat::Result(Format::Mcap)).unwrap().unwrap();

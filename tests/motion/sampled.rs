@@ -2,10 +2,10 @@
 
 use crate::common::q;
 use crate::{curve, empty, limits, waypoints};
-use cplan::check::{CertifiedCurve, limits_kept};
+use cplan::check::{CertifiedCurve, limit_violations};
 use cplan::model::Joint;
-use cplan::motion::{Limits, SHORTEST_INTERVAL, Timed, Trajectory, time};
-use cplan::space::{Configuration, HAIR, Recording};
+use cplan::motion::{Limits, MIN_INTERVAL, TimedMotion, Trajectory, time};
+use cplan::space::{BLEND_TOLERANCE, Configuration, Recording};
 use proptest::prelude::*;
 
 /// Samples lie at whole nanoseconds, at most this far from the beginnings of phases. In seconds.
@@ -66,8 +66,8 @@ fn off(curve: &CertifiedCurve, at: Configuration) -> f64 {
 }
 
 /// Checks everything that holds for every motion.
-fn check(joints: &[Joint; 2], timed: &Timed, period: f64) {
-    let Timed { curve, trajectory } = timed;
+fn check(joints: &[Joint; 2], timed: &TimedMotion, period: f64) {
+    let TimedMotion { curve, trajectory } = timed;
     let n = trajectory.time.len();
     let path = curve.curve().path();
     assert_eq!([as_vector(trajectory.position[0]), as_vector(trajectory.position[n - 1])], [path.start(), path.goal()]);
@@ -78,7 +78,7 @@ fn check(joints: &[Joint; 2], timed: &Timed, period: f64) {
     for k in 0..n - 1 {
         let h = trajectory.time[k + 1] - trajectory.time[k];
         // Multiples of the period near another sample are skipped.
-        assert!((0.998 * SHORTEST_INTERVAL..=period + 2e-4).contains(&h), "sample {k} lasts {h} s");
+        assert!((0.998 * MIN_INTERVAL..=period + 2e-4).contains(&h), "sample {k} lasts {h} s");
         // The stated acceleration alone, from rest at the start: Gauss's rule with three points, exact for the fifth
         // degree.
         let nodes = [0.5 - 0.15f64.sqrt(), 0.5, 0.5 + 0.15f64.sqrt()];
@@ -118,11 +118,11 @@ fn check(joints: &[Joint; 2], timed: &Timed, period: f64) {
     }
     // The cubic through positions and velocities does so, too, and its distance is never above the tolerance.
     let recording = recording(trajectory);
-    assert_eq!(limits_kept(joints, &recording), []);
+    assert_eq!(limit_violations(joints, &recording), []);
     let largest = curve.curve().radii().iter().copied().fold(0.0, f64::max);
     for (k, piece) in recording.pieces().iter().enumerate() {
         // The tolerance for each joint.
-        let hair = 1.5 * HAIR * largest + 1e-13 * size;
+        let hair = 1.5 * BLEND_TOLERANCE * largest + 1e-13 * size;
         let (there, h) = (between(trajectory, k, (piece.to - piece.from) / 2.0)[0], piece.to - piece.from);
         let late = HALF_A_NANOSECOND * joints[0].acceleration.max(joints[1].acceleration) * h;
         let (apart, aside) = ((piece.at(0.5) - there).amax(), off(curve, piece.at(0.5)));

@@ -281,7 +281,7 @@ fn a_slide_as_in_the_book() {
 }
 
 #[test]
-fn what_is_carried_counts() {
+fn payload_mass_counts() {
     let block = Object {
         name: "block".into(),
         shape: Shape::Pieces,

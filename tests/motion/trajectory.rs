@@ -8,7 +8,7 @@ use cplan::model::{
     Arm, Heights, Joint, JointType, Link, MotionProblem, Obstacle, OutlineSource, Part, Plane, RobotJoints, Scene,
     Shape, Status, Workspace,
 };
-use cplan::motion::{Blends, Format, JointMotion, Limits, Timed, Trajectory, csv, ros_yaml, time};
+use cplan::motion::{BlendReport, Format, JointMotion, Limits, TimedMotion, Trajectory, csv, ros_yaml, time};
 use cplan::space::{Configuration, JointRange, Path};
 use nalgebra::Vector3;
 use serde_json::Value;
@@ -68,7 +68,7 @@ fn certified(scene: &Scene, waypoints: &[[f64; 2]]) -> CertifiedPath {
     certify(scene, path, 0.0).expect("nothing is near")
 }
 
-fn driven(waypoints: &[[f64; 2]]) -> Timed {
+fn driven(waypoints: &[[f64; 2]]) -> TimedMotion {
     let scene = scene(true);
     let path = certified(&scene, waypoints);
     let curve = blend(&scene, &path, f64::INFINITY, 0.0);
@@ -134,7 +134,7 @@ fn json_holds_the_contract() {
 
 #[test]
 fn blends_are_counted() {
-    let Blends { count, largest_radius } = Blends::of(&driven(&WAYPOINTS).curve);
+    let BlendReport { count, largest_radius } = BlendReport::of(&driven(&WAYPOINTS).curve);
     assert!(count == 1 && largest_radius > 0.1 && largest_radius < 2.0, "{count}, {largest_radius}");
 }
 

@@ -9,8 +9,8 @@ use crate::world::world;
 use cplan::engine::task::{Event, Leg, TaskAnswer};
 use cplan::geometry::{Point, Pose, Vector};
 use cplan::model::{
-    Action, Arm, Course, Goal, Heights, Holding, Item, JointType, Mover, Object, Obstacle, Scene, Shape, Step, Stop,
-    Task, TimedWorkspace,
+    Action, Arm, Goal, Heights, Holding, Item, JointType, MovingObstacle, Object, Obstacle, ObstacleTrajectory, Scene,
+    Shape, Step, Stop, Task, TimedWorkspace,
 };
 use cplan::space::Configuration;
 
@@ -77,9 +77,9 @@ fn object(dice: &mut Dice, still: &Scene, number: usize, level: bool) -> Object 
         1 if !level => {
             // It comes, stops, turns and leaves.
             let stops = vec![stop(1.0, from, angle), stop(4.0, place, angle + 0.5), stop(5.5, place, angle + 0.5)];
-            Some(Course::new(stops, speed).expect("a course"))
+            Some(ObstacleTrajectory::new(stops, speed).expect("a course"))
         }
-        _ => Some(Course::new(vec![stop(0.0, from, angle)], speed).expect("a course")),
+        _ => Some(ObstacleTrajectory::new(vec![stop(0.0, from, angle)], speed).expect("a course")),
     };
     let at = course.as_ref().map_or_else(|| Pose::new(place, angle), |course| course.pose(0.0));
     Object {
@@ -129,7 +129,7 @@ pub fn on_course(object: &Object, time: f64) -> Frame {
     // A point of it and another one beside it, which give its pose.
     let pieces = vec![disc(Point::zeros(), 0.1), disc(Point::new(1.0, 0.0), 0.1)];
     let points = Obstacle { name: String::new(), shape: Shape::Pieces, pieces, heights: Heights::ALL };
-    let placed = at(&Mover { obstacle: points, course }, time).pieces;
+    let placed = at(&MovingObstacle { obstacle: points, course }, time).pieces;
     let [origin, beside] = [0, 1].map(|k| [placed[k].core()[0].x, placed[k].core()[0].y]);
     (sub(beside, origin), origin)
 }

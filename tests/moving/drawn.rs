@@ -5,7 +5,9 @@ use crate::common::{disc, rectangle};
 use crate::oracle::Oracle;
 use crate::world::{KINDS, world};
 use cplan::geometry::{Convex, Point, Vector};
-use cplan::model::{Arm, Course, Heights, Mover, Obstacle, Scene, Shape, Stop, TimedWorkspace, Workspace};
+use cplan::model::{
+    Arm, Heights, MovingObstacle, Obstacle, ObstacleTrajectory, Scene, Shape, Stop, TimedWorkspace, Workspace,
+};
 use cplan::motion::Trajectory;
 use cplan::space::{Configuration, GoalSet};
 use cplan::{Problem, ProblemError};
@@ -79,7 +81,7 @@ impl Moving {
             let first = mover.course.stops()[0].time;
             let sooner = |stop: &Stop| Stop { time: first + (stop.time - first) / times, ..*stop };
             let stops = mover.course.stops().iter().map(sooner).collect();
-            mover.course = Course::new(stops, mover.course.velocity()).expect("a course");
+            mover.course = ObstacleTrajectory::new(stops, mover.course.velocity()).expect("a course");
         }
         self
     }
@@ -87,7 +89,7 @@ impl Moving {
     /// Returns, for each interval between stops of each moving obstacle, its beginning, its end, and the greatest speed
     /// of a point of it, in m/s.
     pub fn speeds(&self) -> Vec<[f64; 3]> {
-        let of = |mover: &Mover| {
+        let of = |mover: &MovingObstacle| {
             let pieces = mover.obstacle.pieces.iter();
             let reach = pieces.map(|piece| piece.reach_from(Point::zeros())).fold(0.0, f64::max);
             let stops = mover.course.stops();
@@ -109,7 +111,7 @@ impl Moving {
 }
 
 /// Returns an obstacle that comes and goes, parks, passes by, or turns.
-pub fn mover(dice: &mut Dice, base: Point, reach: f64, halfway: Point) -> Mover {
+pub fn mover(dice: &mut Dice, base: Point, reach: f64, halfway: Point) -> MovingObstacle {
     let size = dice.within(0.05, 0.25);
     let piece = match dice.below(3) {
         0 => disc(Point::new(dice.within(-0.1, 0.1), 0.0), size),
@@ -127,7 +129,7 @@ pub fn mover(dice: &mut Dice, base: Point, reach: f64, halfway: Point) -> Mover 
     let course = match dice.below(4) {
         0 => {
             let speed = Vector::new(dice.within(-0.5, 0.5), dice.within(-0.5, 0.5));
-            Course::conveyor(places[0].into(), speed.into())
+            ObstacleTrajectory::conveyor(places[0].into(), speed.into())
         }
         kind => {
             let mut time = if dice.chance(0.5) { 0.0 } else { dice.within(0.0, 2.0) };
@@ -139,16 +141,16 @@ pub fn mover(dice: &mut Dice, base: Point, reach: f64, halfway: Point) -> Mover 
                 stops.push(Stop { time, at, angle });
                 time += dice.within(0.3, 3.0);
             }
-            Course::new(stops, Vector::zeros())
+            ObstacleTrajectory::new(stops, Vector::zeros())
         }
     };
     let name = "mover".into();
     let obstacle = Obstacle { name, shape: Shape::Pieces, pieces: vec![piece], heights: Heights::ALL };
-    Mover { obstacle, course: course.expect("a course") }
+    MovingObstacle { obstacle, course: course.expect("a course") }
 }
 
 /// Returns a moving obstacle at its pose, from its stops.
-pub fn at(mover: &Mover, time: f64) -> Obstacle {
+pub fn at(mover: &MovingObstacle, time: f64) -> Obstacle {
     let stops = mover.course.stops();
     let (first, last) = (stops[0], stops[stops.len() - 1]);
     let (place, angle) = if time <= first.time {

@@ -14,7 +14,7 @@ const STEP: f64 = 0.02;
 const APART: f64 = 2e-2;
 
 #[test]
-fn what_is_found_is_free_at_all_times_and_hardly_later_than_waiting_at_the_start() {
+fn motions_are_free_at_all_times_and_early() {
     let (mut found, mut waited, mut detours) = (0, 0, 0);
     for world in Moving::all(seeds(16)) {
         let plan = plan(&world.asked(), &Options { bounded: false, ..Options::default() }).expect("a plan");

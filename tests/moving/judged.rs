@@ -9,7 +9,7 @@ use cplan::{Options, plan};
 const LOOKS: usize = 400;
 
 #[test]
-fn motions_that_know_nothing_of_what_moves_are_judged_as_they_are() {
+fn motions_planned_without_moving_obstacles_are_judged() {
     let (mut free, mut hit) = (0, 0);
     for world in Moving::all(seeds(6)) {
         let standing = plan(&world.standing(), &Options { bounded: false, ..Options::default() }).expect("a plan");

@@ -5,7 +5,7 @@ use crate::common::{obstacle, placed, q, rectangle, rr};
 use crate::drawn::{Moving, at as moved};
 use crate::oracle::Oracle;
 use cplan::geometry::{Point, Vector};
-use cplan::model::{Course, Mover, Stop, TimedWorkspace, Workspace};
+use cplan::model::{MovingObstacle, ObstacleTrajectory, Stop, TimedWorkspace, Workspace};
 use cplan::space::{Configuration, JointRange, Path};
 use cplan::{Options, Outcome, Problem, plan};
 
@@ -24,7 +24,7 @@ fn where_no_timing_helps_a_flood_in_place_and_time_does_not_get_through() {
 
 /// Some obstacles cross the workspace in hundredths of a second. Checks at regular intervals miss them.
 #[test]
-fn where_no_timing_helps_among_what_is_fast_a_flood_does_not_get_through_either() {
+fn refuted_timings_agree_with_a_flood_fill() {
     let (refuted, unknown) = flooded(Moving::all(seeds(8)).map(|world| world.hurried(100.0)));
     println!("{refuted} refuted, {unknown} open");
     assert!(!usual() || refuted > 0, "nothing was refuted");
@@ -60,12 +60,12 @@ fn flooded(worlds: impl Iterator<Item = Moving>) -> (usize, usize) {
 /// second. The proof that no timing helps is right, although a search that checks every hundredth of a second does not
 /// see the bar.
 #[test]
-fn what_is_in_the_way_for_a_moment_refutes_every_timing() {
+fn a_momentary_block_refutes_every_timing() {
     let at = |time: f64, x: f64| Stop { time, at: Point::new(x, 0.0), angle: 0.0 };
     let stops = vec![at(0.1036, 9.0), at(0.1046, 0.0), at(0.1056, 9.0)];
-    let mover = Mover {
+    let mover = MovingObstacle {
         obstacle: obstacle("bar", rectangle(0.4, 0.6, -1.0, 1.0)),
-        course: Course::new(stops, Vector::zeros()).expect("a course"),
+        course: ObstacleTrajectory::new(stops, Vector::zeros()).expect("a course"),
     };
     let workspace = TimedWorkspace { movers: vec![mover.clone()], ..Workspace::new([]).into() };
     let arm = rr([JointRange::Interval { lower: -1.5, upper: 1.5 }; 2]);

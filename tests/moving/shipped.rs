@@ -5,7 +5,7 @@ use cplan::{Options, Outcome, Problem, plan};
 use std::path::Path;
 
 #[test]
-fn shipped_worlds_come_out_as_they_say() {
+fn shipped_worlds_have_the_stated_outcome() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut files: Vec<_> =
         std::fs::read_dir(root.join("workspaces/moving")).unwrap().map(|e| e.unwrap().path()).collect();

@@ -10,7 +10,7 @@ use crate::world::KINDS;
 use cplan::engine::task::plan;
 use cplan::geometry::{Point, Vector};
 use cplan::model::{
-    Action, Arm, Course, Heights, Holding, Item, Object, Obstacle, Outcome, Shape, Step, Task, Workspace,
+    Action, Arm, Heights, Holding, Item, Object, Obstacle, ObstacleTrajectory, Outcome, Shape, Step, Task, Workspace,
 };
 use cplan::space::Configuration;
 use cplan::{Options, Status};
@@ -20,7 +20,7 @@ use std::f64::consts::{PI, TAU};
 const BETWEEN: usize = 2;
 
 #[test]
-fn what_is_found_is_free_at_all_times_and_picks_what_is_there() {
+fn task_motions_are_free_and_pick_present_objects() {
     let (mut found, mut infeasible, mut unknown, mut waited) = (0, 0, 0, 0);
     for seed in seeds(8) {
         for task in KINDS.iter().filter_map(|kind| drawn(kind, seed)) {
@@ -78,7 +78,7 @@ fn single_pick(seed: u64) -> Task {
     let (near, angle) = (spot(&mut dice, [0.5, 1.6]), dice.within(-PI, PI));
     let velocity = Vector::new(angle.cos(), angle.sin()) * dice.within(0.1, 0.6);
     let from = near - velocity * dice.within(0.5, 4.0);
-    let course = Course::conveyor(from.into(), velocity.into()).expect("a course");
+    let course = ObstacleTrajectory::conveyor(from.into(), velocity.into()).expect("a course");
     let object = Object {
         name: "bottle".into(),
         shape: Shape::Pieces,
@@ -199,16 +199,16 @@ fn is_free(task: &Task, to: V, [departs, lasts, moment]: [f64; 3]) -> bool {
 
 /// An object that never comes within reach, and a task that is infeasible even without moving obstacles.
 #[test]
-fn what_is_proven_of_tasks_among_what_moves() {
+fn proofs_for_tasks_among_moving_obstacles() {
     let mut task = single_pick(0);
     task.workspace.obstacles.clear();
-    task.objects[0].course = Some(Course::conveyor([2.0, -3.0], [0.0, 0.5]).expect("a course"));
+    task.objects[0].course = Some(ObstacleTrajectory::conveyor([2.0, -3.0], [0.0, 0.5]).expect("a course"));
     task.objects[0].at = task.objects[0].course.as_ref().expect("a course").pose(0.0);
     let answer = plan(&task, &Options::default(), &mut |_| ());
     let Outcome::Infeasible(why) = &answer.outcome else { panic!("{:?}", answer.outcome) };
     assert!(why.reasons[0].contains("\"bottle\" is never within the arm's reach"), "{:?}", why.reasons);
     // It passes within reach, but not at that time.
-    task.objects[0].course = Some(Course::conveyor([1.0, -3.0], [0.0, 0.5]).expect("a course"));
+    task.objects[0].course = Some(ObstacleTrajectory::conveyor([1.0, -3.0], [0.0, 0.5]).expect("a course"));
     let found = plan(&task, &Options::default(), &mut |_| ());
     assert_eq!(found.failed(), None);
     let Item::Step(Step { action: Action::Pick { when, .. }, .. }) = &mut task.items[0] else { panic!("a pick") };

@@ -5,7 +5,7 @@ use cplan::Outcome;
 use cplan::engine::{Answer, Bound, Criterion, Method, Planner, Space, bound, solve};
 use cplan::geometry::{Convex, Point};
 use cplan::model::MotionProblem;
-use cplan::search::{Motions, least_length};
+use cplan::search::{MotionQuery, least_length};
 use cplan::space::{Configuration, GoalSet, JointRange, Metric, Path};
 use std::f64::consts::TAU;
 
@@ -101,7 +101,7 @@ fn among(axes: [JointRange; 2], pieces: Vec<Convex>, start: Configuration, goals
 }
 
 #[test]
-fn without_obstacles_the_bound_is_the_straight_way_the_short_way_round() {
+fn without_obstacles_the_bound_is_the_shortest_displacement() {
     let circles = [JointRange::Circle, JointRange::Circle];
     let problem = among(circles, Vec::new(), q(-3.0, 0.0), &[q(3.0, 0.5)]);
     let straight = (TAU - 6.0).hypot(0.5);
@@ -142,7 +142,7 @@ fn around_a_block_the_bound_is_the_shortest_path() {
 /// The path leads to the middle of a square spiral of walls. It is proven within the default gap, and its bound is not
 /// above that of the strips.
 #[test]
-fn gantries_find_their_way_into_spirals() {
+fn gantries_find_paths_into_spirals() {
     let slide = |angle: f64| cplan::model::JointType::Prismatic { direction: Point::new(angle.cos(), angle.sin()) };
     let (gap, radius) = (1.0, 0.2);
     for turns in [2, 6] {
@@ -166,7 +166,7 @@ fn gantries_find_their_way_into_spirals() {
         assert!(found.gap() <= 1e-4 && matches!(answer.space, Space::Regions(_)), "{turns}: {found:?}");
         // The strips share no code with the bound. They confirm it as far as they reach.
         let (scene, start, goals) = (problem.scene(), problem.start(), problem.goals());
-        let motions = Motions { scene, start, goals, clearance: 0.0, metric: Metric::Euclidean };
+        let motions = MotionQuery { scene, start, goals, clearance: 0.0, metric: Metric::Euclidean };
         let strips = least_length(&motions, found.upper, 1e-3, &[]);
         assert!(strips <= found.upper && found.lower <= strips * 1.005, "{turns}: {found:?}, {strips}");
     }

@@ -3,7 +3,7 @@
 use crate::common::{
     Benchmark, all_kinds, arm, benchmark, clutter, disc, joint, link, q, recheck, rectangle, rr, scene, wall,
 };
-use cplan::check::{CertifiedPath, Deviation, Posture, ProofError, Rejection, StraightMotions, StuckBox, certify};
+use cplan::check::{CertifiedPath, CollisionBox, Deviation, Posture, ProofError, Rejection, StraightMotions, certify};
 use cplan::geometry::{Point, Vector};
 use cplan::model::{JointType, Scene};
 use cplan::search::{Connectivity, Occupancy, connectivity, explore};
@@ -86,12 +86,12 @@ proptest! {
     }
 
     #[test]
-    fn stuck_boxes_hold_no_free_configuration(u in 0.0..1.0_f64, v in 0.0..1.0_f64) {
+    fn collision_boxes_hold_no_free_configuration(u in 0.0..1.0_f64, v in 0.0..1.0_f64) {
         let (scene, start, goal) = benchmark(Benchmark::Inf);
         let Connectivity::Disconnected(proof) = connectivity(&scene, start, &goal.into(), 0.0, 100_000) else {
             return Err(TestCaseError::fail("no proof"));
         };
-        for stuck in proof.stuck() {
+        for stuck in proof.collision_boxes() {
             let at = q(
                 stuck.cell.lower[0] + u * (stuck.cell.upper[0] - stuck.cell.lower[0]),
                 stuck.cell.lower[1] + v * (stuck.cell.upper[1] - stuck.cell.lower[1]),
@@ -120,7 +120,7 @@ fn thin_walls_between_samples_are_found() {
 }
 
 #[test]
-fn clearance_asked_for_is_kept_or_refused() {
+fn requested_clearance_is_certified_or_refused() {
     let scene = scene(rr([JointRange::Circle, JointRange::Circle]), vec![rectangle(1.9, 2.0, -1.0, 1.0)]);
     let path = || Path::new(vec![q(-0.3, 0.0), q(0.3, 0.0)]);
     // At q = 0, the tip is 0.1 m from the wall, and later its corners are slightly nearer.
@@ -162,7 +162,7 @@ fn benchmark_problems_are_decided() {
 }
 
 #[test]
-fn limits_and_clearance_can_close_the_way() {
+fn limits_and_clearance_can_make_a_problem_infeasible() {
     // The only obstacle is a pole: the arm can pass it on the torus, but not within limits that end before it.
     let pole = || vec![disc(Point::new(0.0, 1.4), 0.05)];
     let decide =
@@ -178,9 +178,9 @@ fn limits_and_clearance_can_close_the_way() {
 }
 
 /// Returns the stuck boxes of a problem without a path.
-fn proof(scene: &Scene, start: Configuration, goal: Configuration, clearance: f64) -> Vec<StuckBox> {
+fn proof(scene: &Scene, start: Configuration, goal: Configuration, clearance: f64) -> Vec<CollisionBox> {
     match connectivity(scene, start, &goal.into(), clearance, 200_000) {
-        Connectivity::Disconnected(proof) => proof.stuck().to_vec(),
+        Connectivity::Disconnected(proof) => proof.collision_boxes().to_vec(),
         other => panic!("not proven: {other:?}"),
     }
 }
@@ -199,14 +199,14 @@ fn proofs_are_accepted_by_the_independent_check() {
     assert_eq!(recheck(&boxes, &pole, start, &goal.into(), 0.4), Ok(()));
     // The same boxes prove nothing about a smaller clearance.
     let refused = recheck(&boxes, &pole, start, &goal.into(), 0.0);
-    assert!(matches!(refused, Err(ProofError::NotStuck { .. })), "{refused:?}");
+    assert!(matches!(refused, Err(ProofError::NotColliding { .. })), "{refused:?}");
 }
 
 #[test]
 fn false_proofs_are_refused() {
     let (scene, start, goal) = benchmark(Benchmark::Inf);
     let boxes = proof(&scene, start, goal, 0.0);
-    let judge = |boxes: &[StuckBox]| recheck(boxes, &scene, start, &goal.into(), 0.0);
+    let judge = |boxes: &[CollisionBox]| recheck(boxes, &scene, start, &goal.into(), 0.0);
     assert_eq!(judge(&[]), Err(ProofError::NotSeparated(0)));
     assert_eq!(recheck(&boxes, &scene, start, &start.into(), 0.0), Err(ProofError::NotSeparated(0)));
 
@@ -215,13 +215,13 @@ fn false_proofs_are_refused() {
     assert!(fewer[0] && !fewer[20]);
     assert!(fewer.windows(2).all(|w| w[0] || !w[1]));
 
-    let wrong = |change: fn(&mut StuckBox)| {
+    let wrong = |change: fn(&mut CollisionBox)| {
         let mut boxes = boxes.clone();
         change(&mut boxes[7]);
         judge(&boxes)
     };
     let grown = wrong(|b| (b.cell.lower, b.cell.upper) = ([-3.0, -3.0], [3.0, 3.0]));
-    assert!(matches!(grown, Err(ProofError::NotStuck { index: 7, .. })), "{grown:?}");
+    assert!(matches!(grown, Err(ProofError::NotColliding { index: 7, .. })), "{grown:?}");
     assert_eq!(wrong(|b| b.cell.upper[0] = 4.0), Err(ProofError::NotInDomain(7)));
     assert_eq!(wrong(|b| b.cell.upper[1] = f64::NAN), Err(ProofError::NotInDomain(7)));
     assert_eq!(wrong(|b| b.pair.obstacle = 17), Err(ProofError::UnknownPair(7)));
@@ -229,7 +229,7 @@ fn false_proofs_are_refused() {
 
 /// Returns true if the boxes leave a path from `start` to `goal` on the torus: flood fill over the grid of all their
 /// coordinates.
-fn flooded(boxes: &[StuckBox], start: Configuration, goal: Configuration) -> bool {
+fn flooded(boxes: &[CollisionBox], start: Configuration, goal: Configuration) -> bool {
     let ends: [Vec<f64>; 2] = [0, 1].map(|k| {
         let sides = boxes.iter().flat_map(|b| [b.cell.lower[k], b.cell.upper[k]]);
         let mut ends: Vec<f64> = sides.chain([-PI, PI]).collect();
@@ -261,7 +261,7 @@ fn flooded(boxes: &[StuckBox], start: Configuration, goal: Configuration) -> boo
 }
 
 #[test]
-fn what_separates_is_decided_as_by_flood_fill() {
+fn separation_agrees_with_flood_fill() {
     for which in [Benchmark::Inf, Benchmark::T] {
         let (scene, start, goal) = benchmark(which);
         let boxes = proof(&scene, start, goal, 0.0);
@@ -311,14 +311,14 @@ fn proofs_leave_out_boxes_that_do_not_matter() {
         let (scene, start, goal) = benchmark(which);
         let boxes = proof(&scene, start, goal, 0.0);
         let mut known = explore(&scene, start, &goal.into(), 0.0, 200_000).boxes;
-        known.retain(|(_, occupancy)| *occupancy == Occupancy::Stuck);
+        known.retain(|(_, occupancy)| *occupancy == Occupancy::Colliding);
         assert!(boxes.iter().all(|b| known.iter().any(|(cell, _)| *cell == b.cell)));
         assert!(boxes.len() < known.len(), "{} of {}", boxes.len(), known.len());
     }
 }
 
 #[test]
-fn the_boxes_cover_the_domain_and_are_what_they_say() {
+fn the_boxes_cover_the_domain_with_true_states() {
     for (kind, arm) in all_kinds().into_iter().enumerate() {
         let scene = scene(arm, clutter());
         let topology = scene.arm().topology();
@@ -339,7 +339,7 @@ fn the_boxes_cover_the_domain_and_are_what_they_say() {
             for (_, occupancy) in boxes.iter().filter(|(cell, _)| holds(cell)) {
                 held = true;
                 assert!(*occupancy != Occupancy::Free || clearance > 0.0, "kind {kind} at {at:?}: {clearance}");
-                assert!(*occupancy != Occupancy::Stuck || clearance < 0.0, "kind {kind} at {at:?}: {clearance}");
+                assert!(*occupancy != Occupancy::Colliding || clearance < 0.0, "kind {kind} at {at:?}: {clearance}");
             }
             assert!(held, "kind {kind}: no box holds {at:?}");
         }

@@ -268,13 +268,13 @@ fn the_trace_and_size_are_those_of_the_representation() {
                 drawn.len() == cells[0] * cells[1]
                     && drawn.iter().filter(|&&label| label != u32::MAX).count() == reached
             }
-            (Trace::Wavefront { cells, labels: drawn, .. }, Size::Search { expanded, labelled }) => {
+            (Trace::Wavefront { cells, labels: drawn, .. }, Size::Search { expanded, labeled }) => {
                 drawn.len() == cells[0] * cells[1]
-                    && drawn.iter().filter(|&&label| label != u32::MAX).count() == labelled
-                    && expanded <= labelled
+                    && drawn.iter().filter(|&&label| label != u32::MAX).count() == labeled
+                    && expanded <= labeled
             }
-            (Trace::Wavefront { labels: drawn, expanded, .. }, Size::Deepening { rounds, expansions, labelled }) => {
-                drawn.iter().filter(|&&label| label != u32::MAX).count() == labelled
+            (Trace::Wavefront { labels: drawn, expanded, .. }, Size::Deepening { rounds, expansions, labeled }) => {
+                drawn.iter().filter(|&&label| label != u32::MAX).count() == labeled
                     && rounds > 0
                     && expansions >= expanded.len()
             }

@@ -32,7 +32,7 @@ fn ring(count: usize, folding: f64) -> MotionProblem {
 }
 
 #[test]
-fn a_way_among_20_000_pieces_is_found_and_certified_among_all_of_them() {
+fn a_path_among_20_000_pieces_is_found_and_certified() {
     let problem = ring(20_000, 3.0);
     let verdict = decide(&problem, 20_000);
     let Outcome::Found(path) = verdict else { panic!("an arm that folds gets there: {verdict:?}") };
@@ -47,14 +47,14 @@ fn a_way_among_20_000_pieces_is_found_and_certified_among_all_of_them() {
 }
 
 #[test]
-fn a_way_closed_by_20_000_pieces_is_proven_closed_by_boxes_of_true_pairs() {
+fn infeasibility_among_20_000_pieces_is_proven_with_original_pairs() {
     let problem = ring(20_000, 0.3);
     let verdict = decide(&problem, 20_000);
     let Outcome::Infeasible(proof) = verdict else { panic!("a stiff arm stays in its gap: {verdict:?}") };
     let scene = problem.scene();
-    assert_eq!(recheck(proof.stuck(), scene, problem.start(), problem.goals(), 0.0), Ok(()));
-    assert!(!proof.stuck().is_empty());
-    for stuck in proof.stuck() {
+    assert_eq!(recheck(proof.collision_boxes(), scene, problem.start(), problem.goals(), 0.0), Ok(()));
+    assert!(!proof.collision_boxes().is_empty());
+    for stuck in proof.collision_boxes() {
         let pose = scene.arm().pose(stuck.pair.link, stuck.cell.center());
         assert!(shapes_meet(&scene.part(stuck.pair).at(&pose), scene.piece(stuck.pair)), "{stuck:?}");
     }
@@ -63,21 +63,21 @@ fn a_way_closed_by_20_000_pieces_is_proven_closed_by_boxes_of_true_pairs() {
 /// A slot just narrower than the arm takes tens of thousands of boxes to prove closed. Slabs show that it is closed, so
 /// the search examines these boxes even beyond the budget for unclear cases.
 #[test]
-fn what_slabs_see_closed_is_proven_closed() {
+fn infeasibility_found_by_slabs_is_proven() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let files = ["robots/rail_arm.urdf", "workspaces/slot_closed.toml"].map(|file| root.join(file));
     let problem = input::load(&files[0], &files[1], &Overrides::default()).unwrap().problem;
     let first = solve(&problem, &Options { boxes: 10_000, ..Method::First.into() }, &mut |_| {});
     for proof in [decide(&problem, 20_000).infeasible(), first.outcome.infeasible()] {
         let proof = proof.expect("it is closed");
-        assert!(proof.stuck().len() < 1000, "{}", proof.stuck().len());
-        assert_eq!(recheck(proof.stuck(), problem.scene(), problem.start(), problem.goals(), 0.0), Ok(()));
+        assert!(proof.collision_boxes().len() < 1000, "{}", proof.collision_boxes().len());
+        assert_eq!(recheck(proof.collision_boxes(), problem.scene(), problem.start(), problem.goals(), 0.0), Ok(()));
     }
 }
 
 /// Only contact closes a slot exactly as wide as the arm, and no box proves that. The search ends with its budget.
 #[test]
-fn what_takes_more_boxes_than_allowed_is_left_open() {
+fn exceeded_budgets_leave_the_answer_unknown() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let closed = std::fs::read_to_string(root.join("workspaces/slot_closed.toml")).unwrap();
     let place = tempfile::tempdir().unwrap();

@@ -9,7 +9,7 @@
 
 use crate::common::random::{seeds, usual};
 use crate::random_worlds::world::{KINDS, world};
-use cplan::engine::explain::{BlockingSet, Cure, Element, Question, Side, blocking_set, explain};
+use cplan::engine::explain::{BlockingSet, ChangeKind, Element, MotionQuestion, Side, blocking_set, explain};
 use cplan::engine::{Method, Planner, decide, solve};
 use cplan::geometry::{Convex, Point, Vector};
 use cplan::model::{
@@ -96,7 +96,7 @@ fn blocking_sets_are_irreducible() {
             let Some(problem) = world(kind, seed) else { continue };
             let Outcome::Infeasible(proof) = decide(&problem, BOXES) else { continue };
             let clock = Instant::now();
-            let set = blocking_set(&Question::from(&problem), Some(proof), [BOXES, BOXES_AT_LAST]);
+            let set = blocking_set(&MotionQuestion::from(&problem), Some(proof), [BOXES, BOXES_AT_LAST]);
             times.push(clock.elapsed());
             sizes.push(set.blockers.len());
             if !set.is_irreducible() {
@@ -136,7 +136,7 @@ fn blocking_sets_of_degenerate_worlds() {
     for (kind, seed) in long_ways.into_iter().chain(thin) {
         let problem = world(kind, seed).expect("a world");
         let Outcome::Infeasible(proof) = decide(&problem, BOXES) else { panic!("{kind} {seed} has a motion") };
-        let set = blocking_set(&Question::from(&problem), Some(proof), [BOXES, BOXES_AT_LAST]);
+        let set = blocking_set(&MotionQuestion::from(&problem), Some(proof), [BOXES, BOXES_AT_LAST]);
         assert!(set.is_irreducible(), "{kind} {seed}: {:?}", set.elements());
         assert_eq!(faults(&problem, &set), Vec::<String>::new(), "{kind} {seed}");
     }
@@ -146,7 +146,7 @@ fn blocking_sets_of_degenerate_worlds() {
 const HALF: f64 = 0.1;
 
 /// Returns a square block that slides within 1 m of the origin along x and y, from the left to the right.
-fn gantry(obstacles: Vec<Obstacle>, clearance: f64) -> Question {
+fn gantry(obstacles: Vec<Obstacle>, clearance: f64) -> MotionQuestion {
     let slide = |name, direction| Joint::sliding(name, direction, -1.0, 1.0);
     let square = cplan::geometry::Convex::new(
         [[-HALF, -HALF], [HALF, -HALF], [HALF, HALF], [-HALF, HALF]].map(cplan::Point::from).to_vec(),
@@ -164,7 +164,7 @@ fn gantry(obstacles: Vec<Obstacle>, clearance: f64) -> Question {
     let workspace = Workspace { clearance, ..Workspace::new(obstacles) };
     let scene = Scene::new(arm, workspace).expect("a scene");
     let goal = cplan::space::GoalSet::from(Configuration::new(0.8, 0.0));
-    Question::new(scene, Configuration::new(-0.8, 0.0), goal)
+    MotionQuestion::new(scene, Configuration::new(-0.8, 0.0), goal)
 }
 
 fn bar(name: &str, lower: f64, upper: f64) -> Obstacle {
@@ -179,7 +179,7 @@ fn wall(gap: f64) -> Vec<Obstacle> {
 /// The changes have closed forms if a gap is too narrow by 0.03 m: one half is moved or made smaller by 0.03 m, or both
 /// by half of it.
 #[test]
-fn a_gap_is_too_narrow_by_what_it_lacks() {
+fn the_missing_width_of_a_gap_is_reported() {
     let lacking = 0.03;
     let explanation = explain(&gantry(wall(2.0 * HALF - lacking), 0.0), &Options::default());
     let Outcome::Infeasible(closed) = &explanation.outcome else { panic!("{}", explanation.status()) };
@@ -189,7 +189,7 @@ fn a_gap_is_too_narrow_by_what_it_lacks() {
     for change in of_obstacles() {
         assert!(change.by.closed <= lacking && lacking < change.by.opens, "{change:?}");
         assert!(change.by.opens - change.by.closed <= 1e-3, "{change:?}");
-        if let Cure::Moved { direction: [x, y] } = change.cure {
+        if let ChangeKind::Moved { direction: [x, y] } = change.cure {
             let outwards = if change.element == (Element::Obstacle { number: 0 }) { 1.0 } else { -1.0 };
             assert!(x.abs() < 1e-9 && (y - outwards).abs() < 1e-9, "{change:?}");
         }
@@ -197,25 +197,26 @@ fn a_gap_is_too_narrow_by_what_it_lacks() {
     assert_eq!(of_obstacles().count(), 4, "{:?}", closed.sets);
     let stuck = closed.bottleneck.as_ref().expect("a narrow place");
     assert!(stuck.by.closed <= lacking / 2.0 && lacking / 2.0 < stuck.by.opens, "{stuck:?}");
-    assert!((stuck.lacking(0.0) - lacking).abs() < 1e-9, "{stuck:?}");
+    assert!((stuck.missing_distance(0.0) - lacking).abs() < 1e-9, "{stuck:?}");
     assert!(stuck.at[1].abs() < lacking && stuck.at[0].abs() < HALF + 0.06, "{stuck:?}");
 }
 
 /// The gap is wide enough except for the clearance of 0.05 m on either side.
 #[test]
-fn clearance_is_lowered_to_half_of_what_a_gap_leaves() {
+fn clearance_is_lowered_to_half_the_gap() {
     let explanation = explain(&gantry(wall(2.0 * HALF + 0.06), 0.05), &Options::default());
     let Outcome::Infeasible(closed) = &explanation.outcome else { panic!("{}", explanation.status()) };
     let set = &closed.sets[0];
     assert!(set.elements().contains(&Element::Clearance), "{:?}", set.elements());
-    let lowered = closed.changes().find(|change| change.cure == Cure::Lowered).expect("the clearance opens a way");
+    let lowered =
+        closed.changes().find(|change| change.cure == ChangeKind::Lowered).expect("the clearance opens a way");
     assert!(lowered.by.closed <= 0.02 && 0.02 <= lowered.by.opens, "{lowered:?}");
     assert!(lowered.by.opens - lowered.by.closed <= 1e-3, "{lowered:?}");
 }
 
 /// A wall leaves room only at its upper end, where the slide stops a hundredth too early.
 #[test]
-fn a_limit_is_widened_by_what_it_lacks() {
+fn a_limit_is_widened_by_the_missing_range() {
     let end = 1.0 - HALF + 0.01;
     let explanation = explain(&gantry(vec![bar("wall", -3.0, end)], 0.0), &Options::default());
     let Outcome::Infeasible(closed) = &explanation.outcome else { panic!("{}", explanation.status()) };
@@ -244,7 +245,7 @@ fn walls_behind_one_another_are_sets_of_their_own() {
 
 /// A start in an obstacle is explained by that obstacle alone.
 #[test]
-fn a_blocked_start_is_opened_by_what_it_hits() {
+fn a_blocked_start_names_the_obstacle_to_change() {
     let block = Obstacle::polygon("block", [[-0.75, -0.3], [-0.6, -0.3], [-0.6, 0.3], [-0.75, 0.3]]).expect("a block");
     let explanation = explain(&gantry(vec![bar("post", 0.5, 0.6), block], 0.0), &Options::default());
     let Outcome::Infeasible(closed) = &explanation.outcome else { panic!("{}", explanation.status()) };
@@ -258,7 +259,7 @@ fn a_blocked_start_is_opened_by_what_it_hits() {
 
 /// Without the only bar the path is straight.
 #[test]
-fn what_shapes_the_shortest_path_is_told_with_what_it_costs() {
+fn obstacles_that_lengthen_the_path_are_reported_with_their_cost() {
     let (across, corner) = (0.15, [0.15_f64, 0.3]);
     let bars = vec![bar("high", 0.8, 0.9), bar("middle", -3.0, corner[1] - HALF)];
     let explanation = explain(&gantry(bars, 0.0), &Options::default());
@@ -308,7 +309,7 @@ fn rescaled(problem: &MotionProblem, scale: f64, turns: [f64; 2]) -> MotionProbl
 /// Arms of metres, millimetres and hundreds of metres start up to twenty turns away. The reported lengths without an
 /// element hold for paths of another planner, in a world built from scratch without that element.
 #[test]
-fn what_is_said_of_lengths_holds_for_paths_of_another_planner() {
+fn reported_lengths_hold_for_another_planner() {
     let (by_graph, mut seen) = (Options { planner: Planner::named(Method::Visibility), ..Options::default() }, 0);
     let graph = |problem: &MotionProblem| match solve(problem, &by_graph, &mut |_| ()).outcome {
         Outcome::Found(path) => Some(path.path().length()),
@@ -324,7 +325,7 @@ fn what_is_said_of_lengths_holds_for_paths_of_another_planner() {
             let few = Scene::new(arm, workspace).expect("fewer obstacles");
             let few = MotionProblem::new(few, drawn.start(), drawn.goals().clone()).expect("as free as before");
             let problem = rescaled(&few, scale, turns);
-            let explanation = explain(&Question::from(&problem), &Options::default());
+            let explanation = explain(&MotionQuestion::from(&problem), &Options::default());
             let Outcome::Found(shaped) = &explanation.outcome else { continue };
             let whole = shaped.answer.bound().expect("a bound");
             let name = format!("{kind} {seed} at {scale}");
@@ -376,7 +377,7 @@ fn lengths_without_an_obstacle_are_those_at_the_worlds_own_clearance() {
     }
     let scene = Scene::new(arm, workspace).expect("a scene");
     let goal = GoalSet::from(Configuration::new(0.8e-3, 0.0));
-    let explanation = explain(&Question::new(scene, Configuration::new(-0.8e-3, 0.0), goal), &Options::default());
+    let explanation = explain(&MotionQuestion::new(scene, Configuration::new(-0.8e-3, 0.0), goal), &Options::default());
     let Outcome::Found(shaped) = &explanation.outcome else { panic!("{}", explanation.status()) };
     let around = |height: f64| 2.0 * ((0.8_f64 - corner[0]).hypot(height) + corner[0]) * 1e-3;
     let [saving] = &shaped.savings[..] else { panic!("{:?}", shaped.savings) };
@@ -387,7 +388,7 @@ fn lengths_without_an_obstacle_are_those_at_the_worlds_own_clearance() {
 
 /// When the time is up, the explanation has the known part: the problem is infeasible, with possible blockers.
 #[test]
-fn an_explanation_that_is_stopped_has_the_verdict_and_no_set_that_is_said_to_be_irreducible() {
+fn a_stopped_explanation_claims_no_irreducible_set() {
     let question = gantry(wall(2.0 * HALF - 0.03), 0.0).with_time_limit(Duration::from_nanos(1));
     let explanation = explain(&question, &Options::default());
     let Outcome::Infeasible(closed) = &explanation.outcome else { panic!("{}", explanation.status()) };

@@ -11,7 +11,7 @@ use crate::random_worlds::oracle::Oracle;
 use crate::random_worlds::world::{KINDS, world};
 use cplan::engine::{Method, Motion};
 use cplan::model::Status;
-use cplan::motion::{Blends, Drive, Objective, Trajectory};
+use cplan::motion::{BlendReport, Drive, Objective, Trajectory};
 use cplan::space::{Configuration, Path};
 use cplan::{Options, Plan, Planner, Problem, plan};
 
@@ -131,7 +131,7 @@ fn motions_of_random_worlds() {
         smooth += usize::from(duration(&along) < duration(&stopping));
         faster += usize::from(duration(&fastest) < 0.99 * duration(&plain));
         let corners = along.waypoints().map_or(0, |path| path.len() - 2);
-        stops += usize::from(corners > 0 && Blends::of(&motion(&along).timed.curve).count == 0);
+        stops += usize::from(corners > 0 && BlendReport::of(&motion(&along).timed.curve).count == 0);
         gains.push(1.0 - duration(&fastest) / duration(&plain));
     }
     gains.sort_by(f64::total_cmp);

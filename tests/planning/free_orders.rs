@@ -133,7 +133,7 @@ fn a_free_order_is_found_where_that_of_the_file_cannot_be_done() {
 }
 
 #[test]
-fn what_no_order_can_do_is_proven_of_large_groups_too() {
+fn infeasibility_in_any_order_is_proven_for_large_groups() {
     // Two parts change places without room to put one aside.
     let mut swapped = tray(14);
     let [first, second] = [swapped[0][0], swapped[4][0]];

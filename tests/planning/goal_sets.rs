@@ -8,7 +8,7 @@ use cplan::Outcome;
 use cplan::engine::{Method, solve};
 use cplan::geometry::{Point, Vector};
 use cplan::model::{Arm, JointType, MotionProblem, Scene, inverse};
-use cplan::search::{Connectivity, Motions, connectivity, least_length, slab_connectivity};
+use cplan::search::{Connectivity, MotionQuery, connectivity, least_length, slab_connectivity};
 use cplan::space::{Configuration, GoalSet, JointRange, Metric, Segment};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -127,7 +127,11 @@ fn a_set_of_goals_is_reached_if_any_of_it_is() {
             match answer {
                 Connectivity::Disconnected(proof) => {
                     assert!(connected.is_empty(), "seed {seed}: a false proof, {connected:?} can be reached");
-                    assert_eq!(recheck(proof.stuck(), scene, start, problem.goals(), 0.0), Ok(()), "seed {seed}");
+                    assert_eq!(
+                        recheck(proof.collision_boxes(), scene, start, problem.goals(), 0.0),
+                        Ok(()),
+                        "seed {seed}"
+                    );
                     infeasible += 1;
                 }
                 Connectivity::Connected(channel) => {
@@ -140,7 +144,7 @@ fn a_set_of_goals_is_reached_if_any_of_it_is() {
         // A proof for one value holds for the set only if nothing of the set can be reached.
         for (goal, answer) in &each {
             if let (Connectivity::Disconnected(proof), false) = (answer, connected.is_empty()) {
-                let whole = recheck(proof.stuck(), scene, start, problem.goals(), 0.0);
+                let whole = recheck(proof.collision_boxes(), scene, start, problem.goals(), 0.0);
                 assert!(whole.is_err(), "seed {seed}: a proof about {goal} is taken for one about all goals");
             }
         }
@@ -162,7 +166,7 @@ fn a_set_of_goals_is_reached_if_any_of_it_is() {
                         bound.lower
                     );
                     let metric = Metric::Euclidean;
-                    let motions = Motions { scene, start, goals: problem.goals(), clearance: 0.0, metric };
+                    let motions = MotionQuery { scene, start, goals: problem.goals(), clearance: 0.0, metric };
                     let least = least_length(&motions, length, 1e-3, &[]);
                     assert!(least <= length, "seed {seed}");
                     // The planner looks for a shorter path that only the finest levels show in two cases: there is no
@@ -182,7 +186,7 @@ fn a_set_of_goals_is_reached_if_any_of_it_is() {
 /// millimetre. The first level's polygons close it, so only a path of length 5.89 all around is left. The bound (0.89)
 /// shows that a shorter path may exist, so the planner tries a finer level.
 #[test]
-fn a_short_way_through_a_narrow_passage_is_preferred_to_a_long_way_round() {
+fn a_short_narrow_passage_is_preferred_to_a_long_detour() {
     let problem = world(9_083_322_546_425_692_186).expect("a world");
     let answer = solve(&problem, &Method::Visibility.into(), &mut |_| {});
     let bound = answer.bound().expect("visibility bounds what it finds");
@@ -247,7 +251,7 @@ fn joints_about_one_axis_share_the_angle() {
         let Outcome::Infeasible(proof) = solve(&barred, &method.into(), &mut |_| {}).outcome else {
             panic!("{method}: link 2 has to pass the obstacle")
         };
-        assert_eq!(recheck(proof.stuck(), &scene, start, barred.goals(), 0.0), Ok(()), "{method}");
+        assert_eq!(recheck(proof.collision_boxes(), &scene, start, barred.goals(), 0.0), Ok(()), "{method}");
         let Outcome::Found(path) = solve(&open, &method.into(), &mut |_| {}).outcome else {
             panic!("{method}: the other way round is free")
         };

@@ -25,7 +25,7 @@ fn options(method: Method) -> Options {
 fn said(answer: &Answer) -> (Proposal, String) {
     let verdict = match &answer.outcome {
         Outcome::Found(path) => format!("{:?}", path.path().waypoints()),
-        Outcome::Infeasible(proof) => format!("{:?}", proof.stuck()),
+        Outcome::Infeasible(proof) => format!("{:?}", proof.collision_boxes()),
         Outcome::Unknown(unknown) => unknown.to_string(),
     };
     (answer.run.outcome.clone(), verdict)
@@ -45,7 +45,7 @@ fn every_planner_comes_by_a_checkpoint() {
 /// At each checkpoint a stopped plan either reports the stop or equals the full plan, and the next plan is not
 /// disturbed.
 #[test]
-fn a_stopped_plan_says_nothing_and_leaves_nothing() {
+fn a_stopped_plan_prints_and_writes_nothing() {
     for world in ["shelf.toml", "crowd.toml", "singular_closed.toml"] {
         let problem = problem(world);
         for method in Method::ALL {

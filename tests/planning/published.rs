@@ -91,7 +91,7 @@ fn the_plain_relaxation_counts_what_the_library_counts() {
             for single in [false, true] {
                 let choice = Choice { single, beyond: Beyond::Clamped, rule, tolerance: 1e-4 };
                 let precision = if single { Precision::Single } else { Precision::Double };
-                let relaxation = relaxation.clamped([0.0, 1.0]).kept(precision);
+                let relaxation = relaxation.clamped([0.0, 1.0]).with_precision(precision);
                 let stopping = Stopping { measure, below: 1e-4, max_sweeps: 1_500 };
                 let field = relax(&domain, &Equation::Harmonic, &relaxation, &stopping).unwrap();
                 let sweeps = field.converged().then(|| field.sweeps());

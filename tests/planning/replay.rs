@@ -42,7 +42,7 @@ fn there(shows: &Shows, trace: &Trace) -> Option<usize> {
 }
 
 #[test]
-fn every_planner_tells_how_it_came_to_its_path() {
+fn every_planner_has_a_replay() {
     for method in Method::ALL {
         let plan = asked("planar_2r", "workbench", method);
         let ((_, answer), phases) = (plan.motion().unwrap(), replayed(&plan));
@@ -66,7 +66,7 @@ fn every_planner_tells_how_it_came_to_its_path() {
 }
 
 #[test]
-fn searches_are_told_in_the_order_in_which_they_went() {
+fn replays_follow_the_order_of_the_search() {
     for search in GridSearch::ALL {
         let planner = Planner::named(Method::Wavefront).with(Setting::GridSearch, |s| s.grid_search = search);
         let plan = asked("planar_2r", "shelf", planner);
@@ -91,7 +91,7 @@ fn searches_are_told_in_the_order_in_which_they_went() {
 }
 
 #[test]
-fn boxes_of_slabs_are_what_they_are_said_to_be() {
+fn boxes_of_slabs_have_true_states() {
     let mut seen = 0;
     for (name, problem) in shipped_feasible() {
         let options = Options::from(Method::First);
@@ -120,15 +120,15 @@ fn boxes_of_slabs_are_what_they_are_said_to_be() {
 }
 
 #[test]
-fn a_proof_is_told_box_by_box() {
+fn a_proof_is_replayed_box_by_box() {
     let plan = asked("planar_2r_continuous", "no_path", Method::Shortest);
-    let proof = plan.motion().unwrap().1.outcome.infeasible().unwrap().stuck().len();
+    let proof = plan.motion().unwrap().1.outcome.infeasible().unwrap().collision_boxes().len();
     let last = replayed(&plan).pop().unwrap();
     assert_eq!((last.shows, last.events), (Shows::Proof, proof));
 }
 
 #[test]
-fn a_field_is_told_between_its_sweeps() {
+fn a_field_is_replayed_sweep_by_sweep() {
     let relaxed = cplan::planner::FieldPlanner {
         field: cplan::planner::FieldChoice::Relaxed {
             equation: cplan::planner::EquationChoice::Harmonic,

@@ -420,7 +420,7 @@ fn a_funnel_path_along_a_slanted_side_has_no_corners_between() {
 }
 
 #[test]
-fn a_hole_that_touches_the_outer_contour_shuts_that_way() {
+fn a_hole_that_touches_the_outer_contour_blocks_that_passage() {
     // The hole's tip touches the lower side of the window, at a point that is no corner of it.
     let hole = points(&[(2.0, 0.0), (2.5, 3.0), (1.5, 3.0)]);
     let regions = window_with_holes((0.0, 4.0), (0.0, 4.0), vec![hole]);
@@ -430,7 +430,7 @@ fn a_hole_that_touches_the_outer_contour_shuts_that_way() {
 }
 
 #[test]
-fn between_squares_that_touch_in_a_corner_there_is_no_way() {
+fn no_path_leads_between_squares_that_touch_in_a_corner() {
     let touching = vec![rectangle((1.0, 2.0), (1.0, 2.0)), rectangle((2.0, 3.0), (2.0, 3.0))];
     let regions = window_with_holes((0.0, 4.0), (0.0, 4.0), touching);
     let found = lengths(&regions, &query((1.5, 2.5), (2.5, 1.5))).unwrap();

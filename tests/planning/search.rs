@@ -143,7 +143,7 @@ fn graph(grid: &Grid, sources: &[usize], neighborhood: Neighborhood) -> (UnGraph
 fn check_order(search: &Search, order: Order, target: usize) -> Result<(), TestCaseError> {
     let (labels, expanded) = (search.labels(), &search.expanded);
     let once: BTreeSet<u32> = expanded.iter().copied().collect();
-    prop_assert!(once.len() == expanded.len() && expanded.len() <= search.labelled);
+    prop_assert!(once.len() == expanded.len() && expanded.len() <= search.labeled);
     prop_assert!(expanded.iter().all(|&cell| labels[cell as usize] != UNREACHED));
     if matches!(order, Order::BreadthFirst | Order::IterativeDeepening) {
         prop_assert!(expanded.is_sorted_by_key(|&cell| labels[cell as usize]));
@@ -176,9 +176,9 @@ fn check_searches(grid: &Grid, sources: &[usize], target: usize) -> Result<(), T
             prop_assert_eq!(search.cost(target).is_some(), least.is_some(), "{:?}", order);
             check_order(&search, order, target)?;
             let labels = search.labels();
-            prop_assert_eq!(labels.iter().filter(|&&label| label != UNREACHED).count(), search.labelled);
+            prop_assert_eq!(labels.iter().filter(|&&label| label != UNREACHED).count(), search.labeled);
             let Some(least) = least else { continue };
-            let cells = search.way_back(target).expect("a target with a cost has a way");
+            let cells = search.path_back(target).expect("a target with a cost has a way");
             prop_assert!(cells[0] == target && sources.contains(&cells[cells.len() - 1]));
             let mut cost = Cost::default();
             for pair in cells.windows(2) {

@@ -5,7 +5,7 @@ use crate::random_worlds::world;
 use cplan::Outcome;
 use cplan::check::certify;
 use cplan::engine::{Method, solve};
-use cplan::search::{Motions, least_length};
+use cplan::search::{MotionQuery, least_length};
 use cplan::space::Metric;
 
 /// Worlds of each kind of arm.
@@ -40,7 +40,7 @@ fn it_is_within_a_ten_thousandth_of_the_optimum_in_random_worlds() {
                 assert!(given.upper <= length * (1.0 + 1e-4), "{kind} {seed}: {given:?} above {length}");
                 let (scene, start, goals, metric) =
                     (problem.scene(), problem.start(), problem.goals(), Metric::Euclidean);
-                let motions = Motions { scene, start, goals, clearance, metric };
+                let motions = MotionQuery { scene, start, goals, clearance, metric };
                 let again = least_length(&motions, length, 1e-4, &[]);
                 assert!(again <= given.upper * (1.0 + 1e-9), "{kind} {seed}: {given:?}, {again:?}");
                 assert!(given.lower * (1.0 - 1e-3) <= again || again == length, "{kind} {seed}: {given:?}, {again:?}");

@@ -42,8 +42,8 @@ fn check(scene: &Scene, start: Configuration, goals: &GoalSet, clearance: f64) -
             Some(true)
         }
         Connectivity::Disconnected(proof) => {
-            assert_eq!(recheck(proof.stuck(), scene, start, goals, clearance), Ok(()));
-            for stuck in proof.stuck() {
+            assert_eq!(recheck(proof.collision_boxes(), scene, start, goals, clearance), Ok(()));
+            for stuck in proof.collision_boxes() {
                 assert!(corners_and_middle(&stuck.cell).all(|at| scene.clearance(at) < clearance), "{stuck:?}");
             }
             Some(false)
@@ -211,7 +211,7 @@ fn limits_longer_than_a_turn() {
 }
 
 #[test]
-fn clearance_closes_ways() {
+fn clearance_closes_passages() {
     let half = JointRange::Interval { lower: 0.0, upper: 3.0 };
     let folding = JointRange::Interval { lower: -3.0, upper: 3.0 };
     let pole = scene(rr([half, folding]), vec![disc(Point::new(0.0, 1.4), 0.05)]);
@@ -229,7 +229,7 @@ fn joints_that_cannot_move_are_left_to_others() {
 
 /// Tries all shipped workspaces, among them the six closed twins and the six open ones.
 #[test]
-fn shipped_workspaces_are_answered_as_they_say() {
+fn shipped_workspaces_have_the_stated_answers() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut files: Vec<_> = std::fs::read_dir(root.join("workspaces")).unwrap().map(|e| e.unwrap().path()).collect();
     files.retain(|f| f.extension().is_some_and(|e| e == "toml") && !f.ends_with("suite.toml"));

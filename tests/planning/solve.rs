@@ -71,7 +71,7 @@ fn sampled_grids_lead_to_the_verdicts_of_exact_rows() {
                 (Outcome::Found(path), Some(optimum)) => {
                     assert!(path.clearance() > 0.0 && path.path().length() >= optimum - 1e-3, "{which:?} by {method}");
                 }
-                (Outcome::Infeasible(proof), None) => assert!(!proof.stuck().is_empty()),
+                (Outcome::Infeasible(proof), None) => assert!(!proof.collision_boxes().is_empty()),
                 (verdict, _) => panic!("{which:?} by {method}: {verdict:?}, {:?}", answer.history),
             }
             let Space::Grid(grid) = &answer.space else { panic!("{method} works on cells") };
@@ -102,7 +102,7 @@ fn coarse_samples_are_never_the_last_word() {
 }
 
 #[test]
-fn closed_ways_are_proven_closed() {
+fn infeasible_problems_are_proven_infeasible() {
     for which in [Benchmark::Inf, Benchmark::T] {
         for method in Method::ALL {
             let answer = answer(which, method);

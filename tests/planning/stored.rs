@@ -97,7 +97,7 @@ fn infinite_heights_and_the_sign_of_zero_are_kept() {
 }
 
 #[test]
-fn a_changed_result_is_refused_and_said_where() {
+fn changed_results_are_refused_with_their_place() {
     let made = plan(&world("shelf"), &Options::default()).unwrap();
     assert!(matches!(made.outcome(), Outcome::Found(_)));
     let valid = value(&made);
@@ -136,7 +136,7 @@ fn an_infeasible_problem_cannot_be_made_found() {
 }
 
 #[test]
-fn what_no_constructor_makes_is_no_problem() {
+fn data_that_no_constructor_makes_is_refused() {
     let valid = value(&plan(&world("shelf"), &Options::default()).unwrap());
     let scene = "/problem/asked/motion/scene";
     for (place, other, why) in [
@@ -173,7 +173,7 @@ fn what_no_constructor_makes_is_no_problem() {
 }
 
 #[test]
-fn what_is_drawn_is_what_is_judged() {
+fn drawn_shapes_equal_judged_shapes() {
     let disc = json!({"circle": {"center": [-1.0, 1.0], "radius": 0.1}});
     let far = json!({"polygon": [[0.0, 0.0], [1e200, -1e200], [1e300, 1e250], [0.0, 1e180]]});
     for (name, shape, other) in [
@@ -193,7 +193,7 @@ fn what_is_drawn_is_what_is_judged() {
 }
 
 #[test]
-fn what_no_world_says_is_no_task() {
+fn tasks_that_no_world_can_state_are_refused() {
     let mission = world("table_mission");
     let valid = value(&mission);
     let first = "/asked/task/items/0";

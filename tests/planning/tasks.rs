@@ -96,7 +96,7 @@ fn carrying_closes_a_passage() {
     assert_eq!((impossible.from, to.ik_solution), (Configuration::new(0.4, 1.1), Configuration::new(1.6, 0.9)));
     assert!(impossible.reasons[0].starts_with("to joints (1.6, 0.9) m: there is no path"), "{:?}", impossible.reasons);
     let clearance = impossible.scene.workspace().clearance;
-    let stuck = to.proof.as_ref().expect("a proof").stuck();
+    let stuck = to.proof.as_ref().expect("a proof").collision_boxes();
     assert_eq!(recheck(stuck, &impossible.scene, impossible.from, &to.ik_solution.into(), clearance), Ok(()));
     assert!(!stuck.is_empty());
 }

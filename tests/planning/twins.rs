@@ -38,25 +38,25 @@ fn load(name: &str, robot: &str) -> MotionProblem {
 }
 
 #[test]
-fn each_closed_way_is_proven_closed_and_the_proof_can_be_read_back() {
+fn infeasible_twins_are_proven_and_proofs_can_be_read_back() {
     for (what, robot) in TWINS {
         let problem = load(&format!("{what}_closed"), robot);
         let (scene, start, goals) = (problem.scene(), problem.start(), problem.goals());
         let Connectivity::Disconnected(proof) = connectivity(scene, start, goals, 0.0, BOXES) else {
             panic!("{what} is not proven");
         };
-        let boxes: Vec<ProofBox> = proof.stuck().iter().map(ProofBox::from).collect();
+        let boxes: Vec<ProofBox> = proof.collision_boxes().iter().map(ProofBox::from).collect();
         let text = serde_json::json!({ "proof": boxes }).to_string();
         let read = read_proof(&text).unwrap();
-        let claim = read.stuck();
-        assert_eq!(claim, proof.stuck(), "{what}");
+        let claim = read.collision_boxes();
+        assert_eq!(claim, proof.collision_boxes(), "{what}");
         assert_eq!(recheck(claim, scene, start, goals, 0.0), Ok(()), "{what}");
         // The proof does not apply to the twin, which has a path: some box must be false there.
         let twin = load(&format!("{what}_open"), robot);
         let refused = recheck(claim, twin.scene(), twin.start(), twin.goals(), 0.0);
         let is_false = matches!(
             refused,
-            Err(ProofError::UnknownPair(_) | ProofError::NotStuck { .. } | ProofError::NotSeparated(_))
+            Err(ProofError::UnknownPair(_) | ProofError::NotColliding { .. } | ProofError::NotSeparated(_))
         );
         assert!(is_false, "{what}: {refused:?}");
     }
@@ -117,17 +117,17 @@ fn open_ways_are_found_by(method: Method) {
 }
 
 #[test]
-fn open_ways_are_found_by_visibility() {
+fn feasible_twins_are_solved_by_visibility() {
     open_ways_are_found_by(Method::Visibility);
 }
 
 #[test]
-fn open_ways_are_found_by_trapezoids() {
+fn feasible_twins_are_solved_by_trapezoids() {
     open_ways_are_found_by(Method::Trapezoid);
 }
 
 #[test]
-fn open_ways_are_found_by_subdivision() {
+fn feasible_twins_are_solved_by_subdivision() {
     open_ways_are_found_by(Method::Subdivision);
 }
 

@@ -28,7 +28,7 @@ fn points(list: Corners) -> Vec<Point> {
 }
 
 #[test]
-fn no_convex_shape_is_made_of_what_is_none() {
+fn invalid_convex_shapes_are_refused() {
     use ConvexError::*;
     let square = [(0., 0.), (1., 0.), (1., 1.), (0., 1.)];
     let clockwise: Vec<_> = square.iter().rev().copied().collect();
@@ -56,7 +56,7 @@ fn no_convex_shape_is_made_of_what_is_none() {
 }
 
 #[test]
-fn no_polygon_is_made_of_what_is_none() {
+fn invalid_polygons_are_refused() {
     let bow = points(&[(0., 0.), (2., 2.), (2., 0.), (0., 2.)]);
     assert_eq!(SimplePolygon::new(bow.clone()), Err(PolygonError::SidesCross { first: 0, second: 2 }));
     assert_eq!(
@@ -155,7 +155,7 @@ fn no_scene_is_made_of_a_workspace_that_cannot_be() {
 }
 
 #[test]
-fn no_arm_weighs_less_than_nothing() {
+fn negative_masses_are_refused() {
     let body = Body { mass: 2.0, center: Point::new(0.3, 0.0), inertia: 0.1 };
     let sound = Dynamics {
         bodies: [body; 2],
@@ -182,9 +182,9 @@ fn no_arm_weighs_less_than_nothing() {
 }
 
 #[test]
-fn nothing_is_carried_that_cannot_be() {
+fn invalid_payloads_are_refused() {
     let shape = rectangle(-0.1, 0.1, -0.1, 0.1);
-    let parts = vec![AttachedPart { shape, number: 0, on_supports: false, is_evidence: true }];
+    let parts = vec![AttachedPart { shape, number: 0, on_supports: false, proves_collisions: true }];
     let carried =
         |grip, heights, supports| Attachment { name: "part".into(), heights, grip, parts: parts.clone(), supports };
     let level = |angle| Grip::Level { angle, point: Point::zeros() };
@@ -209,7 +209,7 @@ fn nothing_is_carried_that_cannot_be() {
 }
 
 #[test]
-fn no_problem_is_made_of_what_has_no_true_answer() {
+fn problems_without_a_true_answer_are_refused() {
     let scene = || placed(arm(|_| ()), workspace(|_| ()));
     let (free, blocked) = (q(-1.0, 0.5), q(PI / 4.0, 0.3));
     let elbow = |value| ("elbow".to_owned(), value);
@@ -239,7 +239,7 @@ fn no_problem_is_made_of_what_has_no_true_answer() {
 /// The corners are in convex position by construction: on an ellipse, in the order of their angles. The test also uses
 /// integers, judged by the sign of an exact determinant.
 #[test]
-fn what_is_valid_is_taken() {
+fn valid_input_is_accepted() {
     let (mut refused, mut taken) = (0, 0);
     for seed in seeds(300) {
         let mut dice = Dice::new(seed ^ 0x5EED);
@@ -312,7 +312,7 @@ fn random_problems_are_taken() {
 
 /// The corners differ from a straight wall by the last bit, and are judged exactly.
 #[test]
-fn a_hair_decides() {
+fn rounding_decides_at_the_limit() {
     let tip = 1.0 / 3.0;
     for (y, convex) in [(tip - f64::EPSILON, true), (tip + f64::EPSILON, false)] {
         let corners = points(&[(0., 0.), (1., y), (3., 1.), (0., 3.)]);

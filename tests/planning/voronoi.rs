@@ -168,7 +168,7 @@ proptest! {
     #![proptest_config(cplan_cases::cases(48))]
 
     #[test]
-    fn ways_are_as_wide_as_floods_find(seed: u64, count in 1usize..10) {
+    fn path_widths_agree_with_flood_fill(seed: u64, count in 1usize..10) {
         let mut random = Dice::new(seed);
         let regions = star_crowd(&mut random, count);
         let [start, goal] = [0, 1].map(|_| free_place(&mut random, &regions, regions.window).expect("most of it is free"));
@@ -183,7 +183,7 @@ proptest! {
     }
 
     #[test]
-    fn ways_lead_across_seams(seed: u64, side in 1usize..4, corners in 3usize..7, first: bool, second: bool) {
+    fn paths_lead_across_seams(seed: u64, side in 1usize..4, corners in 3usize..7, first: bool, second: bool) {
         let mut random = Dice::new(seed);
         let regions = repeated_crowd(&convex_crowd(&mut random, side, corners), side, [first, second]);
         // Where the window is not felt.
@@ -208,7 +208,7 @@ proptest! {
     /// The boards have collinear sides, equal distances everywhere, and corners that touch. The planner finds a path
     /// wherever a flood finds one.
     #[test]
-    fn boards_have_ways_where_floods_find_them(seed: u64, size in 2usize..7, density in 0.1..0.6) {
+    fn boards_have_paths_where_flood_fill_finds_them(seed: u64, size in 2usize..7, density in 0.1..0.6) {
         let mut random = Dice::new(seed);
         let board = Board::random(&mut random, size, density);
         let component = board.components();
@@ -231,7 +231,7 @@ proptest! {
 }
 
 #[test]
-fn between_two_walls_the_way_is_in_the_middle() {
+fn between_two_walls_the_path_is_in_the_middle() {
     let regions = window_with_holes((0.0, 4.0), (0.0, 1.0), Vec::new());
     let run = run(&regions, Point::new(0.75, 0.2), Point::new(3.25, 0.9));
     let expected = [(0.75, 0.2), (0.75, 0.5), (3.25, 0.5), (3.25, 0.9)];
@@ -263,7 +263,7 @@ fn a_square_room_has_its_diagonals() {
 
 /// The planner takes the wider of two openings, though it is farther away.
 #[test]
-fn the_wider_door_is_taken() {
+fn the_wider_gap_is_taken() {
     let walls = [((0.0, 0.9), 0.0), ((1.1, 3.0), 0.0), ((3.5, 5.0), 0.0)];
     let wall = |&((from, to), _): &((f64, f64), f64)| rectangle((from, to), (1.0, 1.1));
     let holes: Vec<Vec<Point>> = walls.iter().map(wall).collect();
@@ -279,7 +279,7 @@ fn the_wider_door_is_taken() {
 
 /// Without obstacles to keep away from, the path is straight.
 #[test]
-fn with_no_obstacle_on_a_torus_the_way_is_straight() {
+fn without_obstacles_on_a_torus_the_path_is_straight() {
     let regions = repeated_crowd(&[], 1, [true, true]);
     let run = run(&regions, Point::new(0.5, 0.5), Point::new(3.0, -0.5));
     assert_eq!(path(&run).expect("a way").waypoints().len(), 2);
@@ -287,7 +287,7 @@ fn with_no_obstacle_on_a_torus_the_way_is_straight() {
 
 /// The nearest goal of a set is computed, and rounding may move it away from the start.
 #[test]
-fn who_stands_at_a_goal_up_to_rounding_stays() {
+fn a_start_at_a_goal_up_to_rounding_stays() {
     let regions = window_with_holes((0.0, 4.0), (0.0, 4.0), vec![rectangle((2.0, 2.5), (2.0, 2.5))]);
     let planner = Voronoi::default();
     let map = planner.build(&regions);

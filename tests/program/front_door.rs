@@ -88,7 +88,7 @@ fn an_outcome_is_one_of_three() {
     assert!(motion.duration() > 1.0 && found.trajectory() == Some(motion));
     let closed = plan(&load("workspaces/singular_closed.toml"), &Options::default()).unwrap();
     let Outcome::Infeasible(Refutation::Motion(proof)) = closed.outcome() else { panic!("it is closed") };
-    assert!(!proof.stuck().is_empty() && closed.trajectory().is_none());
+    assert!(!proof.collision_boxes().is_empty() && closed.trajectory().is_none());
     // One attempt at eight cells finds nothing, and a wave proves nothing.
     let coarse = Options { planner: Planner::named(Method::Wavefront).with_cells(8), levels: 1, ..Options::default() };
     let unknown = plan(&load("workspaces/shelf.toml"), &coarse).unwrap();

@@ -10,7 +10,7 @@
 #![cfg(all(target_family = "wasm", target_os = "unknown"))]
 
 use cplan::interrupt::Host;
-use cplan::live::{Alone, Message};
+use cplan::live::{Message, StandalonePage};
 use std::cell::RefCell;
 use std::panic;
 use std::time::Duration;
@@ -24,22 +24,22 @@ unsafe extern "C" {
     /// Throws, through all that runs.
     safe fn stop() -> !;
     /// Takes a message to the page: text or a file.
-    safe fn tell(at: *const u8, bytes: usize, is_text: bool);
+    safe fn post_message(at: *const u8, bytes: usize, is_text: bool);
     /// Takes what a panic says.
     safe fn panicked(at: *const u8, bytes: usize);
 }
 
 thread_local! {
-    static ALONE: RefCell<Option<Alone>> = const { RefCell::new(None) };
+    static PAGE_PROGRAM: RefCell<Option<StandalonePage>> = const { RefCell::new(None) };
     /// The order that the worker writes.
-    static ORDER: RefCell<Vec<u8>> = const { RefCell::new(Vec::new()) };
+    static ORDER_BUFFER: RefCell<Vec<u8>> = const { RefCell::new(Vec::new()) };
 }
 
 /// Where an order of so many bytes is to be written.
 // The name is used once: there is no other library in the instance.
 #[unsafe(no_mangle)]
 pub extern "C" fn room(bytes: usize) -> *mut u8 {
-    ORDER.with_borrow_mut(|order| {
+    ORDER_BUFFER.with_borrow_mut(|order| {
         *order = vec![0; bytes];
         order.as_mut_ptr()
     })
@@ -49,23 +49,23 @@ pub extern "C" fn room(bytes: usize) -> *mut u8 {
 // As above.
 #[unsafe(no_mangle)]
 pub extern "C" fn take() {
-    let order = String::from_utf8_lossy(&ORDER.take()).into_owned();
-    ALONE.with_borrow_mut(|alone| alone.get_or_insert_with(begun).take(&order, &mut send));
+    let order = String::from_utf8_lossy(&ORDER_BUFFER.take()).into_owned();
+    PAGE_PROGRAM.with_borrow_mut(|alone| alone.get_or_insert_with(begun).take(&order, &mut send));
 }
 
 /// A program whose time and end the worker gives.
-fn begun() -> Alone {
+fn begun() -> StandalonePage {
     Host { elapsed: || Duration::from_secs_f64(elapsed() / 1e3), stop: || stop() }.serve();
     panic::set_hook(Box::new(|panic| {
         let text = panic.to_string();
         panicked(text.as_ptr(), text.len());
     }));
-    Alone::default()
+    StandalonePage::default()
 }
 
 fn send(message: Message) {
     match message {
-        Message::Text(text) => tell(text.as_ptr(), text.len(), true),
-        Message::Binary(bytes) => tell(bytes.as_ptr(), bytes.len(), false),
+        Message::Text(text) => post_message(text.as_ptr(), text.len(), true),
+        Message::Binary(bytes) => post_message(bytes.as_ptr(), bytes.len(), false),
     }
 }

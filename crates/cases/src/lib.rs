@@ -14,7 +14,7 @@ use std::ops::Range;
 use std::str::FromStr;
 
 /// Distance between the first seeds of consecutive values of `CPLAN_SEED`.
-const STRIDE: u64 = 1 << 32;
+const SEED_STRIDE: u64 = 1 << 32;
 
 /// Returns the configuration for `proptest!`: this many cases, always the same. Every block must have it
 /// (`tests/architecture/seeds.rs`).
@@ -41,7 +41,7 @@ pub fn cases(usual: u32) -> Config {
 /// Same as [`cases`].
 #[must_use]
 pub fn seeds(usual: u64) -> Range<u64> {
-    let first = seed().wrapping_mul(STRIDE);
+    let first = seed().wrapping_mul(SEED_STRIDE);
     first..first + times(usual)
 }
 

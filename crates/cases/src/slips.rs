@@ -3,7 +3,7 @@
 use super::dice::Dice;
 
 /// Replacements of numbers.
-const NUMBERS: [&str; 16] = [
+const NUMBER_REPLACEMENTS: [&str; 16] = [
     "0",
     "-0",
     "1",
@@ -22,7 +22,7 @@ const NUMBERS: [&str; 16] = [
     "",
 ];
 /// Characters that are inserted at random places.
-const BITS: [&str; 18] =
+const INSERTED_CHARACTERS: [&str; 18] =
     ["[", "]", "{", "}", "\"", "<", ">", "/", "=", ",", "#", "\n", "\0", "\u{e4}", "[[", "]]", ";", "\t"];
 
 /// Returns the text with one to three mistakes: something deleted, repeated, swapped, changed or inserted.
@@ -42,11 +42,11 @@ pub fn slipped(dice: &mut Dice, text: &str) -> String {
                     (0..text.len()).filter(|&i| is_number(&text[i]) && (i == 0 || !is_number(&text[i - 1]))).collect();
                 if let Some(&start) = starts.get(dice.below(starts.len().max(1))) {
                     let end = start + text[start..].iter().take_while(|c| is_number(c)).count();
-                    let bit = NUMBERS[dice.below(NUMBERS.len())];
+                    let bit = NUMBER_REPLACEMENTS[dice.below(NUMBER_REPLACEMENTS.len())];
                     text.splice(start..end, bit.chars());
                 }
             }
-            2 => insert(&mut text, at, BITS[dice.below(BITS.len())]),
+            2 => insert(&mut text, at, INSERTED_CHARACTERS[dice.below(INSERTED_CHARACTERS.len())]),
             3 => {
                 let end = (at + 1 + dice.below(8)).min(text.len());
                 text.drain(at..end);

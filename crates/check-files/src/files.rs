@@ -34,9 +34,11 @@ impl Files {
         [urdf, world]: [&str; 2],
         given: [Option<PathBuf>; 2],
     ) -> Result<Self, CheckError> {
-        for (what, text, said) in [("URDF", urdf, &certificate.urdf), ("world", world, &certificate.world)] {
-            if let Some(said) = said.as_ref().filter(|said| !said.eq_ignore_ascii_case(&digest(text.as_bytes()))) {
-                return CheckError::fails(format!("it is about another {what}, whose SHA-256 is {said}"));
+        for (what, text, stated) in [("URDF", urdf, &certificate.urdf), ("world", world, &certificate.world)] {
+            if let Some(stated) =
+                stated.as_ref().filter(|stated| !stated.eq_ignore_ascii_case(&digest(text.as_bytes())))
+            {
+                return CheckError::fails(format!("it is about another {what}, whose SHA-256 is {stated}"));
             }
         }
         Ok(Self { given, others: certificate.others.clone() })

@@ -11,7 +11,7 @@ Usage: cplan-check URDF WORLD CERTIFICATE
 Exit codes: 0 it proves its answer, 3 it does not, 1 a file is wrong or says what the checker does not know, 2 wrong usage.";
 
 /// The certificate does not hold.
-const FAILS: u8 = 3;
+const EXIT_INVALID: u8 = 3;
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -33,7 +33,7 @@ fn main() -> ExitCode {
         }
         Err(CheckError::Fails(why)) => {
             println!("does not hold: {why}");
-            ExitCode::from(FAILS)
+            ExitCode::from(EXIT_INVALID)
         }
         Err(CheckError::Input { input, line, message }) => {
             let path = match input {

@@ -13,7 +13,7 @@ use plane::Plane;
 use pose::{Pose, Vector, dot};
 use roxmltree::{Document, Node};
 use solid::Solid;
-use tree::{Read, Tree, child, moves};
+use tree::{ReadResult, Tree, child, moves};
 
 mod bar;
 mod collada;
@@ -53,14 +53,14 @@ impl<'a> Robot<'a> {
         world: &WorldFile,
         files: &'a Files,
         implied: Option<&[String; 2]>,
-    ) -> Read<Self> {
+    ) -> ReadResult<Self> {
         let (mut tree, movable) = Tree::read(document, files)?;
-        let (said, implied) = (&world.robot.joints, implied.map(|names| names.to_vec()));
-        if said.is_some() && implied.is_some() && *said != implied {
+        let (stated, implied) = (&world.robot.joints, implied.map(|names| names.to_vec()));
+        if stated.is_some() && implied.is_some() && *stated != implied {
             return CheckError::fails("it is about other joints than the world");
         }
         let own = || movable.iter().map(|name| (*name).to_owned()).collect();
-        let chosen: Vec<String> = said.clone().or(implied).unwrap_or_else(own);
+        let chosen: Vec<String> = stated.clone().or(implied).unwrap_or_else(own);
         let [first, second] = &chosen[..] else {
             let message = format!("{} joints can move: the world file must name two, as [robot] joints", chosen.len());
             return Err(CheckError::in_file(Input::Urdf, message));
@@ -103,8 +103,8 @@ impl<'a> Robot<'a> {
         Self::of(tree, joints, joints.map(carried), world)
     }
 
-    fn of(mut tree: Tree<'a>, nodes: [Node<'a, 'a>; 2], children: [&'a str; 2], world: &WorldFile) -> Read<Self> {
-        let seen = |tree: &Tree<'a>| -> Read<[(Pose, Vector); 2]> {
+    fn of(mut tree: Tree<'a>, nodes: [Node<'a, 'a>; 2], children: [&'a str; 2], world: &WorldFile) -> ReadResult<Self> {
+        let seen = |tree: &Tree<'a>| -> ReadResult<[(Pose, Vector); 2]> {
             let of = |k: usize| {
                 let pose = tree.pose(children[k])?;
                 let axis = pose.direction(&tree.axis(nodes[k])?);
@@ -147,14 +147,14 @@ impl<'a> Robot<'a> {
         let at = robot.tree.pose(robot.tip_link)?;
         robot.arm.tip = robot.project(Some(1), &at, &Solid::point(), Outline::Within);
         robot.count(world)?;
-        robot.move_alone(&nodes)?;
+        robot.check_independence(&nodes)?;
         world.task.as_ref().map_or(Ok(()), |task| robot.with_tool(task))?;
         robot.arm.notes.insert_str(0, &robot.plane.idealized());
         Ok(robot)
     }
 
     /// Returns the last of the two joints that moves a link.
-    fn moved_by(&self, link: &'a str) -> Read<Option<usize>> {
+    fn moved_by(&self, link: &'a str) -> ReadResult<Option<usize>> {
         let above = self.tree.above(link)?;
         let moves = |k: &usize| above.iter().any(|joint| self.tree.joints.get(self.children[*k]) == Some(joint));
         Ok([1, 0].into_iter().find(moves))
@@ -165,7 +165,7 @@ impl<'a> Robot<'a> {
     ///
     /// # Errors
     /// If the second joint does not move it.
-    fn find_tip(&self, named: Option<&str>) -> Read<&'a str> {
+    fn find_tip(&self, named: Option<&str>) -> ReadResult<&'a str> {
         let mut deepest = None;
         for link in self.tree.order.iter().filter(|link| named.is_none_or(|named| named == **link)) {
             let depth = self.tree.above(link)?.len();

@@ -5,20 +5,25 @@ mod replay;
 
 use crate::robot::Robot;
 use crate::world::WorldFile;
-use cplan_check::certificate::{Certificate, Done};
+use cplan_check::certificate::{Certificate, ExecutedStep};
 use cplan_check::decimal::Decimal;
 use cplan_check::ends::{End, missed};
-use cplan_check::motion::well_formed;
+use cplan_check::motion::check_knots;
 use cplan_check::{CheckError, Input};
 use num_bigint::Sign;
 use order::{Order, stands};
 use replay::Replay;
 
 /// Tolerance of rest times, seconds: `10^-6`. The arm may rest for less than required by this much.
-const SHORT: u32 = 6;
+const REST_TOLERANCE_DECIMALS: u32 = 6;
 
 /// Checks that a motion executes all steps of a task.
-pub fn found(robot: &Robot, file: &WorldFile, certificate: &Certificate, done: &[Done]) -> Result<String, CheckError> {
+pub fn found(
+    robot: &Robot,
+    file: &WorldFile,
+    certificate: &Certificate,
+    done: &[ExecutedStep],
+) -> Result<String, CheckError> {
     let (arm, world) = (&robot.arm, &file.world);
     let clearance = certificate.clearance(world)?;
     let wrong = |input: Input, message: &str| Err(CheckError::in_file(input, message));
@@ -27,7 +32,7 @@ pub fn found(robot: &Robot, file: &WorldFile, certificate: &Certificate, done: &
         return wrong(Input::Certificate, "a task's certificate cannot have a goal or a bound");
     }
     let Some(motion) = &certificate.motion else { return wrong(Input::Certificate, "it has no motion") };
-    well_formed(&motion.interpolation, &motion.knots)?;
+    check_knots(&motion.interpolation, &motion.knots)?;
     let start = End::start(certificate, world)?.reached(arm, &motion.knots[0])?;
     let mut order = Order { left: done.iter().enumerate().peekable(), renewed: Vec::new(), matched: Vec::new() };
     order.group(&task.steps)?;
@@ -46,7 +51,7 @@ pub fn found(robot: &Robot, file: &WorldFile, certificate: &Certificate, done: &
             CheckError::Fails(why) => CheckError::Fails(format!("steps[{index}], step {number}: {why}")),
             other => other,
         })?;
-        if &stands[index] + &Decimal::power_of_ten(SHORT) < step.step.dwell {
+        if &stands[index] + &Decimal::power_of_ten(REST_TOLERANCE_DECIMALS) < step.step.dwell {
             let dwell = &step.step.dwell;
             return CheckError::fails(format!(
                 "after steps[{index}], step {number}, the arm does not rest for {dwell} s"

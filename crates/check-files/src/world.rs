@@ -81,30 +81,30 @@ struct Reader<'a> {
     files: &'a Files,
 }
 
-type Read<T> = Result<T, CheckError>;
+type ReadResult<T> = Result<T, CheckError>;
 
 impl Reader<'_> {
-    fn error<T>(&self, value: &Value, message: &str) -> Read<T> {
+    fn error<T>(&self, value: &Value, message: &str) -> ReadResult<T> {
         Err(CheckError::at(Input::World, self.text, value.span().start, message))
     }
 
-    fn table<'v, 'i>(&self, value: &'v Value<'i>) -> Read<&'v DeTable<'i>> {
+    fn table<'v, 'i>(&self, value: &'v Value<'i>) -> ReadResult<&'v DeTable<'i>> {
         value.get_ref().as_table().map_or_else(|| self.error(value, "expected a table"), Ok)
     }
 
-    fn list<'v, 'i>(&self, value: &'v Value<'i>) -> Read<Vec<&'v Value<'i>>> {
+    fn list<'v, 'i>(&self, value: &'v Value<'i>) -> ReadResult<Vec<&'v Value<'i>>> {
         value
             .get_ref()
             .as_array()
             .map_or_else(|| self.error(value, "expected a list"), |list| Ok(list.iter().collect()))
     }
 
-    fn text(&self, value: &Value) -> Read<String> {
+    fn text(&self, value: &Value) -> ReadResult<String> {
         value.get_ref().as_str().map_or_else(|| self.error(value, "expected a text"), |text| Ok(text.to_owned()))
     }
 
     /// Reads a number exactly as written.
-    fn number(&self, value: &Value) -> Read<Decimal> {
+    fn number(&self, value: &Value) -> ReadResult<Decimal> {
         let text = match value.get_ref() {
             DeValue::Integer(number) if number.radix() == 10 => number.as_str(),
             DeValue::Integer(number) => {
@@ -119,7 +119,7 @@ impl Reader<'_> {
     }
 
     /// Reads a number, or encloses a quantity in degrees in radians.
-    fn quantity(&self, value: &Value) -> Read<Range> {
+    fn quantity(&self, value: &Value) -> ReadResult<Range> {
         let Some(text) = value.get_ref().as_str() else {
             let number = self.number(value)?;
             return Ok([number.clone(), number]);
@@ -131,19 +131,19 @@ impl Reader<'_> {
         Ok((&Interval::from(&degrees) * &Interval::pi().over(180)).ends())
     }
 
-    fn two<T>(&self, value: &Value, read: impl Fn(&Value) -> Read<T>) -> Read<[T; 2]> {
+    fn two<T>(&self, value: &Value, read: impl Fn(&Value) -> ReadResult<T>) -> ReadResult<[T; 2]> {
         match self.list(value)?[..] {
             [a, b] => Ok([read(a)?, read(b)?]),
             _ => self.error(value, "expected a list of two"),
         }
     }
 
-    fn corners(&self, value: &Value) -> Read<Vec<Corner>> {
+    fn corners(&self, value: &Value) -> ReadResult<Vec<Corner>> {
         self.list(value)?.into_iter().map(|p| self.two(p, |n| self.number(n))).collect()
     }
 
     /// Reads a ring, or a list of rings as in GeoJSON.
-    fn rings(&self, value: &Value) -> Read<Vec<Vec<Corner>>> {
+    fn rings(&self, value: &Value) -> ReadResult<Vec<Vec<Corner>>> {
         let list = self.list(value)?;
         let first = list.first().and_then(|ring| ring.get_ref().as_array()?.iter().next()?.get_ref().as_array());
         if first.is_some() {
@@ -153,16 +153,16 @@ impl Reader<'_> {
         }
     }
 
-    fn by_name<T>(&self, value: &Value, read: impl Fn(&Value) -> Read<T>) -> Read<BTreeMap<String, T>> {
+    fn by_name<T>(&self, value: &Value, read: impl Fn(&Value) -> ReadResult<T>) -> ReadResult<BTreeMap<String, T>> {
         self.table(value)?.iter().map(|(name, value)| Ok((name.get_ref().to_string(), read(value)?))).collect()
     }
 
     /// Reads `[start]` or `[goal]`.
-    fn place(&self, value: &Value) -> Read<Goal> {
+    fn place(&self, value: &Value) -> ReadResult<Goal> {
         let table = self.table(value)?;
         if let (Some(areas), 1) = (table.get("areas"), table.len()) {
             let area = |corners: &Value| self.two(corners, |corner| self.two(corner, |n| self.number(n)));
-            return self.list(areas)?.into_iter().map(area).collect::<Read<Vec<_>>>().map(Goal::Areas);
+            return self.list(areas)?.into_iter().map(area).collect::<ReadResult<Vec<_>>>().map(Goal::Areas);
         }
         match (table.get("joints"), table.get("tip")) {
             (Some(joints), None) if table.len() == 1 => Ok(Goal::Joints(self.two(joints, |q| self.quantity(q))?)),
@@ -171,11 +171,12 @@ impl Reader<'_> {
         }
     }
 
-    fn robot(&self, value: &Value, robot: &mut RobotTable) -> Read<()> {
+    fn robot(&self, value: &Value, robot: &mut RobotTable) -> ReadResult<()> {
         for (key, value) in self.table(value)? {
             match &**key.get_ref() {
                 "joints" => {
-                    let names: Read<Vec<String>> = self.list(value)?.into_iter().map(|name| self.text(name)).collect();
+                    let names: ReadResult<Vec<String>> =
+                        self.list(value)?.into_iter().map(|name| self.text(name)).collect();
                     robot.joints = Some(names?);
                 }
                 "fixed" => robot.fixed = self.by_name(value, |q| self.quantity(q))?,
@@ -197,7 +198,7 @@ impl Reader<'_> {
                 },
                 "ignore_contact" => {
                     let pairs = self.list(value)?.into_iter().map(|pair| self.two(pair, |name| self.text(name)));
-                    robot.ignore_contact = pairs.collect::<Read<_>>()?;
+                    robot.ignore_contact = pairs.collect::<ReadResult<_>>()?;
                 }
                 other => return self.error(value, &format!("the checker does not know [robot] {other}")),
             }
@@ -205,7 +206,7 @@ impl Reader<'_> {
         Ok(())
     }
 
-    fn heights(&self, value: &Value) -> Read<Range> {
+    fn heights(&self, value: &Value) -> ReadResult<Range> {
         let [low, high] = self.two(value, |n| self.number(n))?;
         if low > high {
             return self.error(value, "its upper end is below the lower one");
@@ -214,12 +215,12 @@ impl Reader<'_> {
     }
 
     /// Returns the path of a file that the world refers to.
-    fn file(&self, name: &str) -> Read<PathBuf> {
+    fn file(&self, name: &str) -> ReadResult<PathBuf> {
         Ok(self.files.path(Input::World)?.with_file_name(name))
     }
 
     /// Reads an obstacle, or an object as an obstacle at its initial pose.
-    fn obstacle(&self, value: &Value, is_object: bool) -> Read<Obstacle> {
+    fn obstacle(&self, value: &Value, is_object: bool) -> ReadResult<Obstacle> {
         let (mut outlines, mut holes) = (Vec::new(), Vec::new());
         let (mut at, mut angle, mut heights) = (point(&origin()), Interval::whole(0), None);
         let (mut name, mut motion) = (None, None);
@@ -269,7 +270,7 @@ impl Reader<'_> {
     }
 
     /// Reads all obstacles.
-    fn obstacles(&self, list: &Value, world: &mut World) -> Read<()> {
+    fn obstacles(&self, list: &Value, world: &mut World) -> ReadResult<()> {
         for (index, value) in self.list(list)?.into_iter().enumerate() {
             let mut obstacle = self.obstacle(value, false)?;
             obstacle.name.get_or_insert_with(|| format!("obstacle {}", index + 1));
@@ -289,7 +290,7 @@ impl WorldFile {
     ///
     /// # Errors
     /// If it is not a world file, or contains something unknown that could affect the result.
-    pub fn read(text: &str, files: &Files) -> Read<Self> {
+    pub fn read(text: &str, files: &Files) -> ReadResult<Self> {
         let table = DeTable::parse(text).map_err(|error| {
             let at = error.span().map_or(0, |span| span.start);
             CheckError::at(Input::World, text, at, error.message())

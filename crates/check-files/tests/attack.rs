@@ -96,7 +96,7 @@ impl Claim {
     }
 
     /// Returns true if all sampled configurations of every box collide, up to rounding.
-    fn is_stuck(&self) -> bool {
+    fn is_collision(&self) -> bool {
         let steps = || (0..=4).map(|i| f64::from(i) / 4.0);
         let at = |stuck: &Stuck, s: f64, t: f64| {
             [s, t]
@@ -182,7 +182,7 @@ fn apart(a: &[[f64; 2]], b: &[[f64; 2]]) -> f64 {
 }
 
 #[test]
-fn what_is_falsified_is_refused_or_still_true() {
+fn falsified_certificates_are_refused_or_still_true() {
     let (mut held, mut refused) = (0, 0);
     for seed in random::seeds(600) {
         let mut random = Dice::new(seed);
@@ -195,7 +195,7 @@ fn what_is_falsified_is_refused_or_still_true() {
         }
         match claim.judged() {
             Ok(_) => {
-                assert!(claim.is_stuck() && claim.separates(), "seed {seed}: {claim:?}");
+                assert!(claim.is_collision() && claim.separates(), "seed {seed}: {claim:?}");
                 held += 1;
             }
             Err(CheckError::Fails(_)) => refused += 1,

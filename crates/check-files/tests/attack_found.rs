@@ -235,7 +235,7 @@ fn within(p: P, ring: &[[P; 2]]) -> bool {
 }
 
 #[test]
-fn what_is_falsified_is_refused_or_still_true() {
+fn falsified_certificates_are_refused_or_still_true() {
     let (mut held, mut refused) = (0, 0);
     for seed in random::seeds(120) {
         let mut random = Dice::new(seed);

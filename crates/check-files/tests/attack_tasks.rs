@@ -124,14 +124,14 @@ fn distance(a: &Shape, b: &Shape) -> f64 {
 
 /// Uniform straight motion from one time and pose to the next, and then at a constant velocity.
 #[derive(Clone, Debug)]
-struct Course {
+struct ObstacleTrajectory {
     stops: Vec<(f64, Pose)>,
     velocity: P,
 }
 
-impl Course {
-    fn still(pose: Pose) -> Course {
-        Course { stops: vec![(0.0, pose)], velocity: [0.0; 2] }
+impl ObstacleTrajectory {
+    fn still(pose: Pose) -> ObstacleTrajectory {
+        ObstacleTrajectory { stops: vec![(0.0, pose)], velocity: [0.0; 2] }
     }
 
     fn at(&self, time: f64) -> Pose {
@@ -156,7 +156,7 @@ impl Course {
     }
 
     /// Makes a random motion that passes a pose at a time.
-    fn past(dice: &mut Dice, time: f64, pose: Pose, turns: bool) -> Course {
+    fn past(dice: &mut Dice, time: f64, pose: Pose, turns: bool) -> ObstacleTrajectory {
         let velocity = turned([dice.within(0.0, 0.6), 0.0], dice.within(-3.0, 3.0));
         let spin = if turns && dice.chance(0.5) { dice.within(-1.0, 1.0) } else { 0.0 };
         let then = |at: f64| Pose {
@@ -167,9 +167,12 @@ impl Course {
         match dice.below(if spin == 0.0 { 2 } else { 1 }) {
             0 => {
                 let until = from.max(time) + dice.within(0.5, 9.0);
-                Course { stops: [from.min(time), until].map(|at| (at, then(at))).to_vec(), velocity: [0.0; 2] }
+                ObstacleTrajectory {
+                    stops: [from.min(time), until].map(|at| (at, then(at))).to_vec(),
+                    velocity: [0.0; 2],
+                }
             }
-            _ => Course { stops: vec![(0.0, then(0.0))], velocity },
+            _ => ObstacleTrajectory { stops: vec![(0.0, then(0.0))], velocity },
         }
     }
 }
@@ -186,7 +189,7 @@ struct Object {
     shape: Shape,
     at: Pose,
     /// Its motion until it is picked, if it moves.
-    course: Option<Course>,
+    course: Option<ObstacleTrajectory>,
     is_level: bool,
     /// True if it may touch the first obstacle.
     rests: bool,
@@ -196,7 +199,7 @@ struct Object {
 #[derive(Clone, Debug)]
 struct Claim {
     obstacles: Vec<Shape>,
-    movers: Vec<(Shape, Course)>,
+    movers: Vec<(Shape, ObstacleTrajectory)>,
     objects: Vec<Object>,
     clearance: f64,
     start: P,
@@ -291,13 +294,13 @@ impl Claim {
                 && dice.chance(0.5)
             {
                 let object = &mut self.objects[object];
-                object.course = Some(Course::past(dice, *time, object.at, !object.is_level));
+                object.course = Some(ObstacleTrajectory::past(dice, *time, object.at, !object.is_level));
             }
         }
         for _ in 0..1 + dice.below(2) {
             let pose = Pose { at: turned([dice.within(0.4, 1.9), 0.0], dice.within(-3.1, 3.1)), angle: 0.0 };
             let (size, time) = (dice.within(0.02, 0.2), dice.within(0.0, 8.0));
-            self.movers.push((Shape::any(dice, size, true), Course::past(dice, time, pose, true)));
+            self.movers.push((Shape::any(dice, size, true), ObstacleTrajectory::past(dice, time, pose, true)));
         }
     }
 
@@ -324,7 +327,7 @@ impl Claim {
             // Another place, an earlier or later time, or a turn of the wrist.
             9 | 10 => {
                 let moving = other.objects.iter_mut().filter_map(|object| object.course.as_mut());
-                let mut courses: Vec<&mut Course> =
+                let mut courses: Vec<&mut ObstacleTrajectory> =
                     other.movers.iter_mut().map(|(_, course)| course).chain(moving).collect();
                 let k = dice.below(courses.len());
                 let sign = if dice.chance(0.5) { 1.0 } else { -1.0 };
@@ -412,8 +415,8 @@ impl Claim {
     fn margin(&self) -> f64 {
         let wrong = f64::NEG_INFINITY;
         let mut margin = f64::INFINITY;
-        let at_first = |object: &Object| Some(object.course.clone().unwrap_or(Course::still(object.at)));
-        let mut lies: Vec<Option<Course>> = self.objects.iter().map(at_first).collect();
+        let at_first = |object: &Object| Some(object.course.clone().unwrap_or(ObstacleTrajectory::still(object.at)));
+        let mut lies: Vec<Option<ObstacleTrajectory>> = self.objects.iter().map(at_first).collect();
         let mut held: Option<(usize, Pose)> = None;
         let mut released = None;
         let mut at = self.start;
@@ -423,7 +426,7 @@ impl Claim {
             false => links(q)[1].after(grip),
         };
         // Distance of a payload from things that it must not touch.
-        let carried = |object: usize, pose: Pose, time: f64, lies: &[Option<Course>]| {
+        let carried = |object: usize, pose: Pose, time: f64, lies: &[Option<ObstacleTrajectory>]| {
             let own = self.objects[object].shape.at(pose);
             let fixed = self.obstacles.iter().enumerate().map(|(k, obstacle)| {
                 let apart = distance(&own, obstacle);
@@ -434,27 +437,29 @@ impl Claim {
             let others = others.chain(self.movers.iter().map(|(shape, course)| shape.at(course.at(time))));
             fixed.chain(others.map(|other| distance(&own, &other) - self.clearance)).fold(f64::INFINITY, f64::min)
         };
-        let scene =
-            |q: P, time: f64, held: &Option<(usize, Pose)>, lies: &[Option<Course>], allowed: [Option<usize>; 2]| {
-                let mut least = f64::INFINITY;
-                for (link, pose) in links(q).into_iter().enumerate() {
-                    let own = bar([1.0, 0.8][link]).at(pose);
-                    for obstacle in &self.obstacles {
-                        least = least.min(distance(&own, obstacle) - self.clearance);
-                    }
-                    for (shape, course) in &self.movers {
-                        least = least.min(distance(&own, &shape.at(course.at(time))) - self.clearance);
-                    }
-                    for (other, on) in lies.iter().enumerate() {
-                        if let Some(on) = on.as_ref().filter(|_| link == 0 || !allowed.contains(&Some(other))) {
-                            least =
-                                least.min(distance(&own, &self.objects[other].shape.at(on.at(time))) - self.clearance);
-                        }
+        let scene = |q: P,
+                     time: f64,
+                     held: &Option<(usize, Pose)>,
+                     lies: &[Option<ObstacleTrajectory>],
+                     allowed: [Option<usize>; 2]| {
+            let mut least = f64::INFINITY;
+            for (link, pose) in links(q).into_iter().enumerate() {
+                let own = bar([1.0, 0.8][link]).at(pose);
+                for obstacle in &self.obstacles {
+                    least = least.min(distance(&own, obstacle) - self.clearance);
+                }
+                for (shape, course) in &self.movers {
+                    least = least.min(distance(&own, &shape.at(course.at(time))) - self.clearance);
+                }
+                for (other, on) in lies.iter().enumerate() {
+                    if let Some(on) = on.as_ref().filter(|_| link == 0 || !allowed.contains(&Some(other))) {
+                        least = least.min(distance(&own, &self.objects[other].shape.at(on.at(time))) - self.clearance);
                     }
                 }
-                held.map_or(least, |(object, grip)| least.min(carried(object, pose(object, grip, q), time, lies)))
-            };
-        let any_moves = |lies: &[Option<Course>]| {
+            }
+            held.map_or(least, |(object, grip)| least.min(carried(object, pose(object, grip, q), time, lies)))
+        };
+        let any_moves = |lies: &[Option<ObstacleTrajectory>]| {
             !self.movers.is_empty() || lies.iter().flatten().any(|on| on.stops.len() > 1 || on.velocity != [0.0; 2])
         };
         let begins = self.begins();
@@ -524,7 +529,7 @@ impl Claim {
                     if minus(lying.at, *to).iter().fold(0.0, |a: f64, b| a.hypot(*b)).max(off) > MISSED {
                         return wrong;
                     }
-                    (lies[object], released) = (Some(Course::still(lying)), Some(object));
+                    (lies[object], released) = (Some(ObstacleTrajectory::still(lying)), Some(object));
                 }
                 Action::Move(to) => {
                     if minus(at, *to).iter().any(|off| off.abs() > MISSED) {
@@ -542,7 +547,7 @@ impl Claim {
 }
 
 #[test]
-fn what_holds_is_right_and_what_is_right_holds() {
+fn exactly_the_true_certificates_hold() {
     compared(false);
 }
 

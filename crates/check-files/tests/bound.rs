@@ -57,7 +57,7 @@ fn over_the_wall() -> (f64, Walls) {
 }
 
 #[test]
-fn the_way_over_a_wall_is_no_shorter_than_its_corners_make_it() {
+fn paths_around_a_wall_are_bounded_by_its_corners() {
     let (length, walls) = over_the_wall();
     let of = |length: f64, walls: &Walls| code(GANTRY, WORLD, &certificate(length, EUCLIDEAN, walls));
     assert_eq!(
@@ -116,7 +116,7 @@ fn other_metrics_measure_their_own_lengths() {
 /// A bar of 1 m on a continuous joint, and a rod that slides out of its end: on the circle, paths lead around both
 /// sides.
 #[test]
-fn on_a_circle_ways_lead_round_both_sides() {
+fn paths_on_a_circle_lead_round_both_sides() {
     let arm = r#"<robot name="p">
   <link name="base"/>
   <joint name="q" type="continuous"> <parent link="base"/> <child link="bar"/> <axis xyz="0 0 1"/> </joint>
@@ -154,7 +154,7 @@ fn on_a_circle_ways_lead_round_both_sides() {
 /// Random walls, potentials and lengths: a bound that holds must not exceed the true optimum, over the two corners of
 /// the C-obstacle.
 #[test]
-fn nothing_that_is_longer_than_the_optimum_holds() {
+fn bounds_above_the_optimum_are_refused() {
     let optimum = 2.0 * 2.5_f64.hypot(6.5) + 3.0;
     let (mut held, mut longest) = (0, 0.0_f64);
     for seed in random::seeds(300) {

@@ -153,7 +153,7 @@ fn a_picture_is_its_dark_squares() {
 /// Map savers write 205 for unseen cells, together with a threshold that would make them free. They also add keys of
 /// their own.
 #[test]
-fn the_shade_of_unseen_cells_is_solid_whatever_free_thresh() {
+fn unseen_cells_are_solid_for_any_free_thresh() {
     let place = Place::new("unseen");
     let yaml = YAML.replace("0.196", "0.25").replace("0.4", "10").replace("[-1.2, -1, 0.3]", "[-5, -5, 0]");
     let motion = straight([0.0, 0.5], [0.5, 1.0]);

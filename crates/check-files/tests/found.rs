@@ -97,7 +97,7 @@ fn distances_are_those_of_the_closed_form() {
 }
 
 #[test]
-fn clearance_counts_and_what_is_asked_elsewhere_is_said() {
+fn clearance_counts_and_other_queries_are_described() {
     let post = "[[obstacle]]\ncircle = { center = [2.2, 0], radius = 0.1 }\n";
     let at = |extra: &str| judged(&arm(), &world(post), &certificate(extra, LINEAR, "[0, -1, 0], [1, 1, 0]"));
     assert_eq!(at("").0, 0);
@@ -119,7 +119,7 @@ fn clearance_counts_and_what_is_asked_elsewhere_is_said() {
 
 /// Moves one knot of a motion. The message must name the problem.
 #[test]
-fn what_is_falsified_is_named() {
+fn falsified_parts_are_named() {
     // Beside the stretched arm, and on the path of the folded arm.
     let post = "[[obstacle]]\ncircle = { center = [0.7, 0.8], radius = 0.15 }\n";
     let judge = |knots: &str| judged(&arm(), &world(post), &certificate("", LINEAR, knots));

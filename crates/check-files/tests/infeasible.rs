@@ -124,7 +124,7 @@ fn all_kinds_of_joints_and_shapes() {
 }
 
 #[test]
-fn clearance_counts_and_what_is_asked_elsewhere_is_said() {
+fn clearance_counts_and_other_queries_are_described() {
     let arm = robot("revolute", "revolute");
     let apart = "[[obstacle]]\ncircle = { center = [1.2, 0], radius = 0.1 }\n";
     let disc = r#"{"obstacle": 0}"#;
@@ -241,7 +241,7 @@ fn a_robot_stands_where_the_world_puts_it() {
 
 /// Visual shapes replace collision shapes for a link without any.
 #[test]
-fn visual_shapes_count_where_there_are_no_others() {
+fn visual_shapes_replace_missing_collision_shapes() {
     let arm = robot("revolute", "revolute");
     let seen = arm.replace("collision", "visual");
     let visual = UPPER.replace("collision", "visual");
@@ -416,7 +416,7 @@ fn falsified_certificates_are_refused() {
 /// Compares random boxes with the closed form: a box that holds must be true. The bar overlaps the wall as long as its
 /// long side is not beyond the wall's near end.
 #[test]
-fn what_holds_is_true() {
+fn accepted_certificates_are_true() {
     let arm = robot("revolute", "revolute");
     let place = world(WALL);
     let mut held = 0;

@@ -50,7 +50,7 @@ fn boxes() -> String {
 
 /// Parts use the numbers of static obstacles, regardless of moving obstacles before them in the file.
 #[test]
-fn what_is_impossible_among_what_stands_is_so_among_more() {
+fn tasks_infeasible_among_static_obstacles_stay_infeasible() {
     for motion in MOTIONS {
         let worlds =
             [[&cart(motion), WALL], [WALL, &cart(motion)]].map(|obstacles| format!("{ENDS}{}", obstacles.concat()));
@@ -126,7 +126,7 @@ fn in_time_by_hand() {
 
 /// A bar, 2 m to each side of a pivot above the square's path.
 #[test]
-fn what_turns() {
+fn turning_obstacles() {
     let bar = |stops: &str| {
         let shape = "polygon = [[-2, -0.01], [2, -0.01], [2, 0.01], [-2, 0.01]]\nat = [5, 3]";
         format!("[[obstacle]]\n{shape}\nmotion = {{ stops = [{stops}] }}\n")
@@ -143,7 +143,7 @@ fn what_turns() {
 
 /// Bottles on a belt along y = 4. The tip picks each at the corner of its frame, and carries it to its target.
 #[test]
-fn picks_of_what_moves() {
+fn picks_of_moving_objects() {
     let world = |step: &str| {
         let belt = "[[object]]\nname = \"bottle\"\ncircle = { center = [0, 0], radius = 0.1 }\nat = [9, 4]\nmotion = { velocity = [-1, 0] }\n";
         let steps = format!("[[step]]\npick = \"bottle\"\n{step}\n[[step]]\nplace = {{ at = [2, 8] }}\n");

@@ -52,7 +52,7 @@ fn a_base_stands_where_the_world_puts_the_robot() {
 }
 
 #[test]
-fn the_world_says_which_links_may_meet() {
+fn the_world_excludes_pairs_of_links() {
     let said = |robot: &str| judged(&scara(0.1), robot, &folded(""));
     holds(said("own_body = false"));
     fails(said("own_body = true"), &HIT);
@@ -162,7 +162,7 @@ fn round(lowest: f64) -> String {
 }
 
 #[test]
-fn proofs_name_links_that_stand_still() {
+fn proofs_name_fixed_links() {
     let certificate = shut(QUILL, BASE);
     holds(judged(&round(0.1), LIMITS, &certificate));
     holds(judged(&round(0.1), &format!("{LIMITS}\nat = [1, 1]\nangle = 2"), &certificate));
@@ -199,7 +199,7 @@ fn proofs_name_links_that_stand_still() {
 
 /// A carried object must not hit static links.
 #[test]
-fn what_is_carried_stays_off_the_base() {
+fn payloads_avoid_the_base() {
     let base = r#"<link name="base"> <collision> <origin xyz="2 0.87 0"/> <geometry> <sphere radius="0.04"/> </geometry> </collision> </link>"#;
     let gantry = format!(
         r#"<robot name="g"> {base}
@@ -231,7 +231,7 @@ fn what_is_carried_stays_off_the_base() {
 
 /// A bar replaces a link.
 #[test]
-fn bars_are_kept_apart() {
+fn bars_must_not_collide() {
     let bare = scara(0.2).replacen("<collision>", "<lamp>", 4).replacen("</collision>", "</lamp>", 4);
     let base = bare
         .replacen("lamp>", "collision>", 1)
@@ -347,7 +347,7 @@ fn proofs_name_links_that_joint_1_carries() {
 /// A rigidly held object turns with the forearm. A level object turns relative to the upper arm, and needs space all
 /// around.
 #[test]
-fn what_is_carried_stays_off_the_upper_arm() {
+fn payloads_avoid_the_upper_arm() {
     let carried = |long: f64, elbow: f64, robot: &str| {
         let tip = [f64::cos, f64::sin].map(|of| 0.5 * of(1.0) + 0.45 * of(1.0 + elbow));
         let world = format!(

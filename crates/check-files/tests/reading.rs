@@ -7,7 +7,7 @@ use std::path::Path;
 const MOST: usize = 3300;
 
 /// Maximum number of lines of the crate that judges.
-const MOST_OF_THE_JUDGE: usize = 3000;
+const MAX_OF_THE_JUDGE: usize = 3000;
 
 /// Counts the lines of code of a file, without comments and tests.
 fn lines(path: &Path) -> usize {
@@ -55,13 +55,13 @@ fn numbers(section: &str, folder: &str) -> (Vec<usize>, usize) {
 }
 
 #[test]
-fn the_page_says_how_much_there_is_to_read() {
+fn the_page_states_the_lines_of_code() {
     let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/certificate_checks.md");
     let page = std::fs::read_to_string(page).unwrap();
     let section = page.split("## How much there is to read").nth(1).unwrap().split("\n## ").next().unwrap();
     let (judge, all) = numbers(section, "check");
     let (files, _) = numbers(section, "check-files");
-    assert!(all <= MOST_OF_THE_JUDGE, "{all} lines judge one motion");
+    assert!(all <= MAX_OF_THE_JUDGE, "{all} lines judge one motion");
     // Stated sums use the same rows, and no answer about one motion may exceed the number on the page.
     let below: usize = judge[..3].iter().chain(&files[..3]).sum();
     let answers = [(judge[3], "on 2 828 lines"), (judge[4], "on 3 118"), (judge[3] + judge[5], "on 3 294")];

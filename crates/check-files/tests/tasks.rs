@@ -92,7 +92,7 @@ fn every_step_is_done_once_and_in_its_order() {
 }
 
 #[test]
-fn everything_is_where_it_is_asked_for_up_to_a_hair() {
+fn places_match_the_request_within_tolerance() {
     let world = format!("{HEAD}{BLOCK}{STEPS}");
     let at = |old: &str, new: &str| judged(GANTRY, &world, &KNOTS.replace(old, new), DONE);
     assert!(holds(at("1, 1, 1], [2, 1, 1]", "1, 1.000009, 1], [2, 1.000009, 1]")).contains("within 1e-5"));
@@ -116,7 +116,7 @@ fn everything_is_where_it_is_asked_for_up_to_a_hair() {
 }
 
 #[test]
-fn what_is_carried_stays_off_what_the_arm_alone_passes() {
+fn payloads_avoid_obstacles_that_the_arm_clears() {
     for (y, is_free) in [(0.79, true), (0.81, false)] {
         let post = format!("[[obstacle]]\ncircle = {{ center = [2, {y}], radius = 0.1 }}\n");
         let (code, said) = carried(&post);
@@ -135,7 +135,7 @@ fn what_is_carried_stays_off_what_the_arm_alone_passes() {
 }
 
 #[test]
-fn the_target_may_be_touched_by_the_second_link_alone_and_other_objects_by_none() {
+fn only_the_second_link_may_touch_the_target() {
     // The bridge runs along y = 0. The carried object may touch it.
     let head = HEAD.replace("wrist =", "own_body = false, wrist =");
     let low = |y: f64| {
@@ -162,7 +162,7 @@ fn the_target_may_be_touched_by_the_second_link_alone_and_other_objects_by_none(
 
 /// The bridge reaches 1.01 m, so 0.101 mm are allowed, and 0.0714 mm beside right angles.
 #[test]
-fn what_rests_on_a_support_presses_no_deeper_than_it_may() {
+fn supported_objects_press_within_the_allowance() {
     let on = |deep: f64, supports: &str| {
         let table = format!(
             "[[obstacle]]\nname = \"table\"\npolygon = [[-5, 0], [9, 0], [9, {}], [-5, {}]]\n",
@@ -188,7 +188,7 @@ fn what_rests_on_a_support_presses_no_deeper_than_it_may() {
 }
 
 #[test]
-fn the_wrist_turns_what_it_carries() {
+fn the_wrist_turns_the_payload() {
     let world = |more: &str| format!("{HEAD}{BLOCK}{more}{STEPS}").replace("[3, 1] }", "[3, 1], angle = 1.5708 }");
     let turned = |by: &str| DONE.replace("[2, 3]", &format!("[2, 3], \"turn\": {by}"));
     holds(judged(GANTRY, &world(""), KNOTS, &turned("1.5708")));
@@ -243,7 +243,7 @@ fn bars() -> String {
 /// Stretched out, the arm picks an object at (1.8, 0), and turns by a quarter. The object ends up at (0, 1.8), turned
 /// by a quarter.
 #[test]
-fn what_is_held_rigidly_turns_with_the_arm() {
+fn rigid_payloads_turn_with_the_arm() {
     let world = |angle: &str, post: f64| {
         format!(
             "start.joints = [0, 0.5]\n[[object]]\nname = \"bar\"\nat = [1.8, 0]\npolygon = [[0, -0.01], [0.3, -0.01], [0.3, 0.01], [0, 0.01]]\n\
@@ -358,7 +358,7 @@ fn a_new_object_is_not_the_one_that_was_let_go_of() {
 
 /// The bridge overlaps the object after it is placed, before a new one appears elsewhere.
 #[test]
-fn what_is_renewed_lies_where_it_was_put_until_the_arm_goes_on() {
+fn renewed_objects_stay_until_the_next_motion() {
     let head = HEAD.replace("wrist =", "own_body = false, wrist =");
     let world = format!(
         "{head}{BLOCK}renew = true\n[task]\nrepeat = 2\n[[step]]\npick = \"block\"\n[[step]]\nplace = {{ at = [3, 0.05] }}\n"
@@ -370,7 +370,7 @@ fn what_is_renewed_lies_where_it_was_put_until_the_arm_goes_on() {
 
 /// Read as a cubic, a motion that continues at the end of a step does not rest there.
 #[test]
-fn the_arm_stands_where_a_step_ends() {
+fn the_arm_rests_where_a_step_ends() {
     let played = |speed: &str| {
         let knots = format!("[0, 0, 1, 0, 0], [1, 1, 1, {speed}, 0], [3, 3, 1, 0, 0], [5, 3, 2, 0, 0]");
         let steps = r#"{"step": 1, "knots": [0, 1]}, {"step": 2, "knots": [1, 2]}, {"step": 3, "knots": [2, 3]}"#;
@@ -438,7 +438,7 @@ fn a_stroke_takes_the_tool_through_all_heights() {
 
 /// However the object is lowered, its target must be free. Things beside it are allowed.
 #[test]
-fn without_a_stroke_what_is_placed_is_free_where_it_lies() {
+fn placed_objects_are_free_without_a_stroke() {
     let lying = |at: f64, height: &str| {
         let block = BLOCK.replace("at =", "height = [-0.3, -0.25]\nlift = 0.15\nat =");
         let other = block.replace("\"block\"", "\"other\"").replace("at = [1, 1]", &format!("at = [{at}, 1]"));
@@ -452,7 +452,7 @@ fn without_a_stroke_what_is_placed_is_free_where_it_lies() {
 }
 
 #[test]
-fn the_arm_stands_for_the_dwell() {
+fn the_arm_rests_for_the_dwell() {
     let world = |dwell: &str| {
         format!("{HEAD}{BLOCK}{STEPS}").replacen("pick = \"block\"", &format!("pick = \"block\"\ndwell = {dwell}"), 1)
     };
@@ -485,7 +485,7 @@ fn objects_that_are_not_convex() {
 /// A block like a C, open to the right, over a rail that fits into its slot. The arm reaches 1.01 m, so sides beside
 /// right angles yield by 0.0714 mm.
 #[test]
-fn what_is_not_convex_presses_no_deeper_than_it_may() {
+fn nonconvex_objects_press_within_the_allowance() {
     let slotted =
         "[[-0.2, -0.1], [0.2, -0.1], [0.2, 0.2], [-0.1, 0.2], [-0.1, 0.3], [0.2, 0.3], [0.2, 0.5], [-0.2, 0.5]]";
     let flat = GANTRY.replace(
@@ -525,7 +525,7 @@ fn what_is_not_convex_presses_no_deeper_than_it_may() {
 }
 
 #[test]
-fn worlds_that_ask_for_nothing_that_is_known() {
+fn worlds_with_unknown_requests() {
     let with = |old: &str, new: &str| judged(GANTRY, &format!("{HEAD}{BLOCK}{STEPS}").replace(old, new), KNOTS, DONE);
     for (old, new, part) in [
         ("pick = \"block\"", "pick = \"blok\"", "no object of this name"),

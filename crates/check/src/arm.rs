@@ -4,9 +4,9 @@ use crate::certificate::Certificate;
 use crate::domain::{Axis, Domain, Range};
 use crate::error::CheckError;
 use crate::interval::Point;
-use crate::mover::{Cell, Mover};
+use crate::mover::{Cell, MovingBody};
 use crate::obstacle::Obstacle;
-use crate::shapes::{Body, Counted, Outline};
+use crate::shapes::{Body, CollisionShape, Outline};
 
 /// Planar motion that a joint gives to the links beyond it.
 #[derive(Debug, Clone)]
@@ -44,10 +44,10 @@ pub struct Arm {
     /// The tip as a body without extent.
     pub tip: Body,
     /// All shapes that can collide.
-    pub shapes: Vec<Counted>,
+    pub shapes: Vec<CollisionShape>,
     /// Shapes of the robot that its other links can hit: those of static links, and those that joint 1 carries. The
     /// latter are placed in the plane as with joint 1 at zero.
-    pub bases: Vec<Counted>,
+    pub bases: Vec<CollisionShape>,
     /// Obstacles made from these shapes.
     pub own: Vec<Obstacle>,
     /// Sentences for messages: assumptions that differ from the robot's file.
@@ -63,12 +63,12 @@ impl Arm {
         let first = certificate.motion.as_ref().and_then(|motion| motion.knots.first()?.get(1..3));
         let cell = first.map(|q| Cell::from(&[0, 1].map(|k| [q[k].clone(), q[k].clone()])));
         for [a, b] in &certificate.ignored {
-            let is_pair = |own: &Counted, other: &Counted| {
+            let is_pair = |own: &CollisionShape, other: &CollisionShape| {
                 [a, b] == [&own.link, &other.link] || [b, a] == [&own.link, &other.link]
             };
-            let meet = |own: &Counted, other: &Counted| {
+            let meet = |own: &CollisionShape, other: &CollisionShape| {
                 let heights = other.within.kept(Outline::Within);
-                let mover = Mover::new(self, &own.within);
+                let mover = MovingBody::new(self, &own.within);
                 let cell = cell.clone().map(|cell| cell.beside(Some(&other.owner())));
                 own.within.is_at(heights.as_ref()) && cell.is_none_or(|cell| mover.overlaps(&other.within.shape, &cell))
             };

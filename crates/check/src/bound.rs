@@ -13,18 +13,18 @@ use crate::arm::{Arm, Motion};
 use crate::certificate::{Certificate, Wall, rectangles};
 use crate::contacts::{Contacts, Pair};
 use crate::domain::{Rectangle, within};
-use crate::ends::{End, FEW_PARTS};
+use crate::ends::{End, MAX_LOCATED_PARTS};
 use crate::error::{CheckError, Input};
 use crate::interval::{Interval, minus};
-use crate::mover::{self, Mover};
+use crate::mover::{self, MovingBody};
 use crate::world::World;
 use plane::Plane;
 
 /// Maximum number of overlap tests along a wall.
-const MOST_LOOKS: usize = 20_000;
+const MAX_OVERLAP_TESTS: usize = 20_000;
 
 /// Maximum number of times that a wall is halved.
-const MOST_CUTS: u32 = 60;
+const MAX_WALL_HALVINGS: u32 = 60;
 
 /// Checks that no motion from the start to a configuration, or to the goal, is shorter than a length.
 pub fn no_shorter(arm: &Arm, world: &World, certificate: &Certificate) -> Result<String, CheckError> {
@@ -41,14 +41,14 @@ pub fn no_shorter(arm: &Arm, world: &World, certificate: &Certificate) -> Result
         }
         None => {
             let goal = End::goal(certificate, world)?;
-            let is_stuck = |part: &Rectangle| boxes.iter().any(|stuck| within(part, stuck));
-            (goal.region(arm)?.places(arm, FEW_PARTS, is_stuck), format!(" the goal{}", goal.named(arm)))
+            let is_collision = |part: &Rectangle| boxes.iter().any(|stuck| within(part, stuck));
+            (goal.region(arm)?.places(arm, MAX_LOCATED_PARTS, is_collision), format!(" the goal{}", goal.named(arm)))
         }
     };
     bound.metric.is_a_norm()?;
     let axes = arm.joints.each_ref().map(|joint| &joint.axis);
     let plane = Plane::new(bound, axes, &start.configuration(arm)?, &goals)?;
-    plane.legs_are_long(&plane.corners(bound, axes)?)?;
+    plane.check_potentials(&plane.corners(bound, axes)?)?;
     let contacts = Contacts::new(arm, world, certificate, certificate.clearance(world)?)?;
     contacts.hold(arm, stuck, &boxes)?;
     for (number, wall) in bound.walls.iter().enumerate() {
@@ -73,19 +73,19 @@ fn closes(arm: &Arm, wall: &Wall, &Pair { body, part, beside }: &Pair) -> bool {
     let [from, to] = [&wall.from, &wall.to].map(|end| end.each_ref().map(Interval::from));
     let along = minus(&to, &from);
     let cell = |from, along, k, cuts| mover::Cell::of_segment(from, along, k, cuts).beside(beside);
-    let mover = Mover::new(arm, body);
+    let mover = MovingBody::new(arm, body);
     let turns = |k: usize| wall.from[k] != wall.to[k] && matches!(arm.joints[k].motion, Motion::Turn(_));
     if !(0..=body.link).any(turns) {
         let still = [0, 1].map(|_| Interval::whole(0));
         return [from, to].iter().all(|end| mover.overlaps(part, &cell(end, &still, 0, 0)));
     }
     let (mut left, mut last) = (vec![(0, 0)], 0);
-    for _ in 0..MOST_LOOKS {
+    for _ in 0..MAX_OVERLAP_TESTS {
         let Some((k, cuts)) = left.pop() else { return true };
         // A piece much longer than the one before is not tested: it would probably fail.
         if cuts + 1 >= last && mover.overlaps(part, &cell(&from, &along, k, cuts)) {
             last = cuts;
-        } else if cuts < MOST_CUTS {
+        } else if cuts < MAX_WALL_HALVINGS {
             left.extend([2 * k + 1, 2 * k].map(|k| (k, cuts + 1)));
         } else {
             return false;

@@ -6,9 +6,9 @@ mod motion;
 mod tasks;
 
 pub use bound::{Bound, Metric, Wall};
-pub use boxes::{PartName, ShapeName, StuckBox, rectangles};
+pub use boxes::{CollisionBox, PartName, ShapeName, rectangles};
 pub use motion::{Interpolation, Motion};
-pub use tasks::Done;
+pub use tasks::ExecutedStep;
 
 use crate::decimal::Decimal;
 use crate::error::{CheckError, Input};
@@ -47,7 +47,7 @@ pub struct Certificate {
     /// Evidence for "found": the motion.
     pub motion: Option<Motion>,
     /// For a task: the part of the motion that executes each step.
-    pub steps: Option<Vec<Done>>,
+    pub steps: Option<Vec<ExecutedStep>>,
     /// Pairs of links that overlap in every configuration.
     #[serde(default)]
     pub ignored: Vec<[String; 2]>,
@@ -58,7 +58,7 @@ pub struct Certificate {
     #[serde(default)]
     pub parts: Vec<PartName>,
     /// Evidence that there is no motion. With a bound: configurations excluded from the goal because they are not free.
-    pub boxes: Option<Vec<StuckBox>>,
+    pub boxes: Option<Vec<CollisionBox>>,
     /// Evidence that no motion is shorter.
     pub bound: Option<Bound>,
 }
@@ -91,7 +91,7 @@ pub enum Answer {
 
 /// The part of a cplan result that matters here.
 #[derive(Deserialize)]
-struct Containing<'a> {
+struct EnclosingResult<'a> {
     #[serde(borrow)]
     certificate: &'a RawValue,
 }
@@ -108,7 +108,7 @@ struct TaskProof {
 /// # Errors
 /// If the text is not a certificate, has another format, or is a proof that a task is infeasible.
 pub fn read(text: &str) -> Result<Certificate, CheckError> {
-    let text = serde_json::from_str::<Containing>(text).map_or(text, |result| result.certificate.get());
+    let text = serde_json::from_str::<EnclosingResult>(text).map_or(text, |result| result.certificate.get());
     // Such a proof also has other keys that are unknown today.
     if serde_json::from_str::<TaskProof>(text).is_ok() {
         let message = "it has \"cases\" that prove a task infeasible: the checker does not judge proofs about tasks; \

@@ -1,14 +1,14 @@
 //! The shapes and the obstacle parts that evidence refers to, and whether they overlap.
 
 use crate::arm::Arm;
-use crate::certificate::{Certificate, PartName, ShapeName, StuckBox};
+use crate::certificate::{Certificate, CollisionBox, PartName, ShapeName};
 use crate::decimal::Decimal;
 use crate::domain::{Range, Rectangle};
 use crate::error::{CheckError, Input};
 use crate::interval::Interval;
-use crate::mover::{Cell, Mover};
+use crate::mover::{Cell, MovingBody};
 use crate::overlap::Shape;
-use crate::shapes::{Body, Counted, Owner, named};
+use crate::shapes::{Body, CollisionShape, Owner, named};
 use crate::world::World;
 
 mod own;
@@ -17,7 +17,7 @@ mod own;
 type Evident = (Option<Owner>, Shape, Option<Range>);
 
 /// Hint for parts that refer to nothing, or to more than one thing.
-const PART: &str = "a part names an obstacle, or by \"own\" a link of the robot and one of its shapes";
+const PART_HINT: &str = "a part names an obstacle, or by \"own\" a link of the robot and one of its shapes";
 
 /// A part of an obstacle or a link of the robot that evidence refers to, grown by the clearance.
 struct Part {
@@ -38,7 +38,7 @@ pub struct Pair<'a> {
 
 /// All shapes and parts that a certificate refers to.
 pub struct Contacts<'a> {
-    shapes: Vec<&'a Counted>,
+    shapes: Vec<&'a CollisionShape>,
     parts: Vec<Part>,
 }
 
@@ -69,10 +69,10 @@ impl<'a> Contacts<'a> {
     ///
     /// # Errors
     /// Names the first box for which this is not shown.
-    pub fn hold(&self, arm: &Arm, stuck: &[StuckBox], boxes: &[Rectangle]) -> Result<(), CheckError> {
+    pub fn hold(&self, arm: &Arm, stuck: &[CollisionBox], boxes: &[Rectangle]) -> Result<(), CheckError> {
         for (number, (stuck, ranges)) in stuck.iter().zip(boxes).enumerate() {
             let Pair { body, part, beside } = self.pair(stuck.shape, stuck.part, || format!("box {number}"))?;
-            if !Mover::new(arm, body).overlaps(part, &Cell::from(ranges).beside(beside)) {
+            if !MovingBody::new(arm, body).overlaps(part, &Cell::from(ranges).beside(beside)) {
                 return CheckError::fails(format!("box {number}: the shape does not touch the part everywhere in it"));
             }
         }
@@ -104,7 +104,7 @@ impl<'a> Contacts<'a> {
 /// Finds a convex part of an obstacle of the world.
 fn part_of(world: &World, number: usize, obstacle: usize, name: &PartName) -> Result<Evident, CheckError> {
     if name.own.is_some() || name.collision.is_some() || name.visual.is_some() || name.height.is_some() {
-        return Err(CheckError::in_file(Input::Certificate, PART));
+        return Err(CheckError::in_file(Input::Certificate, PART_HINT));
     }
     let Some(standing) = world.obstacles.get(obstacle) else {
         return CheckError::fails(format!("part {number}: there is no obstacle {obstacle}"));
@@ -117,7 +117,7 @@ fn part_of(world: &World, number: usize, obstacle: usize, name: &PartName) -> Re
 }
 
 /// Finds a shape by the name that evidence uses for it.
-fn shape<'a>(arm: &'a Arm, name: &ShapeName) -> Result<&'a Counted, CheckError> {
+fn shape<'a>(arm: &'a Arm, name: &ShapeName) -> Result<&'a CollisionShape, CheckError> {
     let (kind, number) = match (name.collision, name.visual, name.bar) {
         (Some(number), None, None) => ("collision", number),
         (None, Some(number), None) => ("visual", number),

@@ -4,21 +4,21 @@ use crate::decimal::Decimal;
 use crate::interval::{BITS, Interval, Point};
 use num_bigint::BigInt;
 
-/// Joint values are multiples of `2^-FINE` here.
-pub const FINE: u32 = 72;
+/// Joint values are multiples of `2^-FRACTION_BITS` here.
+pub const FRACTION_BITS: u32 = 72;
 
-/// Joint values are below `2^LARGEST`, so that no sum or product overflows.
-pub const LARGEST: u32 = 28;
+/// Joint values are below `2^INTEGER_BITS`, so that no sum or product overflows.
+pub const INTEGER_BITS: u32 = 28;
 
-/// Fractions of a chord are multiples of `2^-SHARE`.
-const SHARE: u32 = 20;
+/// Fractions of a chord are multiples of `2^-SHARE_BITS`.
+const SHARE_BITS: u32 = 20;
 
 /// Maximum number of times that curves are halved.
-pub const HALVINGS: u32 = 40;
+pub const MAX_HALVINGS: u32 = 40;
 
 /// Rounding error of a control point. It is less than two units initially, plus at most one unit per step of a halving
 /// (five in all), plus less than one unit for the computations here.
-const ROUNDED: i128 = 3 + 5 * HALVINGS as i128;
+const ROUNDING_UNITS: i128 = 3 + 5 * MAX_HALVINGS as i128;
 
 /// Both joints' values.
 pub type Values = [i128; 2];
@@ -93,13 +93,13 @@ impl Tube {
         for point in points() {
             let off = [0, 1].map(|k| point[k] - middle[k]);
             let share = if square > 0.0 { (off[0] as f64 * h1 + off[1] as f64 * h2) / square } else { 0.0 };
-            let share = (share.clamp(-1.0, 1.0) * f64::from(1 << SHARE)) as i128;
+            let share = (share.clamp(-1.0, 1.0) * f64::from(1 << SHARE_BITS)) as i128;
             for k in 0..2 {
-                beside[k] = beside[k].max((off[k] - ((half[k] * share) >> SHARE)).abs());
+                beside[k] = beside[k].max((off[k] - ((half[k] * share) >> SHARE_BITS)).abs());
             }
         }
-        let exactly = |values: Values| values.map(|n| Interval::exactly(BigInt::from(n) << (BITS - FINE)));
-        Self { middle: exactly(middle), half: exactly(half), beside: exactly(beside.map(|b| b + ROUNDED)) }
+        let exactly = |values: Values| values.map(|n| Interval::exactly(BigInt::from(n) << (BITS - FRACTION_BITS)));
+        Self { middle: exactly(middle), half: exactly(half), beside: exactly(beside.map(|b| b + ROUNDING_UNITS)) }
     }
 
     /// Makes a tube around a single configuration.
@@ -122,7 +122,8 @@ mod tests {
 
     /// Evaluates a curve at a fraction `t`, in floating point.
     fn at(curve: &[Values], t: f64) -> [f64; 2] {
-        let mut points: Vec<[f64; 2]> = curve.iter().map(|p| p.map(|c| c as f64 / 2f64.powi(FINE as i32))).collect();
+        let mut points: Vec<[f64; 2]> =
+            curve.iter().map(|p| p.map(|c| c as f64 / 2f64.powi(FRACTION_BITS as i32))).collect();
         while points.len() > 1 {
             points = points.windows(2).map(|p| [0, 1].map(|k| p[0][k] + t * (p[1][k] - p[0][k]))).collect();
         }
@@ -130,7 +131,7 @@ mod tests {
     }
 
     fn piece() -> Piece {
-        let unit = |n: [i128; 2]| n.map(|c| c << (FINE - 4));
+        let unit = |n: [i128; 2]| n.map(|c| c << (FRACTION_BITS - 4));
         let cubic = [[0, 0], [9, 3], [-4, 20], [30, 7]].map(unit).to_vec();
         let quartic = [[0, 0], [5, 5], [-1, 2], [9, 9], [30, 7]].map(unit).to_vec();
         Piece { knot: 3, curves: vec![cubic, quartic], time: [0, 1].map(Decimal::whole) }

@@ -10,10 +10,10 @@ use std::str::FromStr;
 
 /// Maximum number of digits, and maximum exponent, of a number. Both are far beyond those of a double, and small enough
 /// to compute with.
-const MOST_DIGITS: usize = 1100;
+const MAX_DIGITS: usize = 1100;
 
 /// Numbers of robots and worlds must be below `10^15`. Larger ones have no meaning, and could make computations slow.
-const LARGEST: u32 = 15;
+const MAX_NUMBER_DIGITS: u32 = 15;
 
 /// `mantissa * 10^-scale`: every decimal, and so every dyadic number. Sums and products are exact.
 #[derive(Debug, Clone, Default)]
@@ -34,10 +34,10 @@ impl Decimal {
     /// If the text is not a number, or if the number is too large.
     pub fn read(text: &str) -> Result<Self, String> {
         let number: Self = text.parse()?;
-        let largest = Self { mantissa: BigInt::from(10).pow(LARGEST), scale: 0 };
+        let largest = Self { mantissa: BigInt::from(10).pow(MAX_NUMBER_DIGITS), scale: 0 };
         match number < largest && -&number < largest {
             true => Ok(number),
-            false => Err(format!("\"{text}\" is not below 1e{LARGEST}")),
+            false => Err(format!("\"{text}\" is not below 1e{MAX_NUMBER_DIGITS}")),
         }
     }
 
@@ -99,8 +99,8 @@ impl FromStr for Decimal {
         }
         let exponent: i64 = exponent.parse().map_err(|_| wrong())?;
         let scale = fraction.len() as i64 - exponent.clamp(-1 << 32, 1 << 32);
-        if digits.len() > MOST_DIGITS || scale.unsigned_abs() > MOST_DIGITS as u64 {
-            return Err(format!("\"{text}\" has more than {MOST_DIGITS} digits"));
+        if digits.len() > MAX_DIGITS || scale.unsigned_abs() > MAX_DIGITS as u64 {
+            return Err(format!("\"{text}\" has more than {MAX_DIGITS} digits"));
         }
         let mantissa = digits.parse::<BigInt>().map_err(|_| wrong())? * sign;
         Ok(match u32::try_from(scale) {

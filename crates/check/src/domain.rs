@@ -4,8 +4,8 @@ use crate::decimal::Decimal;
 use crate::interval::{BITS, Interval};
 use num_bigint::BigInt;
 
-/// Enclosures of half a turn reach `2^-SEAM` beyond the known digits of pi.
-const SEAM: u32 = 100;
+/// Enclosures of half a turn reach `2^-SEAM_BITS` beyond the known digits of pi.
+const SEAM_BITS: u32 = 100;
 
 /// All values from the first to the second.
 pub type Range = [Decimal; 2];
@@ -40,7 +40,7 @@ impl Domain {
     /// Makes the domain of two joints.
     pub fn new(axes: [&Axis; 2]) -> Self {
         // The enclosures are wide enough to contain half a turn in degrees.
-        let pi = Interval::pi().widened(&(BigInt::from(1) << (BITS - SEAM)));
+        let pi = Interval::pi().widened(&(BigInt::from(1) << (BITS - SEAM_BITS)));
         let turn = [(-&pi).ends(), pi.ends()];
         Self {
             ranges: [0, 1].map(|k| match axes[k] {

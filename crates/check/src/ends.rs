@@ -6,11 +6,11 @@ use crate::decimal::Decimal;
 use crate::error::{CheckError, Input};
 use crate::world::{Goal, World};
 
-mod missed;
+mod end_error;
 mod region;
 
-pub use missed::missed;
-pub use region::{FEW_PARTS, MOST_PARTS};
+pub use end_error::missed;
+pub use region::{MAX_ENCLOSED_PARTS, MAX_LOCATED_PARTS};
 
 /// The start or the goal.
 pub struct End {
@@ -43,13 +43,13 @@ impl End {
     }
 
     fn of(what: &'static str, own: Option<Goal>, given: Option<&Goal>) -> Result<Self, CheckError> {
-        let said = match &own {
+        let description = match &own {
             Some(Goal::Joints([[a, _], [b, _]]) | Goal::Tip([a, b])) => format!(" ({a}, {b})"),
             Some(Goal::Areas(_)) | None => String::new(),
         };
         let missing = || format!("there is no {what}: [{what}] joints = [q1, q2]");
         let at = own.or_else(|| given.cloned()).ok_or_else(|| CheckError::in_file(Input::World, missing()))?;
-        Ok(Self { what, at, own: said })
+        Ok(Self { what, at, own: description })
     }
 
     /// Describes the end in words, as far as it differs from the world's.

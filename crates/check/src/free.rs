@@ -3,13 +3,13 @@
 mod chain;
 mod guess;
 
-pub use chain::{Chain, On};
+pub use chain::{Attachment, Chain};
 
 use crate::arm::Motion;
-use crate::curve::{HALVINGS, Piece, Tube};
+use crate::curve::{MAX_HALVINGS, Piece, Tube};
 use crate::decimal::Decimal;
 use crate::interval::{BITS, Interval, Point, both_turns, dot, length, minus, rough, roughly, sum, times, turned};
-use crate::obstacle::Course;
+use crate::obstacle::ObstacleTrajectory;
 use crate::overlap::Shape;
 use chain::{Term, Terms};
 use guess::{direction, ring};
@@ -25,14 +25,14 @@ pub fn guard() -> BigInt {
 
 /// Number of binary digits of separating directions: all that a double has. The rounding error matters in proportion to
 /// the size of an obstacle relative to its distance.
-const DIGITS: u32 = 52;
+const DIRECTION_BITS: u32 = 52;
 
 /// Number of tested parts of a motion after which the checker gives up. This takes some minutes.
-const MOST_PARTS: usize = 1_000_000;
+const MAX_MOTION_PARTS: usize = 1_000_000;
 
 /// A shape that the arm moves, with an enclosing disc around its core.
 pub struct Solid {
-    on: On,
+    on: Attachment,
     shape: Shape,
     /// Required distance.
     kept: BigInt,
@@ -58,7 +58,7 @@ pub enum Edge {
     /// A static side.
     Still(Side),
     /// A moving side, in the frame of its obstacle.
-    Moving(Shape, Rc<dyn Course>),
+    Moving(Shape, Rc<dyn ObstacleTrajectory>),
 }
 
 /// A point in the middle of a tube, and its motion within the tube.
@@ -98,7 +98,7 @@ enum Stretch {
 }
 
 /// A gap in the evidence: the knot where the stretch begins, the shape and the edge.
-pub struct Open {
+pub struct EvidenceGap {
     /// The knot.
     pub knot: usize,
     /// The number of the shape.
@@ -113,7 +113,7 @@ fn perpendicular([x, y]: &Point) -> Point {
 
 impl Solid {
     /// Makes a shape that must keep farther than `kept` units away from sides.
-    pub fn new(chain: &Chain, on: On, shape: &Shape, kept: &BigInt) -> Self {
+    pub fn new(chain: &Chain, on: Attachment, shape: &Shape, kept: &BigInt) -> Self {
         let (center, extent) = disc(&shape.points);
         Self {
             corners: shape.points.iter().map(|a| chain.hanging(&on, a)).collect(),
@@ -276,13 +276,17 @@ impl<'a> Posture<'a> {
         let there: Vec<[f64; 2]> = side.shape.points.iter().map(seen).collect();
         let Some([x, y]) = direction(&here, &there, roughly(&apart)) else { return false };
         let exact = |n: [f64; 2]| {
-            n.map(|c| Interval::exactly(BigInt::from((c * (1_u64 << DIGITS) as f64) as i64) << (BITS - DIGITS)))
+            n.map(|c| {
+                Interval::exactly(
+                    BigInt::from((c * (1_u64 << DIRECTION_BITS) as f64) as i64) << (BITS - DIRECTION_BITS),
+                )
+            })
         };
         if self.separates(&exact([x, y]), corners, &side.shape.points, &apart) {
             return true;
         }
         // Try the same from the link's point of view: there the side moves towards the shape.
-        let On::Link(link) = solid.on else { return false };
+        let Attachment::Link(link) = solid.on else { return false };
         let by = [0, 1].map(|k| k <= link && matches!(self.chain.motions[k], Motion::Turn(_)));
         let [sine, cosine] = Self::angle(by).map_or([0.0, 1.0], |which| rough(&self.turns[which]));
         let turned_back = [-(cosine * x + sine * y), -(cosine * y - sine * x)];
@@ -300,7 +304,7 @@ pub fn keep_off(
     pieces: &[Piece],
     (solids, edges): (&[&Solid], &[&Edge]),
     pairs: Vec<[usize; 2]>,
-) -> Result<(), Open> {
+) -> Result<(), EvidenceGap> {
     let mut stack = vec![(Stretch::Pieces(0, pieces.len()), pairs)];
     let mut parts = 0;
     while let Some((stretch, mut pairs)) = stack.pop() {
@@ -323,8 +327,8 @@ pub fn keep_off(
                 let middle = from + (to - from) / 2;
                 (Stretch::Pieces(from, middle), Stretch::Pieces(middle, to))
             }
-            Stretch::Part(piece, halvings) if halvings >= HALVINGS || parts > MOST_PARTS => {
-                return Err(Open { knot: piece.knot, solid, edge });
+            Stretch::Part(piece, halvings) if halvings >= MAX_HALVINGS || parts > MAX_MOTION_PARTS => {
+                return Err(EvidenceGap { knot: piece.knot, solid, edge });
             }
             Stretch::Pieces(from, _) => halved(&pieces[from], 0),
             Stretch::Part(piece, halvings) => halved(&piece, halvings),

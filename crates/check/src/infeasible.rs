@@ -3,7 +3,7 @@
 use crate::arm::Arm;
 use crate::certificate::{Certificate, rectangles};
 use crate::contacts::Contacts;
-use crate::ends::{End, MOST_PARTS};
+use crate::ends::{End, MAX_ENCLOSED_PARTS};
 use crate::error::CheckError;
 use crate::sweep::Reached;
 use crate::world::World;
@@ -17,7 +17,7 @@ pub fn infeasible(arm: &Arm, world: &World, certificate: &Certificate) -> Result
     let Some(reached) = Reached::new(&arm.domain, &boxes, &start.configuration(arm)?) else {
         return CheckError::fails("the boxes leave more gaps than the checker examines");
     };
-    if !goal.region(arm)?.places(arm, MOST_PARTS, |part| !reached.meets(part)).is_empty() {
+    if !goal.region(arm)?.places(arm, MAX_ENCLOSED_PARTS, |part| !reached.meets(part)).is_empty() {
         return CheckError::fails("the boxes do not separate the goal from the start");
     }
     Contacts::new(arm, world, certificate, clearance)?.hold(arm, stuck, &boxes)?;

@@ -293,11 +293,11 @@ pub fn length([x, y]: &Point) -> Interval {
 // Guesses in floating point only direct the search. They decide nothing.
 
 /// Binary digits of guesses after the point.
-const ROUGH: u32 = 44;
+const GUESS_BITS: u32 = 44;
 
 /// Converts a number of units to floating point, approximately. Returns NaN if it is too large.
 pub fn roughly(n: &BigInt) -> f64 {
-    i64::try_from(n >> (BITS - ROUGH)).map_or(f64::NAN, |n| n as f64 / (1u64 << ROUGH) as f64)
+    i64::try_from(n >> (BITS - GUESS_BITS)).map_or(f64::NAN, |n| n as f64 / (1u64 << GUESS_BITS) as f64)
 }
 
 /// Converts a point to floating point, approximately.

@@ -2,22 +2,22 @@
 
 use crate::arm::Arm;
 use crate::certificate::{Certificate, Interpolation, Motion};
-use crate::curve::{FINE, LARGEST, Piece, Values};
+use crate::curve::{FRACTION_BITS, INTEGER_BITS, Piece, Values};
 use crate::decimal::Decimal;
 use crate::ends::End;
 use crate::error::{CheckError, Input};
-use crate::free::{Chain, On, Solid, guard};
+use crate::free::{Attachment, Chain, Solid, guard};
 use crate::interval::Interval;
 use crate::obstacle::Obstacle;
-use crate::scene::{Part, Present, stay_off};
-use crate::shapes::Counted;
+use crate::scene::{Part, PlacedObstacle, stay_off};
+use crate::shapes::CollisionShape;
 use crate::world::World;
 
 /// Maximum number of times that a piece is halved to check the limits.
-const HALVINGS: u32 = 40;
+const MAX_PIECE_HALVINGS: u32 = 40;
 
 /// Factor of control points: it turns them into decimals.
-pub const SIXTY: i32 = 60;
+pub const CONTROL_POINT_FACTOR: i32 = 60;
 
 impl Interpolation {
     fn name(self) -> &'static str {
@@ -41,7 +41,7 @@ impl Interpolation {
     /// Computes the control points of a joint between two knots, times sixty.
     fn control(self, a: &[Decimal], b: &[Decimal], joint: usize) -> Vec<Decimal> {
         let h = &b[0] - &a[0];
-        let value = |knot: &[Decimal]| &knot[1 + joint] * &Decimal::whole(SIXTY);
+        let value = |knot: &[Decimal]| &knot[1 + joint] * &Decimal::whole(CONTROL_POINT_FACTOR);
         let speed = |knot: &[Decimal], by: i32| &(&knot[3 + joint] * &h) * &Decimal::whole(by);
         let bend = |knot: &[Decimal], by: i32| &(&(&knot[5 + joint] * &h) * &h) * &Decimal::whole(by);
         let (from, to) = (value(a), value(b));
@@ -64,18 +64,18 @@ impl Interpolation {
 impl Motion {
     /// Describes the number of knots and the interpolations in words.
     pub fn in_words(&self) -> String {
-        let read: Vec<&str> = self.interpolation.iter().map(|way| way.name()).collect();
+        let read: Vec<&str> = self.interpolation.iter().map(|method| method.name()).collect();
         format!("{} knots, read as {}", self.knots.len(), read.join(" or "))
     }
 
     /// Returns true if the arm is at rest from a knot to the next, in each interpolation.
     pub fn stands(&self, knot: usize) -> bool {
         let [from, to] = [knot, knot + 1].map(|knot| &self.knots[knot]);
-        let stands = |way: &Interpolation, joint: usize| {
-            let control = way.control(from, to, joint);
+        let stands = |method: &Interpolation, joint: usize| {
+            let control = method.control(from, to, joint);
             control.iter().all(|point| *point == control[0])
         };
-        self.interpolation.iter().all(|way| (0..2).all(|joint| stands(way, joint)))
+        self.interpolation.iter().all(|method| (0..2).all(|joint| stands(method, joint)))
     }
 }
 
@@ -87,7 +87,7 @@ pub fn found(arm: &Arm, world: &World, certificate: &Certificate) -> Result<Stri
         return Err(CheckError::in_file(Input::Certificate, "it has no motion"));
     };
     let Motion { interpolation, knots } = motion;
-    well_formed(interpolation, knots)?;
+    check_knots(interpolation, knots)?;
     let start = End::start(certificate, world)?.reached(arm, &knots[0])?;
     let goal = End::goal(certificate, world)?.reached(arm, &knots[knots.len() - 1])?;
     let pieces = (0..knots.len().max(2) - 1).map(|knot| piece(arm, interpolation, knots, knot));
@@ -101,9 +101,9 @@ pub fn found(arm: &Arm, world: &World, certificate: &Certificate) -> Result<Stri
 }
 
 /// Checks conditions on the knots alone: their number, columns and times.
-pub fn well_formed(interpolation: &[Interpolation], knots: &[Vec<Decimal>]) -> Result<(), CheckError> {
+pub fn check_knots(interpolation: &[Interpolation], knots: &[Vec<Decimal>]) -> Result<(), CheckError> {
     let bad = |message: String| Err(CheckError::in_file(Input::Certificate, message));
-    let Some(columns) = interpolation.iter().map(|way| way.columns()).max() else {
+    let Some(columns) = interpolation.iter().map(|method| method.columns()).max() else {
         return bad("the motion has no interpolation between its knots".into());
     };
     if knots.is_empty() {
@@ -126,17 +126,20 @@ pub fn piece(
     knot: usize,
 ) -> Result<Piece, CheckError> {
     let mut curves = Vec::new();
-    for way in interpolation {
+    for method in interpolation {
         let control = |joint: usize| match &knots.get(knot + 1) {
-            Some(next) => way.control(&knots[knot], next, joint),
+            Some(next) => method.control(&knots[knot], next, joint),
             None => Interpolation::Linear.control(&knots[knot], &knots[knot], joint),
         };
         let control = [control(0), control(1)];
         for (joint, control) in arm.joints.iter().zip(&control) {
-            let ends = joint.within.as_ref().map(|range| range.each_ref().map(|end| end * &Decimal::whole(SIXTY)));
-            if ends.is_some_and(|[low, high]| !stays_within(control, &low, &high, HALVINGS)) {
-                let (name, way) = (&joint.name, way.name());
-                return CheckError::fails(format!("after knot {knot} ({way}) joint \"{name}\" leaves its limits"));
+            let ends = joint
+                .within
+                .as_ref()
+                .map(|range| range.each_ref().map(|end| end * &Decimal::whole(CONTROL_POINT_FACTOR)));
+            if ends.is_some_and(|[low, high]| !stays_within(control, &low, &high, MAX_PIECE_HALVINGS)) {
+                let (name, method) = (&joint.name, method.name());
+                return CheckError::fails(format!("after knot {knot} ({method}) joint \"{name}\" leaves its limits"));
             }
         }
         let [first, second] = &control;
@@ -151,8 +154,8 @@ pub fn piece(
 /// Returns a sixtieth of a number in units of curves, with an error of less than two units. Returns `None` if the
 /// number is too large.
 pub fn fine(sixty: &Decimal) -> Option<i128> {
-    let fine = sixty.floor(FINE) / SIXTY;
-    (fine.bits() < u64::from(FINE + LARGEST)).then(|| i128::try_from(fine).ok()).flatten()
+    let fine = sixty.floor(FRACTION_BITS) / CONTROL_POINT_FACTOR;
+    (fine.bits() < u64::from(FRACTION_BITS + INTEGER_BITS)).then(|| i128::try_from(fine).ok()).flatten()
 }
 
 /// Returns true if a curve stays between two numbers, ends included. It tests the control points of the curve or of its
@@ -189,14 +192,16 @@ fn stays_off(
     clearance: &Decimal,
 ) -> Result<(), CheckError> {
     let chain = Chain::from(arm);
-    let present = |obstacle: &Obstacle| Present::new(&chain, obstacle.clone()).map(Some);
+    let present = |obstacle: &Obstacle| PlacedObstacle::new(&chain, obstacle.clone()).map(Some);
     let all = || world.all().chain(&arm.own);
     let obstacles = all().map(present).collect::<Result<Vec<_>, _>>()?;
     let kept = Interval::from(clearance).upper + guard();
-    let solid = |Counted { around, .. }: &Counted| Solid::new(&chain, On::Link(around.link), &around.shape, &kept);
+    let solid = |CollisionShape { around, .. }: &CollisionShape| {
+        Solid::new(&chain, Attachment::Link(around.link), &around.shape, &kept)
+    };
     let solids: Vec<Solid> = arm.shapes.iter().map(solid).collect();
     let keeps = format!("farther than {clearance} from");
-    let part = |(shape, solid): (&Counted, _)| {
+    let part = |(shape, solid): (&CollisionShape, _)| {
         let meets = all().map(|obstacle| shape.meets(&shape.around, obstacle)).collect();
         Part { name: shape.to_string(), keeps: &keeps, solid, meets }
     };

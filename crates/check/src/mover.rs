@@ -69,7 +69,7 @@ impl Arm {
 }
 
 /// A body with everything about its position and displacement that does not depend on the box.
-pub struct Mover<'a> {
+pub struct MovingBody<'a> {
     arm: &'a Arm,
     body: &'a Body,
     /// Approximate corners.
@@ -87,7 +87,7 @@ fn reach(points: &[Point]) -> Interval {
     points.iter().map(|p| length(p).upper).max().map_or(Interval::whole(0), Interval::exactly)
 }
 
-impl<'a> Mover<'a> {
+impl<'a> MovingBody<'a> {
     pub fn new(arm: &'a Arm, body: &'a Body) -> Self {
         let zero = Interval::whole(0);
         let first = RefCell::new((zero.clone(), arm.displaced(0, &zero)));
@@ -179,7 +179,7 @@ impl Arm {
     /// farther from the position than it can move within them. Cutting stops when it would give more than `most` parts.
     /// Parts that touch are merged.
     pub fn places(&self, place: &Point, most: usize, is_left_out: impl Fn(&Rectangle) -> bool) -> Vec<Rectangle> {
-        let mover = Mover::new(self, &self.tip);
+        let mover = MovingBody::new(self, &self.tip);
         let is_far = |rectangle: &Rectangle| {
             let cell = Cell::from(rectangle);
             let at = &mover.placed(&cell).points[0];
@@ -190,7 +190,7 @@ impl Arm {
             [[low.clone(), middle.clone()], [middle, high.clone()]]
         };
         let mut parts = vec![self.domain.ranges.clone()];
-        for _ in 0..MOST_CUTS {
+        for _ in 0..MAX_DOMAIN_CUTS {
             let mut smaller = Vec::new();
             for part in &parts {
                 let [first, second] = part.each_ref().map(halves);
@@ -226,4 +226,4 @@ fn hull(a: &Range, b: &Range) -> Range {
 
 /// Maximum number of times that the domain is cut to find configurations for a tip position. This leaves a `10^-12`
 /// part of each range.
-const MOST_CUTS: u32 = 40;
+const MAX_DOMAIN_CUTS: u32 = 40;

@@ -28,7 +28,7 @@ pub struct Obstacle {
     pub heights: Option<Range>,
     /// Motion of its frame, if it moves. Then `at` and `turn` are only the pose that the file states apart from the
     /// motion.
-    pub course: Option<Rc<dyn Course>>,
+    pub course: Option<Rc<dyn ObstacleTrajectory>>,
 }
 
 /// The region that an obstacle covers.
@@ -47,7 +47,7 @@ pub enum Outline {
 }
 
 /// The motion of an obstacle's frame.
-pub trait Course {
+pub trait ObstacleTrajectory {
     /// Returns the frame's origin at a time, and the sine and cosine of its orientation.
     fn place(&self, time: &Decimal) -> [Point; 2];
 

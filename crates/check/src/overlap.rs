@@ -133,7 +133,7 @@ pub fn overlap_by_more_than(a: &Shape, b: &Shape, depth: &BigInt) -> bool {
     let error = a_error + b_error;
     let needed = depth - &a.radius.lower - &b.radius.lower + error;
     let all = || a_middles.iter().chain(&b_middles).flatten();
-    let shift = all().chain([&needed]).map(BigInt::bits).max().unwrap_or(0).saturating_sub(FIRST_BITS);
+    let shift = all().chain([&needed]).map(BigInt::bits).max().unwrap_or(0).saturating_sub(LEADING_BITS);
     let first = |n: &BigInt| i128::try_from(n >> shift).expect("of few bits");
     let [a_first, b_first] =
         [&a_middles, &b_middles].map(|points| points.iter().map(|p| p.each_ref().map(first)).collect::<Vec<_>>());
@@ -150,13 +150,13 @@ pub fn overlap_by_more_than(a: &Shape, b: &Shape, depth: &BigInt) -> bool {
 pub fn seem_to_overlap(a: &[[f64; 2]], b: &[[f64; 2]], depth: f64) -> bool {
     let all = || a.iter().chain(b).flatten().chain([&depth]);
     let most = all().fold(0.0_f64, |most, c| most.max(c.abs()));
-    let first = |c: f64| (c / most * 2f64.powi(FIRST_BITS as i32)) as i128;
+    let first = |c: f64| (c / most * 2f64.powi(LEADING_BITS as i32)) as i128;
     let [a, b] = [a, b].map(|points| points.iter().map(|p| p.map(first)).collect::<Vec<_>>());
     all().any(|c| !c.is_finite()) || reaches(&hull(differences(&b, &a)), &(first(depth) - 3))
 }
 
 /// Number of leading digits for which squares of products fit in 128 bits.
-const FIRST_BITS: u64 = 28;
+const LEADING_BITS: u64 = 28;
 
 /// Returns all differences of two points.
 fn differences<T: Integer>(from: &[[T; 2]], to: &[[T; 2]]) -> Vec<[T; 2]> {
@@ -206,7 +206,7 @@ mod tests {
     }
 
     #[test]
-    fn what_touches_or_is_apart_has_no_depth() {
+    fn touching_or_separate_shapes_have_no_depth() {
         let square = shape("0 0  2 0  2 2  0 2", "0");
         for other in [shape("2 0  3 0  3 1", "0"), shape("3 1", "1"), shape("3 3", "1"), shape("0 2  2 2", "0")] {
             assert!(!overlap_by_more_than(&square, &other, &BigInt::ZERO));

@@ -89,7 +89,7 @@ mod tests {
     }
 
     #[test]
-    fn holes_are_outside_whichever_way_they_turn() {
+    fn holes_are_outside_for_both_orientations() {
         let (outer, hole) = ("0 0  9 0  9 9  0 9", "3 3  6 3  6 6  3 6");
         for hole in [ring(hole), ring(hole).into_iter().rev().collect()] {
             let rings = [ring(outer), hole];

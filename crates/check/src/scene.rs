@@ -2,7 +2,7 @@
 
 use crate::curve::Piece;
 use crate::error::CheckError;
-use crate::free::{Chain, Edge, Open, Side, Solid, guard, keep_off};
+use crate::free::{Chain, Edge, EvidenceGap, Side, Solid, guard, keep_off};
 use crate::interval::Point;
 use crate::obstacle::Obstacle;
 use crate::overlap::Shape;
@@ -21,14 +21,14 @@ pub struct Part<'a> {
 }
 
 /// An obstacle at its place, or on its trajectory.
-pub struct Present {
+pub struct PlacedObstacle {
     /// The obstacle.
     pub obstacle: Obstacle,
     /// The edges that shapes must keep away from to avoid the obstacle.
     pub edges: Vec<Edge>,
 }
 
-impl Present {
+impl PlacedObstacle {
     /// Prepares an obstacle for checks against shapes that move with a chain.
     ///
     /// # Errors
@@ -53,7 +53,7 @@ pub fn stay_off(
     pieces: &[Piece],
     from: &Point,
     parts: &[Part],
-    obstacles: &[Option<Present>],
+    obstacles: &[Option<PlacedObstacle>],
 ) -> Result<(), CheckError> {
     let (mut edges, mut owners) = (Vec::new(), Vec::new());
     for (number, present) in obstacles.iter().enumerate() {
@@ -77,7 +77,7 @@ pub fn stay_off(
     let of_second: Vec<Piece> = pieces.iter().map(Piece::of_second).collect();
     let kept = keep_off(chain, pieces, (&solids, &edges), standing)
         .and_then(|()| keep_off(chain, &of_second, (&solids, &edges), turning));
-    kept.map_err(|Open { knot, solid, edge }| {
+    kept.map_err(|EvidenceGap { knot, solid, edge }| {
         let Part { name, keeps, .. } = &parts[solid];
         CheckError::Fails(format!(
             "from knot {knot} to the next {name} is not shown to stay {keeps} {}",
@@ -89,7 +89,7 @@ pub fn stay_off(
     for part in parts {
         let corner = part.solid.corner_at(chain, from);
         for (number, present) in obstacles.iter().enumerate().filter(|(number, _)| part.meets[*number]) {
-            let surrounds = |present: &Present| present.obstacle.at_time(time).surrounds(&corner, &guard());
+            let surrounds = |present: &PlacedObstacle| present.obstacle.at_time(time).surrounds(&corner, &guard());
             if present.as_ref().is_some_and(|present| surrounds(present) != Some(false)) {
                 return CheckError::fails(format!("{} is inside {}", part.name, called(number)));
             }

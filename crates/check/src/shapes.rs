@@ -10,7 +10,7 @@ use std::collections::BTreeSet;
 use std::fmt;
 
 /// Least overlap of the heights of two links that can collide, metres: `10^-9`. Links often rest on one another.
-const TOUCHING: u32 = 9;
+const MIN_OVERLAP_DECIMALS: u32 = 9;
 
 /// The approximation of a projection.
 #[derive(Clone, Copy, PartialEq)]
@@ -51,7 +51,7 @@ impl Body {
     /// Returns the heights at which other links can collide with a link that is an obstacle for them.
     /// [`Outline::Around`] gives a superset of these heights, [`Outline::Within`] a subset.
     pub fn kept(&self, outline: Outline) -> Option<Range> {
-        let by = Interval::from(&Decimal::power_of_ten(TOUCHING));
+        let by = Interval::from(&Decimal::power_of_ten(MIN_OVERLAP_DECIMALS));
         let [low, high] = self.heights.as_ref()?;
         let ([least, low], [high, most]) = ((low + &by).ends(), (high - &by).ends());
         Some(if outline == Outline::Around { [least, most] } else { [low, high] })
@@ -60,7 +60,7 @@ impl Body {
 
 /// A shape that is considered for collisions, or a layer of one.
 #[derive(Clone)]
-pub struct Counted {
+pub struct CollisionShape {
     /// Name of the link that it belongs to.
     pub link: String,
     /// `collision`, `visual` or `bar`.
@@ -79,7 +79,7 @@ pub struct Counted {
     pub ignored: BTreeSet<String>,
 }
 
-impl fmt::Display for Counted {
+impl fmt::Display for CollisionShape {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         let Self { link, kind, number, layer, .. } = self;
         match *kind {
@@ -90,7 +90,7 @@ impl fmt::Display for Counted {
     }
 }
 
-impl Counted {
+impl CollisionShape {
     /// Returns the link as the owner of an obstacle.
     pub fn owner(&self) -> Owner {
         Owner { link: self.link.clone(), is_carried: self.last.is_some() }
@@ -118,15 +118,15 @@ pub struct Owner {
 /// # Errors
 /// If there is no such shape, or if it has several layers and no height is given.
 pub fn named<'s>(
-    all: &'s [Counted],
+    all: &'s [CollisionShape],
     (link, kind, number): (&str, &str, usize),
     height: Option<&Decimal>,
-) -> Result<&'s Counted, CheckError> {
-    let is_at = |own: &Counted| match (height.map(Interval::from), &own.around.heights) {
+) -> Result<&'s CollisionShape, CheckError> {
+    let is_at = |own: &CollisionShape| match (height.map(Interval::from), &own.around.heights) {
         (Some(at), Some([low, high])) => low.lower <= at.upper && at.lower <= high.upper,
         _ => true,
     };
-    let is_named = |own: &&Counted| own.link == link && own.kind == kind && own.number == number && is_at(own);
+    let is_named = |own: &&CollisionShape| own.link == link && own.kind == kind && own.number == number && is_at(own);
     let mut found = all.iter().filter(is_named);
     match (found.next(), found.next()) {
         (Some(_), Some(_)) if height.is_none() => {

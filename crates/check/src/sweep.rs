@@ -5,10 +5,10 @@ use crate::domain::{Domain, Range, Rectangle};
 use std::collections::BTreeSet;
 
 /// Maximum number of gaps. This many take some hundred megabytes.
-const MOST_GAPS: usize = 1 << 22;
+const MAX_GAPS: usize = 1 << 22;
 
 /// Maximum number of strips within a seam's enclosure. Each of them is compared with each strip at the other end.
-const MOST_AT_A_SEAM: usize = 100;
+const MAX_SEAM_STRIPS: usize = 100;
 
 /// The domain without the closed boxes: strips of the first joint between the boxes' sides, and in each strip the open
 /// gaps of the second joint.
@@ -60,12 +60,12 @@ impl Gaps {
             gaps.extend((from < top).then_some([from, top]));
             strips.push(Strip { first: count, gaps });
             count += strips[left].gaps.len();
-            if count > MOST_GAPS {
+            if count > MAX_GAPS {
                 return None;
             }
         }
         let mut gaps = Self { strips, group: (0..count).collect(), values };
-        if domain.seams[0].iter().flatten().any(|seam| gaps.strips_that_meet(seam).len() > MOST_AT_A_SEAM) {
+        if domain.seams[0].iter().flatten().any(|seam| gaps.strips_that_meet(seam).len() > MAX_SEAM_STRIPS) {
             return None;
         }
         gaps.join(domain);

@@ -6,7 +6,7 @@ use cplan_check::domain::{Axis, Domain};
 use cplan_check::interval::{Interval, Point};
 use cplan_check::obstacle::{Obstacle, Outline};
 use cplan_check::overlap::Shape;
-use cplan_check::shapes::{Body, Counted};
+use cplan_check::shapes::{Body, CollisionShape};
 use cplan_check::world::{Goal, World};
 use cplan_check::{CheckError, certificate, judge};
 use std::collections::BTreeSet;
@@ -33,7 +33,7 @@ fn arm() -> Arm {
         let body = body(link, vec![point(0, 0), point(1, 0)], "0.05");
         let (layer, ignored) = (None, BTreeSet::new());
         let (around, within) = (body.clone(), body);
-        Counted {
+        CollisionShape {
             link: ["upper", "lower"][link].into(),
             kind: "collision",
             number: 0,
@@ -89,7 +89,7 @@ fn boxes_separate_the_ends() {
 }
 
 #[test]
-fn a_motion_keeps_off_the_post_or_not() {
+fn a_motion_avoids_the_post_or_fails() {
     let text = |clearance: &str, through: &str| {
         format!(
             r#"{{

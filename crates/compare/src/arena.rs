@@ -10,7 +10,7 @@ use super::{Comparison, Family};
 use cplan_core::model::Status;
 
 /// OMPL's words for the state of a planner, in the order of its `PlannerStatus`.
-const STATUS: [&str; 10] = [
+const OMPL_STATUS_WORDS: [&str; 10] = [
     "Unknown status",
     "Invalid start",
     "Invalid goal",
@@ -28,7 +28,7 @@ type Value = fn(usize, &Comparison, &Row) -> Option<String>;
 
 /// The properties of each run: those that OMPL's own planners have under its names and in its units (seconds, megabytes of
 /// a million bytes), then ours.
-const PROPERTIES: [(&str, Value); 18] = [
+const RUN_PROPERTIES: [(&str, Value); 18] = [
     ("time REAL", |_, _, row| real(row.total)),
     ("memory REAL", |_, _, row| real(row.memory.map(|bytes| bytes as f64 / 1e6))),
     ("status ENUM", |_, _, row| Some(status(row.outcome).to_string())),
@@ -78,7 +78,10 @@ impl Study {
         }
         log += &format!("|>>>\n{} is the random seed\n", self.sampling.map_or(0, |sampling| sampling.seed));
         log += &format!("0 seconds per run\n0 MB per run\n{} runs per planner\n", self.comparisons.len());
-        log += &format!("{seconds} seconds spent to collect the data\n1 enum type\nstatus|{}\n", STATUS.join("|"));
+        log += &format!(
+            "{seconds} seconds spent to collect the data\n1 enum type\nstatus|{}\n",
+            OMPL_STATUS_WORDS.join("|")
+        );
         log += &format!("{} planners\n", self.planners().len());
         for (i, name) in self.planners().into_iter().enumerate() {
             log += &self.planner_log(i, name);
@@ -89,13 +92,13 @@ impl Study {
     fn planner_log(&self, planner: usize, name: &str) -> String {
         let family = self.runs(planner).next().map_or("", |(_, row)| Family::name(row.family));
         let mut log = format!("{}\n1 common properties\nfamily = {family}\n", line(name));
-        log += &format!("{} properties for each run\n", PROPERTIES.len());
-        for (property, _) in PROPERTIES {
+        log += &format!("{} properties for each run\n", RUN_PROPERTIES.len());
+        for (property, _) in RUN_PROPERTIES {
             log += &format!("{property}\n");
         }
         log += &format!("{} runs\n", self.runs(planner).count());
         for (i, (comparison, row)) in self.runs(planner).enumerate() {
-            for (_, value) in PROPERTIES {
+            for (_, value) in RUN_PROPERTIES {
                 log += &format!("{}; ", value(i + 1, comparison, row).unwrap_or_default());
             }
             log.push('\n');
@@ -255,7 +258,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_is_a_log_too() {
+    fn an_empty_study_makes_a_log() {
         let none = Study {
             title: String::new(),
             sampling: None,

@@ -1,7 +1,7 @@
 //! Several planners on one problem.
 
 use super::row::Row;
-use super::table::{Align, Column, Table, WIDTH, fixed, quoted};
+use super::table::{Align, Column, MAX_TABLE_WIDTH, Table, fixed, quoted};
 use cplan_core::model::Status;
 use cplan_core::planner::{PathKind, Size};
 use cplan_core::space::Configuration;
@@ -88,8 +88,8 @@ impl Comparison {
     /// marks missing values. Planners' notes follow, one per line. Ends in a newline.
     #[must_use]
     pub fn to_text(&self) -> String {
-        let remarks = self.remarks().map(|line| wrapped(&line, WIDTH, 2) + "\n");
-        self.table().of_columns(&ESSENTIAL).to_text_within(WIDTH) + &remarks.collect::<String>()
+        let remarks = self.remarks().map(|line| wrapped(&line, MAX_TABLE_WIDTH, 2) + "\n");
+        self.table().of_columns(&LEADING_COLUMNS).to_text_within(MAX_TABLE_WIDTH) + &remarks.collect::<String>()
     }
 
     /// Returns the table with all columns, at any width.
@@ -218,7 +218,7 @@ impl Comparison {
 }
 
 /// Columns of the table that come first: planner, outcome, length and how near that is to the optimum, clearance, motion, time, memory.
-const ESSENTIAL: [usize; 8] = [0, 1, 2, 4, 5, 6, 11, 12];
+const LEADING_COLUMNS: [usize; 8] = [0, 1, 2, 4, 5, 6, 11, 12];
 
 /// Returns length and clearance of both paths.
 fn paths(row: &Row) -> Value {
@@ -287,9 +287,9 @@ mod tests {
     }
 
     #[test]
-    fn what_matters_most_fits_a_terminal() {
+    fn leading_columns_fit_a_terminal() {
         let text = example().to_text();
-        assert!(text.lines().all(|line| line.chars().count() <= WIDTH), "{text}");
+        assert!(text.lines().all(|line| line.chars().count() <= MAX_TABLE_WIDTH), "{text}");
         assert!(text.contains("1.2500") && !text.contains("65536") && text.ends_with("or \"so\"\n"), "{text}");
     }
 

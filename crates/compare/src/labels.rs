@@ -39,7 +39,7 @@ mod tests {
     use super::labels;
 
     #[test]
-    fn what_all_variants_of_a_planner_share_is_left_out() {
+    fn shared_options_are_omitted_from_labels() {
         let names = [
             "shortest",
             "harmonic",

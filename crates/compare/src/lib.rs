@@ -36,7 +36,7 @@ pub use row::{OtherPath, Row};
 pub use sign::sign_test;
 pub use spread::Spread;
 pub use study::{Refusal, Sampling, Study};
-pub use table::WIDTH;
+pub use table::MAX_TABLE_WIDTH;
 pub use table::quoted;
 pub use table::{Align, Column, Table};
 pub use words::words;

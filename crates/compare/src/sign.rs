@@ -29,7 +29,7 @@ mod tests {
     }
 
     #[test]
-    fn as_if_all_coins_were_thrown() {
+    fn the_sign_test_matches_enumeration() {
         for wins in 0..8 {
             for losses in 0..8 {
                 let (test, all) = (sign_test(wins, losses), enumerated(wins, losses));
@@ -39,7 +39,7 @@ mod tests {
     }
 
     #[test]
-    fn many_coins_underflow_to_nothing_else() {
+    fn many_coins_underflow_to_zero() {
         assert!((sign_test(1000, 1000) - 1.0).abs() < 1e-12);
         let rare = sign_test(3000, 0);
         assert!((0.0..1e-300).contains(&rare));

@@ -69,7 +69,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_number_does_not_count() {
+    fn nan_values_are_ignored() {
         assert_eq!(Spread::of([f64::NAN, f64::INFINITY]), None);
         assert_eq!(Spread::of([]), None);
         assert_eq!(Spread::of([f64::NAN, 2.0, f64::NEG_INFINITY]).unwrap().n, 1);

@@ -4,24 +4,24 @@ use super::comparison::{CSV_HEADER, Comparison};
 use super::measure::Measure;
 use super::row::Row;
 use super::study::{Refusal, Study};
-use super::table::{Align, Column, Table, WIDTH, quoted};
+use super::table::{Align, Column, MAX_TABLE_WIDTH, Table, quoted};
 use super::words::words;
 use cplan_core::model::Status;
 use cplan_text::{plain_line, wrapped};
 use serde_json::{Value, json};
 
 /// More problems than this are not listed one by one in tables; CSV, JSON and the page have them all.
-const LISTED: usize = 60;
+const MAX_LISTED_PROBLEMS: usize = 60;
 
 /// Remarks of planners that are shown below the tables.
-const REMARKS: usize = 12;
+const MAX_REMARKS: usize = 12;
 
 impl Study {
     /// Tables for a terminal: outcomes, the distribution of each measure, and problem by problem where they differ in
     /// more than start and goal; then the summary in words. Ends in a newline.
     #[must_use]
     pub fn to_text(&self) -> String {
-        self.text(|table| table.to_text_within(WIDTH))
+        self.text(|table| table.to_text_within(MAX_TABLE_WIDTH))
     }
 
     /// Does the same with tables of any width.
@@ -35,9 +35,9 @@ impl Study {
         for (heading, table) in self.tables() {
             text += &format!("\n{heading}\n{}", shown(&table));
         }
-        let paragraphs = words(self).into_iter().map(|paragraph| wrapped(&paragraph, WIDTH, 0));
+        let paragraphs = words(self).into_iter().map(|paragraph| wrapped(&paragraph, MAX_TABLE_WIDTH, 0));
         text += &format!("\n{}\n", paragraphs.collect::<Vec<_>>().join("\n"));
-        text + &self.footnotes().map(|line| wrapped(&line, WIDTH, 2) + "\n").collect::<String>()
+        text + &self.footnotes().map(|line| wrapped(&line, MAX_TABLE_WIDTH, 2) + "\n").collect::<String>()
     }
 
     /// Returns the same in Markdown.
@@ -122,7 +122,7 @@ impl Study {
         let mut tables = vec![("outcomes".to_owned(), self.outcomes())];
         let spreads = Measure::ALL.into_iter().map(|m| (m.heading().to_owned(), self.spreads(m)));
         tables.extend(spreads.filter(|(_, table)| !table.rows.is_empty()));
-        if self.sampling.is_none() && self.comparisons.len() <= LISTED {
+        if self.sampling.is_none() && self.comparisons.len() <= MAX_LISTED_PROBLEMS {
             tables.push(("length over the proven optimum, problem by problem".to_owned(), self.problems()));
         }
         tables
@@ -143,9 +143,9 @@ impl Study {
     }
 
     fn spreads(&self, measure: Measure) -> Table {
-        const NAMES: [&str; 7] = ["n", "min", "quartile", "median", "quartile", "max", "mean"];
+        const SPREAD_NAMES: [&str; 7] = ["n", "min", "quartile", "median", "quartile", "max", "mean"];
         let mut columns = vec![Column::new("planner", Align::Left)];
-        columns.extend(NAMES.map(|name| Column::new(name, Align::Right)));
+        columns.extend(SPREAD_NAMES.map(|name| Column::new(name, Align::Right)));
         let row = |(i, name): (usize, &&str)| {
             let spread = self.spread(i, measure)?;
             let numbers = spread.numbers().map(|value| measure.shown(value));
@@ -174,9 +174,9 @@ impl Study {
             c.rows.iter().flat_map(Row::remarks).map(|remark| format!("{}: {remark}", c.problem)).collect()
         };
         let mut remarks: Vec<String> = self.comparisons.iter().flat_map(of).collect();
-        if remarks.len() > REMARKS {
-            let more = format!("and {} more such remarks, which CSV and JSON have", remarks.len() - REMARKS);
-            remarks.truncate(REMARKS);
+        if remarks.len() > MAX_REMARKS {
+            let more = format!("and {} more such remarks, which CSV and JSON have", remarks.len() - MAX_REMARKS);
+            remarks.truncate(MAX_REMARKS);
             remarks.push(more);
         }
         let refused =

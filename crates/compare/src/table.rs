@@ -3,7 +3,7 @@
 use cplan_text::plain_line;
 
 /// Largest width of tables, characters, unless the full width is requested.
-pub const WIDTH: usize = 80;
+pub const MAX_TABLE_WIDTH: usize = 80;
 
 /// Side to which a column's cells are moved.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -182,7 +182,7 @@ mod tests {
     }
 
     #[test]
-    fn what_fits_stays_and_what_does_not_is_folded() {
+    fn wide_tables_are_split() {
         let table = table(&["planner", "length [rad]", "total [ms]"]);
         assert_eq!(table.to_text_within(33), table.to_text());
         let folded = "planner  length  total\n          [rad]   [ms]\n-------  ------  -----\na          1.25   1.25\nsecond     1.25   1.25\n";
@@ -193,7 +193,7 @@ mod tests {
     }
 
     #[test]
-    fn wider_cells_than_there_is_room_for_are_shown_whole() {
+    fn too_wide_cells_are_shown_whole() {
         let table = table(&["planner", "a value"]);
         assert!(table.to_text_within(3).contains("second"));
         let alone =

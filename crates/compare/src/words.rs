@@ -10,17 +10,17 @@ use cplan_core::planner::PathKind;
 use cplan_text::{counted, percent};
 
 /// Largest probability with which a fair coin would favour a side as clearly, for calling it better.
-const SIGNIFICANT: f64 = 0.05;
+const SIGNIFICANCE_LEVEL: f64 = 0.05;
 
 /// Values that differ by no more than this share of them are as good as each other.
-const AS_GOOD: f64 = 1e-6;
+const EQUALITY_TOLERANCE: f64 = 1e-6;
 
 /// Fewer problems than this cannot bear out anything: even if one side wins all of five, p is 1/16.
-const ENOUGH: usize = 6;
+const MIN_PROBLEMS: usize = 6;
 
 /// The measures of comparison: the verb for the better side, with a place for "er" or "est", and whether more is
 /// better.
-const ASPECTS: [(Measure, [&str; 2], &str, bool); 5] = [
+const COMPARED_MEASURES: [(Measure, [&str; 2], &str, bool); 5] = [
     (
         Measure::OverOptimum,
         ["found the shorter paths", "found the shortest paths"],
@@ -58,7 +58,7 @@ pub fn words(study: &Study) -> Vec<String> {
     let sides = sides(study);
     if sides.len() > 1 {
         words.extend(
-            ASPECTS
+            COMPARED_MEASURES
                 .iter()
                 .filter_map(|(measure, better, what, more)| aspect(study, &sides, *measure, *better, what, *more)),
         );
@@ -108,8 +108,8 @@ fn pulled_taut(study: &Study) -> Option<String> {
         Some(format!("{name} length {:.2}{clearance} ({})", length.median, counted(length.n, "problem")))
     });
     let sentences: Vec<String> = sentences.collect();
-    let said = "Taut path relative to the planner's own path (median)";
-    (!sentences.is_empty()).then(|| format!("{said}: {}.", sentences.join("; ")))
+    let conclusions = "Taut path relative to the planner's own path (median)";
+    (!sentences.is_empty()).then(|| format!("{conclusions}: {}.", sentences.join("; ")))
 }
 
 fn sides(study: &Study) -> Vec<Side> {
@@ -160,7 +160,7 @@ fn aspect(
     let wins = |a: usize, b: usize| {
         let wins = values.iter().filter(|v| {
             let apart = if more { v[a] - v[b] } else { v[b] - v[a] };
-            apart > AS_GOOD * v[a].abs().max(v[b].abs())
+            apart > EQUALITY_TOLERANCE * v[a].abs().max(v[b].abs())
         });
         wins.count()
     };
@@ -169,11 +169,11 @@ fn aspect(
         medians.join(", "),
         counted(values.len(), "problem")
     );
-    if values.len() < ENOUGH {
+    if values.len() < MIN_PROBLEMS {
         return Some(figures);
     }
     let others = |i: usize| (0..sides.len()).filter(move |&k| k != i);
-    let beats = |i: usize, k: usize| wins(i, k) > wins(k, i) && sign_test(wins(i, k), wins(k, i)) < SIGNIFICANT;
+    let beats = |i: usize, k: usize| wins(i, k) > wins(k, i) && sign_test(wins(i, k), wins(k, i)) < SIGNIFICANCE_LEVEL;
     let winner = (0..sides.len()).find(|&i| others(i).all(|k| beats(i, k)));
     let word = better[usize::from(sides.len() > 2)];
     let score = |i: usize, k: usize| {
@@ -182,7 +182,7 @@ fn aspect(
         let p = if p < 0.001 { format!("{p:.0e}") } else { format!("{p:.3}") };
         format!("better than {} in {won}, worse in {lost} (p = {p})", sides[k].name)
     };
-    let name = |i: usize| capitalised(&sides[i].name);
+    let name = |i: usize| capitalized(&sides[i].name);
     Some(match winner {
         Some(i) => {
             let scores: Vec<String> = others(i).map(|k| score(i, k)).collect();
@@ -196,7 +196,7 @@ fn aspect(
     })
 }
 
-fn capitalised(text: &str) -> String {
+fn capitalized(text: &str) -> String {
     let mut characters = text.chars();
     characters.next().map_or_else(String::new, |first| first.to_uppercase().chain(characters).collect())
 }
@@ -251,15 +251,15 @@ mod tests {
     }
 
     #[test]
-    fn what_chance_may_have_done_is_not_claimed() {
+    fn insignificant_differences_are_not_claimed() {
         // Five wins and a draw: p = 1/16.
         let mut six: Vec<Comparison> = (0..5).map(|_| problem([Some(1.0), Some(1.1)], [1.0, 1.0])).collect();
         six.push(problem([Some(1.0), Some(1.0)], [1.0, 1.0]));
-        let said = words(&study(six.clone()));
+        let conclusions = words(&study(six.clone()));
         let claim = "These problems do not settle which side found the shorter paths.";
-        assert!(said[2].starts_with(claim), "{}", said[2]);
-        assert!(said[2].contains("better than fields in 5, worse in 0 (p = 0.062)"), "{}", said[2]);
-        assert!(said[3].contains("in 0, worse in 0 (p = 1.000)"), "{}", said[3]);
+        assert!(conclusions[2].starts_with(claim), "{}", conclusions[2]);
+        assert!(conclusions[2].contains("better than fields in 5, worse in 0 (p = 0.062)"), "{}", conclusions[2]);
+        assert!(conclusions[3].contains("in 0, worse in 0 (p = 1.000)"), "{}", conclusions[3]);
         six.pop();
         let figures = "Median length over the proven optimum: roadmaps 1.0000, fields 1.1000; 5 problems that all \
                        settled, each side by its best planner there.";
@@ -267,7 +267,7 @@ mod tests {
     }
 
     #[test]
-    fn the_other_way_round_the_other_side_wins() {
+    fn swapping_sides_swaps_the_winner() {
         let all: Vec<Comparison> = (0..9).map(|_| problem([Some(1.2), Some(1.01)], [1.0, 2.0])).collect();
         let words = words(&study(all));
         assert!(words[2].starts_with("Fields found the shorter paths."), "{}", words[2]);
@@ -282,7 +282,7 @@ mod tests {
     }
 
     #[test]
-    fn what_pulling_taut_changes_is_said() {
+    fn the_effect_of_pulling_taut_is_reported() {
         let mut all: Vec<Comparison> = (0..9).map(|_| problem([Some(1.0), Some(1.5)], [1.0, 2.0])).collect();
         for row in all.iter_mut().map(|comparison| &mut comparison.rows[1]) {
             (row.planner, row.path_kind, row.clearance) = ("harmonic".to_owned(), PathKind::Own, Some(0.04));
@@ -296,7 +296,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_to_compare_is_no_panic() {
+    fn an_empty_study_does_not_panic() {
         assert_eq!(words(&study(Vec::new())).len(), 1);
         let alone = Comparison { rows: Vec::new(), ..problem([None; 2], [1.0; 2]) };
         assert_eq!(words(&study(vec![alone])).len(), 1);

@@ -8,16 +8,16 @@ use crate::map::Map;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 /// Greatest number of chords of a curve; a finer tolerance would be a mistake.
-const MOST_CHORDS: f64 = 1e5;
+const MAX_CHORDS: f64 = 1e5;
 
 /// A curve that would need too many chords.
 #[derive(Debug)]
-pub(crate) struct TooFine;
+pub(crate) struct TooFineCurve;
 
 /// Returns the number of chords for a step of `range` of the parameter.
-fn chords(bend: f64, range: f64, tolerance: f64) -> Result<usize, TooFine> {
+fn chords(bend: f64, range: f64, tolerance: f64) -> Result<usize, TooFineCurve> {
     let count = (range * (bend / (8.0 * tolerance)).sqrt()).ceil().max(1.0);
-    if count <= MOST_CHORDS { Ok(count as usize) } else { Err(TooFine) }
+    if count <= MAX_CHORDS { Ok(count as usize) } else { Err(TooFineCurve) }
 }
 
 /// Returns points of a curve at parameters from 0 to 1, without the first and with the last.
@@ -56,20 +56,20 @@ impl Ellipse {
     }
 
     /// Returns the points of the arc from parameter `from` over the range `by`, without the first.
-    pub fn arc(self, from: f64, by: f64, tolerance: f64) -> Result<impl Iterator<Item = Point>, TooFine> {
+    pub fn arc(self, from: f64, by: f64, tolerance: f64) -> Result<impl Iterator<Item = Point>, TooFineCurve> {
         let count = chords(self.longest(), by.abs(), tolerance)?.max((by.abs() / FRAC_PI_2).ceil() as usize);
         Ok(along(count, move |part| self.at(from + by * part)))
     }
 
     /// Returns the points of the whole ellipse.
-    pub fn ring(self, tolerance: f64) -> Result<Vec<Point>, TooFine> {
+    pub fn ring(self, tolerance: f64) -> Result<Vec<Point>, TooFineCurve> {
         Ok(self.arc(0.0, TAU, tolerance)?.collect())
     }
 }
 
 /// An arc of a circle.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Bow {
+pub(crate) struct CircularArc {
     pub center: Point,
     pub radius: f64,
     pub from: f64,
@@ -77,7 +77,7 @@ pub(crate) struct Bow {
     pub by: f64,
 }
 
-impl Bow {
+impl CircularArc {
     /// Creates the arc from `a` to `b` that turns by four times the arc tangent of `bulge`. Returns `None` if it is
     /// straight.
     pub fn new(a: Point, b: Point, bulge: f64) -> Option<Self> {
@@ -97,7 +97,7 @@ impl Bow {
 
     /// Returns the curve at a distance outside the arc that changes linearly from `first` to `last`. A negative
     /// distance may reach the centre at most. The chords are fine enough after `map`.
-    pub fn spiral(self, first: f64, last: f64, map: &Map, tolerance: f64) -> Result<Vec<Point>, TooFine> {
+    pub fn spiral(self, first: f64, last: f64, map: &Map, tolerance: f64) -> Result<Vec<Point>, TooFineCurve> {
         let Self { center, radius, from, by } = self;
         let bend = radius + first.abs().max(last.abs()) + 2.0 * (last - first).abs() / by.abs();
         let stretch = Ellipse::circle(center, 1.0).mapped(map).longest();
@@ -113,9 +113,9 @@ impl Bow {
 
 /// Returns an arc from `a` to `b`, without `a`, that turns by four times the arc tangent of `bulge`, positive to the
 /// left.
-pub(crate) fn bulge(a: Point, b: Point, bulge: f64, map: &Map, tolerance: f64) -> Result<Vec<Point>, TooFine> {
+pub(crate) fn bulge(a: Point, b: Point, bulge: f64, map: &Map, tolerance: f64) -> Result<Vec<Point>, TooFineCurve> {
     let end = map.point(b);
-    let Some(Bow { center, radius, from, by }) = Bow::new(a, b, bulge) else { return Ok(vec![end]) };
+    let Some(CircularArc { center, radius, from, by }) = CircularArc::new(a, b, bulge) else { return Ok(vec![end]) };
     let arc = Ellipse::circle(center, radius).mapped(map).arc(from, by, tolerance)?;
     let mut points: Vec<Point> = arc.collect();
     if let Some(last) = points.last_mut() {
@@ -125,7 +125,7 @@ pub(crate) fn bulge(a: Point, b: Point, bulge: f64, map: &Map, tolerance: f64) -
 }
 
 /// Returns a cubic Bézier curve without its first point.
-pub(crate) fn cubic([a, b, c, d]: [Point; 4], tolerance: f64) -> Result<impl Iterator<Item = Point>, TooFine> {
+pub(crate) fn cubic([a, b, c, d]: [Point; 4], tolerance: f64) -> Result<impl Iterator<Item = Point>, TooFineCurve> {
     let second = |p: Point, q: Point, r: Point| (p[0] - 2.0 * q[0] + r[0]).hypot(p[1] - 2.0 * q[1] + r[1]);
     let count = chords(6.0 * second(a, b, c).max(second(b, c, d)), 1.0, tolerance)?;
     Ok(along(count, move |t| {
@@ -145,7 +145,7 @@ pub(crate) struct Spline {
 }
 
 /// Greatest number of halvings of a span before the spline is refused.
-const MOST_HALVINGS: u32 = 14;
+const MAX_HALVINGS: u32 = 14;
 
 impl Spline {
     /// Returns true if degree, knots, control points and weights are consistent.
@@ -161,7 +161,7 @@ impl Spline {
     }
 
     /// Returns its points. Spans are halved until the middles of all chords lie within half of the tolerance.
-    pub fn points(&self, tolerance: f64) -> Result<Vec<Point>, TooFine> {
+    pub fn points(&self, tolerance: f64) -> Result<Vec<Point>, TooFineCurve> {
         let (first, last) = (self.degree, self.control.len());
         let mut points = vec![self.at(first, self.knots[first])];
         for span in (first..last).filter(|&i| self.knots[i] < self.knots[i + 1]) {
@@ -175,7 +175,7 @@ impl Spline {
                 })
             };
             // With fewer than four, a curve that is symmetric about its middle would look straight.
-            let count = (2..MOST_HALVINGS).map(|k| 1_usize << k).find(fits).ok_or(TooFine)?;
+            let count = (2..MAX_HALVINGS).map(|k| 1_usize << k).find(fits).ok_or(TooFineCurve)?;
             points.extend(along(count, at));
         }
         Ok(points)

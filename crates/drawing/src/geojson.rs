@@ -11,7 +11,7 @@ use serde_json::Value;
 /// If the text is not JSON (with its line) or not GeoJSON (with the path of the value).
 pub(crate) fn read(text: &str, settings: &Settings) -> Result<Drawing, Error> {
     if text.trim().is_empty() {
-        return Err(Error::new(None, "the file is empty", CURE));
+        return Err(Error::new(None, "the file is empty", STRUCTURE_HINT));
     }
     let value: Value = serde_json::from_str(text).map_err(|error| {
         let message = error.to_string();
@@ -29,13 +29,13 @@ pub(crate) fn read(text: &str, settings: &Settings) -> Result<Drawing, Error> {
     Ok(reader.sheet.finish())
 }
 
-const CURE: &str = "a GeoJSON file contains a FeatureCollection, a Feature or a geometry";
-const LISTS: &str = "write features, geometries, rings and positions as lists: [[0, 0], [1, 0], [1, 1], [0, 0]]";
-const NUMBERS: &str = "write both coordinates as numbers, without quotes";
-const HEIGHT: &str = "write heights as numbers, without quotes, or leave the height out";
+const STRUCTURE_HINT: &str = "a GeoJSON file contains a FeatureCollection, a Feature or a geometry";
+const LIST_HINT: &str = "write features, geometries, rings and positions as lists: [[0, 0], [1, 0], [1, 1], [0, 0]]";
+const NUMBER_HINT: &str = "write both coordinates as numbers, without quotes";
+const HEIGHT_HINT: &str = "write heights as numbers, without quotes, or leave the height out";
 
 /// Greatest height, metres: far beyond any arm.
-const HIGHEST: f64 = 1e6;
+const MAX_HEIGHT: f64 = 1e6;
 
 struct Reader {
     sheet: Sheet,
@@ -50,7 +50,7 @@ fn wrong(at: &str, message: &str, cure: &str) -> Error {
 }
 
 fn list<'a>(value: Option<&'a Value>, at: &str) -> Result<&'a Vec<Value>, Error> {
-    value.and_then(Value::as_array).ok_or_else(|| wrong(at, "expected a list", LISTS))
+    value.and_then(Value::as_array).ok_or_else(|| wrong(at, "expected a list", LIST_HINT))
 }
 
 impl Reader {
@@ -58,7 +58,7 @@ impl Reader {
         let kind = value
             .get("type")
             .and_then(Value::as_str)
-            .ok_or_else(|| wrong(at, "expected an object with a type", CURE))?;
+            .ok_or_else(|| wrong(at, "expected an object with a type", STRUCTURE_HINT))?;
         let origin = &Origin { kind: kind.to_owned(), ..origin.clone() };
         let parts = |key: &str| Ok::<_, Error>((list(value.get(key), &format!("{at}.{key}"))?, format!("{at}.{key}")));
         match kind {
@@ -104,7 +104,7 @@ impl Reader {
                 let cure = "convert it first, e.g. with `topo2geo` or `ogr2ogr cell.geojson cell.topojson`";
                 Err(Error::new(None, "this is TopoJSON, not GeoJSON", cure))
             }
-            other => Err(wrong(at, &format!("\"{other}\" is not a type of GeoJSON"), CURE)),
+            other => Err(wrong(at, &format!("\"{other}\" is not a type of GeoJSON"), STRUCTURE_HINT)),
         }
     }
 
@@ -147,7 +147,7 @@ impl Reader {
                 match numbers.as_deref() {
                     // A third coordinate is a height above the plane.
                     Some([Some(x), Some(y), ..]) => Ok::<Point, Error>(self.map.point([*x, *y])),
-                    _ => Err(wrong(&format!("{at}[{i}]"), "expected a position: [x, y]", NUMBERS)),
+                    _ => Err(wrong(&format!("{at}[{i}]"), "expected a position: [x, y]", NUMBER_HINT)),
                 }
             })
             .collect()
@@ -170,11 +170,13 @@ fn feature(value: &Value, at: &str, unit: f64) -> Result<Origin, Error> {
                 one => vec![Some(0.0), one.as_f64()],
             };
             match ends[..] {
-                [Some(low), Some(high)] if low <= high && [low, high].iter().all(|z| (z * unit).abs() <= HIGHEST) => {
+                [Some(low), Some(high)]
+                    if low <= high && [low, high].iter().all(|z| (z * unit).abs() <= MAX_HEIGHT) =>
+                {
                     Some([low * unit, high * unit])
                 }
                 [Some(low), Some(high)] if low <= high => {
-                    let message = format!("{at}.properties.height: it is too large (beyond {HIGHEST:e} m)");
+                    let message = format!("{at}.properties.height: it is too large (beyond {MAX_HEIGHT:e} m)");
                     let cure = "give heights in the unit of the coordinates, or leave the height out";
                     return Err(Error::new(None, message.trim_start_matches('.'), cure));
                 }
@@ -186,7 +188,7 @@ fn feature(value: &Value, at: &str, unit: f64) -> Result<Origin, Error> {
                 _ => {
                     let at = format!("{at}.properties.height");
                     let message = "expected a number, or the lower and the upper end: [0, 0.2]";
-                    return Err(wrong(&at, message, HEIGHT));
+                    return Err(wrong(&at, message, HEIGHT_HINT));
                 }
             }
         }

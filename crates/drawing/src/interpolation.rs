@@ -5,7 +5,7 @@ use crate::Point;
 
 /// End conditions of the curve.
 #[derive(Debug, Clone, Copy)]
-pub(crate) enum Ends {
+pub(crate) enum EndConditions {
     /// Open, with these directions at the ends. An end without a direction has zero curvature.
     Open([Option<Point>; 2]),
     /// The last point is followed by the first.
@@ -14,19 +14,19 @@ pub(crate) enum Ends {
 
 /// Number of points repeated on each side of a closed curve. Each of them at least halves the influence of the
 /// artificial end.
-const REPEATED: usize = 64;
+const REPEATED_POINTS: usize = 64;
 
 /// Returns the curve as connected cubic Bézier curves. Consecutive points must differ.
-pub(crate) fn interpolated(points: &[Point], ends: Ends) -> Vec<[Point; 4]> {
+pub(crate) fn interpolated(points: &[Point], ends: EndConditions) -> Vec<[Point; 4]> {
     match ends {
         _ if points.len() < 2 => Vec::new(),
-        Ends::Open(directions) => open(points, directions),
-        Ends::Closed => {
-            let around = (0..points.len() + 2 * REPEATED + 1).map(|i| {
-                let back = points.len() - REPEATED % points.len();
+        EndConditions::Open(directions) => open(points, directions),
+        EndConditions::Closed => {
+            let around = (0..points.len() + 2 * REPEATED_POINTS + 1).map(|i| {
+                let back = points.len() - REPEATED_POINTS % points.len();
                 points[(i + back) % points.len()]
             });
-            open(&around.collect::<Vec<_>>(), [None; 2])[REPEATED..REPEATED + points.len()].to_vec()
+            open(&around.collect::<Vec<_>>(), [None; 2])[REPEATED_POINTS..REPEATED_POINTS + points.len()].to_vec()
         }
     }
 }

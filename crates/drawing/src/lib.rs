@@ -30,7 +30,7 @@
 //! [`filled`] returns the region that it surrounds.
 //!
 //! The size of the result is bounded, even with nested blocks or curves of a million chords: a drawing of more than
-//! [`MOST_POINTS`] points is refused.
+//! [`MAX_POINTS`] points is refused.
 #![forbid(unsafe_code)]
 
 mod curve;
@@ -52,9 +52,9 @@ mod unit;
 pub use error::Error;
 pub use fill::{FillRule, filled};
 pub use notes::{Note, Notes};
-pub use settings::{FINEST, Settings};
+pub use settings::{MIN_TOLERANCE, Settings};
 pub use shapes::{Drawing, Frame, Geometry, Point, Ring, Shape};
-pub use sheet::MOST_POINTS;
+pub use sheet::MAX_POINTS;
 pub use unit::{Unit, UnknownUnit};
 
 use std::path::Path;
@@ -88,7 +88,7 @@ impl Format {
 /// # Errors
 /// A file that is broken, or not of that format.
 pub fn read(bytes: &[u8], format: Format, settings: &Settings) -> Result<Drawing, Error> {
-    let settings = &Settings { tolerance: settings.tolerance.max(FINEST), ..*settings };
+    let settings = &Settings { tolerance: settings.tolerance.max(MIN_TOLERANCE), ..*settings };
     match format {
         Format::Dxf => dxf::read(bytes, settings),
         Format::Svg => svg::read(text(bytes)?, settings),

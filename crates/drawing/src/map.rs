@@ -50,10 +50,10 @@ impl Map {
 
     /// Returns the scale factor, if it is the same in all directions.
     pub fn similarity(&self) -> Option<f64> {
-        const EQUAL: f64 = 1e-9;
+        const EQUALITY_TOLERANCE: f64 = 1e-9;
         let [u, v] = [self.u, self.v].map(|[x, y]| x.hypot(y));
         let across = self.u[0] * self.v[0] + self.u[1] * self.v[1];
-        ((u - v).abs() <= EQUAL * u && across.abs() <= EQUAL * u * v).then_some(u)
+        ((u - v).abs() <= EQUALITY_TOLERANCE * u && across.abs() <= EQUALITY_TOLERANCE * u * v).then_some(u)
     }
 
     /// Returns true if the map keeps areas from collapsing to points or lines.

@@ -27,7 +27,7 @@ impl fmt::Display for Note {
 }
 
 /// Greatest number of kinds; all further ones are counted as one, because nobody would read them.
-const MOST_KINDS: usize = 48;
+const MAX_KINDS: usize = 48;
 
 /// Notes with their owners, counted by both.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -67,11 +67,11 @@ impl Notes {
         for (_, note) in asked {
             match kinds.iter().position(|kind| kind.message == note.message) {
                 Some(known) => kinds[known].count += note.count,
-                None if kinds.len() < MOST_KINDS => kinds.push(note.clone()),
-                None if kinds.len() == MOST_KINDS => {
+                None if kinds.len() < MAX_KINDS => kinds.push(note.clone()),
+                None if kinds.len() == MAX_KINDS => {
                     kinds.push(Note { message: "other things".into(), ..note.clone() });
                 }
-                None => kinds[MOST_KINDS].count += note.count,
+                None => kinds[MAX_KINDS].count += note.count,
             }
         }
         kinds

@@ -5,7 +5,7 @@ use crate::Unit;
 /// Settings for reading a file.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
-    /// Greatest distance between a curve and its chords, and between ends that are joined, metres; at least [`FINEST`].
+    /// Greatest distance between a curve and its chords, and between ends that are joined, metres; at least [`MIN_TOLERANCE`].
     pub tolerance: f64,
     /// The unit of the file's numbers; by default the one that the file states.
     pub unit: Option<Unit>,
@@ -21,4 +21,4 @@ impl Default for Settings {
 }
 
 /// Least tolerance, metres: a micrometre.
-pub const FINEST: f64 = 1e-6;
+pub const MIN_TOLERANCE: f64 = 1e-6;

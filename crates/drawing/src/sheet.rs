@@ -1,6 +1,6 @@
 //! The sheet on which readers collect shapes.
 
-use crate::curve::{Ellipse, TooFine};
+use crate::curve::{Ellipse, TooFineCurve};
 use crate::fill::{FillRule, filled};
 use crate::join::joined;
 use crate::map::Map;
@@ -9,10 +9,10 @@ use crate::{Drawing, Error, Frame, Geometry, Point, Ring, Settings, Shape};
 use std::collections::BTreeMap;
 
 /// Greatest number of points of a drawing; more would be of no use to a planner or a person.
-pub const MOST_POINTS: usize = 1 << 21;
+pub const MAX_POINTS: usize = 1 << 21;
 
 /// Greatest coordinate, metres: beyond it, numbers are coarser than tolerances.
-const LARGEST: f64 = 1e12;
+const MAX_COORDINATE: f64 = 1e12;
 
 /// Ends that are nearer than this meet, metres: rotations and scales are rounded.
 const ROUNDING: f64 = 1e-9;
@@ -72,8 +72,8 @@ impl Sheet {
     }
 
     /// Returns the chords of a curve, or the error that there would be too many.
-    pub fn chords<T>(&self, chords: Result<T, TooFine>, origin: &Origin) -> Result<T, Error> {
-        chords.map_err(|TooFine| self.too_fine(origin))
+    pub fn chords<T>(&self, chords: Result<T, TooFineCurve>, origin: &Origin) -> Result<T, Error> {
+        chords.map_err(|TooFineCurve| self.too_fine(origin))
     }
 
     /// Adds a closed outline.
@@ -153,13 +153,13 @@ impl Sheet {
     fn counted<'a>(&mut self, points: impl Iterator<Item = &'a Point>, origin: &Origin) -> Result<(), Error> {
         for point in points {
             self.points += 1;
-            if !point.iter().all(|x| x.abs() <= LARGEST) {
-                let message = format!("{}: its coordinates are too large (beyond {LARGEST:e} m)", origin.kind);
+            if !point.iter().all(|x| x.abs() <= MAX_COORDINATE) {
+                let message = format!("{}: its coordinates are too large (beyond {MAX_COORDINATE:e} m)", origin.kind);
                 return Err(Error::new(origin.line, message, "check its scale and its coordinates"));
             }
         }
-        if self.points > MOST_POINTS {
-            let message = format!("the drawing has more than {MOST_POINTS} points");
+        if self.points > MAX_POINTS {
+            let message = format!("the drawing has more than {MAX_POINTS} points");
             return Err(Error::new(
                 origin.line,
                 message,

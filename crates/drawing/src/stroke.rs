@@ -1,6 +1,6 @@
 //! The area covered by a line with a width: butt ends, mitred corners.
 
-use crate::curve::{Bow, TooFine};
+use crate::curve::{CircularArc, TooFineCurve};
 use crate::map::Map;
 use crate::{Point, Ring};
 
@@ -13,16 +13,16 @@ pub(crate) struct Piece {
 }
 
 /// A mitre longer than this many half widths is cut off, as in SVG and PostScript.
-const LONGEST_MITRE: f64 = 4.0;
+const MAX_MITRE: f64 = 4.0;
 
 /// Edges closer than this fraction of the width continue smoothly, up to rounding.
-const SMOOTH: f64 = 1e-9;
+const SMOOTH_TOLERANCE: f64 = 1e-9;
 
 impl Piece {
     /// Returns its left and its right edge.
-    fn edges(&self, map: &Map, tolerance: f64) -> Result<[Vec<Point>; 2], TooFine> {
+    fn edges(&self, map: &Map, tolerance: f64) -> Result<[Vec<Point>; 2], TooFineCurve> {
         let [a, b] = self.ends;
-        if let Some(bow) = Bow::new(a, b, self.bulge) {
+        if let Some(bow) = CircularArc::new(a, b, self.bulge) {
             let [from, to] = self.widths.map(|width| width / 2.0);
             let inwards = bow.by.signum();
             let edge = |side: f64| bow.spiral(side * inwards * from, side * inwards * to, map, tolerance);
@@ -39,7 +39,7 @@ impl Piece {
         let [dx, dy] = [b[0] - a[0], b[1] - a[1]];
         let length = dx.hypot(dy);
         let along = [dx / length, dy / length];
-        if Bow::new(a, b, self.bulge).is_none() {
+        if CircularArc::new(a, b, self.bulge).is_none() {
             return [along; 2];
         }
         // An arc leaves its chord by half of the angle that it turns by.
@@ -57,14 +57,14 @@ fn beside(p: Point, direction: Point, distance: f64) -> Point {
 
 /// Returns rings that cover the same area as the pieces, counter-clockwise after `map`. Each piece must start where the
 /// previous one ends, have a length, and be wider than 0 somewhere.
-pub(crate) fn covered(pieces: &[Piece], is_closed: bool, map: &Map, tolerance: f64) -> Result<Vec<Ring>, TooFine> {
+pub(crate) fn covered(pieces: &[Piece], is_closed: bool, map: &Map, tolerance: f64) -> Result<Vec<Ring>, TooFineCurve> {
     let mut edges = pieces.iter().map(|piece| piece.edges(map, tolerance)).collect::<Result<Vec<_>, _>>()?;
     let closing = (is_closed && pieces.len() > 1).then_some((pieces.len() - 1, 0));
     let corners: Vec<(usize, usize)> = (1..pieces.len()).map(|j| (j - 1, j)).chain(closing).collect();
     for &(i, j) in &corners {
         for side in 0..2 {
             let (from, to) = (edges[i][side][edges[i][side].len() - 1], edges[j][side][0]);
-            if (from[0] - to[0]).hypot(from[1] - to[1]) <= SMOOTH * pieces[i].widths[1] {
+            if (from[0] - to[0]).hypot(from[1] - to[1]) <= SMOOTH_TOLERANCE * pieces[i].widths[1] {
                 edges[j][side][0] = from;
             }
         }
@@ -112,7 +112,7 @@ fn corner([before, after]: [&Piece; 2], [edges, next_edges]: [&[Vec<Point>; 2]; 
     let mut ring = vec![at, from];
     // A mitre is longer than half of the width by one over the cosine of half of the turn.
     let half_turn = ((1.0 + cos) / 2.0).max(0.0).sqrt();
-    if width == next_width && half_turn * LONGEST_MITRE >= 1.0 {
+    if width == next_width && half_turn * MAX_MITRE >= 1.0 {
         let toward = [0, 1].map(|k| (from[k] - at[k] + to[k] - at[k]) / (2.0 * half_turn * half_turn));
         ring.push([0, 1].map(|k| at[k] + toward[k]));
     }

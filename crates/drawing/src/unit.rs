@@ -12,7 +12,7 @@ pub struct Unit {
 
 /// The error for a word that is no unit.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("\"{0}\" is not a known unit; the units are {names}", names = NAMES.map(|unit| unit.name).join(", "))]
+#[error("\"{0}\" is not a known unit; the units are {names}", names = NAMED_UNITS.map(|unit| unit.name).join(", "))]
 pub struct UnknownUnit(String);
 
 const fn unit(name: &'static str, metres: f64) -> Unit {
@@ -20,7 +20,7 @@ const fn unit(name: &'static str, metres: f64) -> Unit {
 }
 
 /// The units that have names here.
-const NAMES: [Unit; 11] = [
+const NAMED_UNITS: [Unit; 11] = [
     Unit::MILLIMETRE,
     unit("cm", 1e-2),
     unit("dm", 1e-1),
@@ -82,6 +82,6 @@ impl FromStr for Unit {
     type Err = UnknownUnit;
 
     fn from_str(text: &str) -> Result<Self, UnknownUnit> {
-        NAMES.into_iter().find(|unit| unit.name == text).ok_or_else(|| UnknownUnit(text.to_owned()))
+        NAMED_UNITS.into_iter().find(|unit| unit.name == text).ok_or_else(|| UnknownUnit(text.to_owned()))
     }
 }

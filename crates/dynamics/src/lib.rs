@@ -130,11 +130,11 @@ impl<'a> Torques<'a> {
     pub fn change(&self, middle: Configuration, reach: f64, rates: &Rates) -> [f64; 2] {
         let mut change = [0.0; 2];
         for (link, body) in self.dynamics.bodies.iter().enumerate() {
-            let Bounds { column, way } = bounds(self.arm, link, body.center, middle, reach, rates);
+            let Bounds { column, motion } = bounds(self.arm, link, body.center, middle, reach, rates);
             let turn = is_turned(self.arm, link);
             let turning = turn[0] * rates.third[0] + turn[1] * rates.third[1];
             for (k, change) in change.iter_mut().enumerate() {
-                let moved = column[k][1] * (way[1] + self.dynamics.gravity.norm()) + column[k][0] * way[2];
+                let moved = column[k][1] * (motion[1] + self.dynamics.gravity.norm()) + column[k][0] * motion[2];
                 *change += body.mass * moved + body.inertia * turn[k] * turning;
             }
         }
@@ -147,10 +147,10 @@ impl<'a> Torques<'a> {
     pub fn curvature(&self, middle: Configuration, reach: f64, rates: &Rates) -> Curvature {
         let mut curvature = Curvature::default();
         for (link, body) in self.dynamics.bodies.iter().enumerate() {
-            let Bounds { column, way } = bounds(self.arm, link, body.center, middle, reach, rates);
+            let Bounds { column, motion } = bounds(self.arm, link, body.center, middle, reach, rates);
             for (k, column) in column.iter().enumerate() {
                 // The second derivative of the product of a column and a derivative of the curve.
-                let of = |n: usize| column[2] * way[n] + 2.0 * column[1] * way[n + 1] + column[0] * way[n + 2];
+                let of = |n: usize| column[2] * motion[n] + 2.0 * column[1] * motion[n + 1] + column[0] * motion[n + 2];
                 curvature.inertial[k] += body.mass * of(0);
                 curvature.bent[k] += body.mass * of(1);
                 curvature.holding[k] += body.mass * column[2] * self.dynamics.gravity.norm();
@@ -182,7 +182,7 @@ impl<'a> Torques<'a> {
         for (link, body) in self.dynamics.bodies.iter().enumerate() {
             let bounds = everywhere(self.arm, link, body.center);
             for (k, pull) in pull.iter_mut().enumerate() {
-                *pull += body.mass * bounds.column[k][0] * (bounds.way[1] + self.dynamics.gravity.norm());
+                *pull += body.mass * bounds.column[k][0] * (bounds.motion[1] + self.dynamics.gravity.norm());
             }
         }
         let (inertia, determinant) = (self.greatest_inertia(), self.least_determinant());
@@ -293,7 +293,7 @@ struct Bounds {
     column: [[f64; 3]; 2],
     /// Bounds on the first four derivatives of the point along the curve. The fourth is valid if the curve has no third
     /// derivative.
-    way: [f64; 4],
+    motion: [f64; 4],
 }
 
 /// Returns such bounds for all configurations, at constant speeds up to the top speeds.
@@ -308,28 +308,28 @@ fn everywhere(arm: &Arm, link: usize, point: Point) -> Bounds {
 
 fn bounds(arm: &Arm, link: usize, point: Point, middle: Configuration, reach: f64, rates: &Rates) -> Bounds {
     use JointType::{Prismatic, Revolute};
-    const STILL: [f64; 3] = [0.0; 3];
+    const NO_MOTION: [f64; 3] = [0.0; 3];
     let Rates { first: v, second: a, third: j } = *rates;
     // Derivatives of a turning lever, from those of its angle.
     let lever = |length: f64, v: f64, a: f64, j: f64| {
         let fourth = v * v * v * v + 6.0 * v * v * a + 3.0 * a * a;
         [v, v * v + a, v * v * v + 3.0 * v * a + j, fourth].map(|by| length * by)
     };
-    let column = |length: f64, way: [f64; 4]| [length, way[0], way[1]];
+    let column = |length: f64, motion: [f64; 4]| [length, motion[0], motion[1]];
     let slide = |k: usize| [v[k], a[k], j[k], 0.0];
     let plus = |x: [f64; 4], y: [f64; 4]| [0, 1, 2, 3].map(|n| x[n] + y[n]);
     let length = point.norm();
     let inner = arm.offset.norm();
     match (arm.joints[0].joint_type, arm.joints[1].joint_type) {
         (Revolute { .. }, _) if link == 0 => {
-            let way = lever(length, v[0], a[0], j[0]);
-            Bounds { column: [column(length, way), STILL], way }
+            let motion = lever(length, v[0], a[0], j[0]);
+            Bounds { column: [column(length, motion), NO_MOTION], motion }
         }
-        (Prismatic { .. }, _) if link == 0 => Bounds { column: [[1.0, 0.0, 0.0], STILL], way: slide(0) },
+        (Prismatic { .. }, _) if link == 0 => Bounds { column: [[1.0, 0.0, 0.0], NO_MOTION], motion: slide(0) },
         (Revolute { .. }, Revolute { .. }) => {
             let outer = lever(length, v[0] + v[1], a[0] + a[1], j[0] + j[1]);
-            let way = plus(lever(inner, v[0], a[0], j[0]), outer);
-            Bounds { column: [column(inner + length, way), column(length, outer)], way }
+            let motion = plus(lever(inner, v[0], a[0], j[0]), outer);
+            Bounds { column: [column(inner + length, motion), column(length, outer)], motion }
         }
         (Revolute { .. }, Prismatic { direction }) => {
             let r = (arm.offset + direction * middle[1] + point).norm() + v[1] * reach;
@@ -341,13 +341,15 @@ fn bounds(arm: &Arm, link: usize, point: Point, middle: Configuration, reach: f6
                 3.0 * turned[1] * v[1] + 3.0 * turned[0] * a[1],
                 4.0 * turned[2] * v[1] + 6.0 * turned[1] * a[1],
             ];
-            let way = plus(plus(turned.map(|by| r * by), mixed), slide(1));
-            Bounds { column: [column(r, way), column(1.0, turned)], way }
+            let motion = plus(plus(turned.map(|by| r * by), mixed), slide(1));
+            Bounds { column: [column(r, motion), column(1.0, turned)], motion }
         }
         (Prismatic { .. }, Revolute { .. }) => {
             let outer = lever(length, v[1], a[1], j[1]);
-            Bounds { column: [[1.0, 0.0, 0.0], column(length, outer)], way: plus(slide(0), outer) }
+            Bounds { column: [[1.0, 0.0, 0.0], column(length, outer)], motion: plus(slide(0), outer) }
         }
-        (Prismatic { .. }, Prismatic { .. }) => Bounds { column: [[1.0, 0.0, 0.0]; 2], way: plus(slide(0), slide(1)) },
+        (Prismatic { .. }, Prismatic { .. }) => {
+            Bounds { column: [[1.0, 0.0, 0.0]; 2], motion: plus(slide(0), slide(1)) }
+        }
     }
 }

@@ -2,11 +2,11 @@
 
 use cplan_core::model::MotionProblem;
 use cplan_core::space::Metric;
-use cplan_motion::{Fastest, Limits, Timed, TimingError, least_duration};
+use cplan_motion::{DurationOptimality, Limits, TimedMotion, TimingError, least_duration};
 use cplan_solver::{BoundedPath, Criterion, Options, bound, solve};
 
 /// Tolerance of the lower bound on path length that bounds the least time, as a share.
-const GAP: f64 = 1e-3;
+const LENGTH_BOUND_GAP: f64 = 1e-3;
 
 /// Returns the fastest motion found, and a lower bound on the duration of every motion. Tries the planner's path, and,
 /// if the planner takes a criterion, the shortest paths by length and by time at top speed.
@@ -14,7 +14,7 @@ pub(super) fn fastest(
     problem: &MotionProblem,
     path: &BoundedPath,
     options: &Options,
-) -> Result<(Timed, Option<Fastest>), TimingError> {
+) -> Result<(TimedMotion, Option<DurationOptimality>), TimingError> {
     let scene = problem.scene();
     let mut best = options.drive.along(scene, &path.certified, 1.0)?;
     for criterion in [Criterion::Time, Criterion::Euclidean] {
@@ -35,8 +35,9 @@ pub(super) fn fastest(
     let joints = &scene.arm().joints;
     let metric = Metric::Time { speeds: joints.each_ref().map(|joint| joint.velocity) };
     let known = path.bound.filter(|bound| bound.metric == metric).map(|bound| bound.lower);
-    let length = || known.unwrap_or_else(|| bound(problem, best.curve.curve().path(), metric, GAP).lower);
+    let length = || known.unwrap_or_else(|| bound(problem, best.curve.curve().path(), metric, LENGTH_BOUND_GAP).lower);
     let duration = best.trajectory.duration();
-    let fastest = options.bounded.then(|| Fastest::new(duration, least_duration(length(), &Limits::from(joints))));
+    let fastest =
+        options.bounded.then(|| DurationOptimality::new(duration, least_duration(length(), &Limits::from(joints))));
     Ok((best, fastest))
 }

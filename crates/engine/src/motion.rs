@@ -2,9 +2,9 @@
 
 use super::fastest::fastest;
 use cplan_core::model::{MotionProblem, Outcome};
-use cplan_handling::Course;
-use cplan_motion::{Fastest, Objective, Timed, TimingError};
-use cplan_movers::{Demand, InTime, Timing, in_time};
+use cplan_handling::ObstacleTrajectory;
+use cplan_motion::{DurationOptimality, Objective, TimedMotion, TimingError};
+use cplan_movers::{TimedPath, Timing, TimingRequirements, in_time};
 use cplan_solver::{Answer, BoundedPath, Options};
 
 /// A motion that is certified free of collision.
@@ -13,9 +13,9 @@ pub struct Motion {
     /// The path that it follows, without blends.
     pub path: BoundedPath,
     /// The path with its blends, and its timing.
-    pub timed: Timed,
+    pub timed: TimedMotion,
     /// The bound on its distance from the fastest motion, if that was requested.
-    pub fastest: Option<Fastest>,
+    pub fastest: Option<DurationOptimality>,
     /// How it passes moving obstacles, if there are any.
     pub timing: Option<Timing>,
 }
@@ -30,7 +30,7 @@ impl Motion {
     /// Times the motion along a path. With moving obstacles there may be no timing; then returns the reason, in words.
     fn along(
         problem: &MotionProblem,
-        courses: &[Course],
+        courses: &[ObstacleTrajectory],
         path: BoundedPath,
         options: &Options,
     ) -> Result<Result<Self, String>, TimingError> {
@@ -42,12 +42,12 @@ impl Motion {
         if !courses.is_empty() {
             // The fastest motion may take another path than the shortest, to another goal.
             let taken = timed.curve.straight().clone();
-            match in_time(problem, courses, &taken, timed, options, &Demand::ALONE)? {
+            match in_time(problem, courses, &taken, timed, options, &TimingRequirements::UNCONSTRAINED)? {
                 Ok(found) => {
-                    let InTime { timed: waiting, figures } = found;
+                    let TimedPath { timed: waiting, figures } = found;
                     // The bound is unchanged, but the duration now includes the waits.
                     let duration = waiting.trajectory.duration();
-                    fastest = fastest.map(|fastest| Fastest::new(duration, fastest.lower_bound));
+                    fastest = fastest.map(|fastest| DurationOptimality::new(duration, fastest.lower_bound));
                     (timed, timing) = (waiting, Some(figures));
                 }
                 Err(reason) => return Ok(Err(reason)),
@@ -65,7 +65,7 @@ impl Motion {
 /// Fails if the motion lasts too long, or has too many samples.
 pub(super) fn driven(
     problem: &MotionProblem,
-    courses: &[Course],
+    courses: &[ObstacleTrajectory],
     answer: Answer,
     options: &Options,
 ) -> Result<Answer<Motion>, TimingError> {

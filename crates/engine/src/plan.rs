@@ -7,7 +7,7 @@ use super::result::{MessageError, Messages};
 use cplan_core::check::CheckedProof;
 use cplan_core::cspace::has_exact_polygons;
 use cplan_core::model::{Arm, MotionProblem, Outcome, Status};
-use cplan_handling::{Course, RobotJoints, Task};
+use cplan_handling::{ObstacleTrajectory, RobotJoints, Task};
 use cplan_motion::{TimingError, Trajectory};
 use cplan_solver::{Answer, NamedJoints, Options, Replay, solve};
 use cplan_tasks::{FailedStep, TaskAnswer, TaskMotion, TaskReplay};
@@ -147,7 +147,7 @@ fn lack(options: &Options, problem: &Problem) -> Option<String> {
 /// Plans a single motion.
 fn plan_motion(
     motion: &MotionProblem,
-    courses: &[Course],
+    courses: &[ObstacleTrajectory],
     options: &Options,
     clock: &mut Clock,
     progress: &mut dyn FnMut(&str),
@@ -290,7 +290,7 @@ impl Plan {
     /// moving obstacles, where paths are tried in time.
     #[must_use]
     pub fn task_replay(&self) -> Option<TaskReplay> {
-        let standing = self.task().filter(|(task, _)| !task.has_movers());
+        let standing = self.task().filter(|(task, _)| !task.has_moving_obstacles());
         standing.map(|(task, answer)| TaskReplay::new(task, &self.options, answer))
     }
 

@@ -2,10 +2,10 @@
 
 use cplan_core::model::{Arm, MotionProblem, MotionProblemError, Scene, SceneError};
 use cplan_core::space::{Configuration, GoalSet};
-use cplan_handling::{Course, RobotJoints, Task, TimedScene, TimedWorkspace};
+use cplan_handling::{ObstacleTrajectory, RobotJoints, Task, TimedScene, TimedWorkspace};
 use cplan_interrupt::Instant;
 use cplan_robot::{InputError, RobotFile, RobotReport};
-use cplan_world::{self, Loaded, LoadedScene, LoadedTask, Overrides};
+use cplan_world::{self, LoadedProblem, LoadedScene, LoadedTask, Overrides};
 use std::path::Path;
 use std::sync::Arc;
 use std::time::Duration;
@@ -18,7 +18,7 @@ use thiserror::Error;
 pub struct Problem {
     content: Arc<MotionOrTask>,
     /// The trajectories of the scene's loose obstacles.
-    courses: Arc<[Course]>,
+    courses: Arc<[ObstacleTrajectory]>,
     robot: Arc<RobotReport>,
     notes: Arc<[String]>,
     /// Time that reading took.
@@ -148,7 +148,12 @@ impl Problem {
         TimedScene { scene: self.scene(), courses: &self.courses }
     }
 
-    pub(super) fn read(content: MotionOrTask, courses: Vec<Course>, robot: RobotReport, notes: Vec<String>) -> Self {
+    pub(super) fn read(
+        content: MotionOrTask,
+        courses: Vec<ObstacleTrajectory>,
+        robot: RobotReport,
+        notes: Vec<String>,
+    ) -> Self {
         let (content, courses, robot) = (Arc::new(content), courses.into(), Arc::new(robot));
         Self { content, courses, robot, notes: notes.into(), read_in: None }
     }
@@ -160,7 +165,7 @@ impl Problem {
 /// Same as for [`MotionProblem::new`].
 pub(super) fn motion_among(
     scene: Scene,
-    courses: &[Course],
+    courses: &[ObstacleTrajectory],
     start: Configuration,
     goals: impl Into<GoalSet>,
 ) -> Result<MotionProblem, MotionProblemError> {
@@ -172,8 +177,8 @@ pub(super) fn motion_among(
     }
 }
 
-impl From<Loaded> for Problem {
-    fn from(Loaded { problem, courses, robot, notes }: Loaded) -> Self {
+impl From<LoadedProblem> for Problem {
+    fn from(LoadedProblem { problem, courses, robot, notes }: LoadedProblem) -> Self {
         Self::read(MotionOrTask::Motion(problem), courses, robot, notes)
     }
 }

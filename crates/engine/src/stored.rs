@@ -12,7 +12,9 @@ use super::plan::{Plan, plan};
 use super::problem::{MotionOrTask, Problem, ProblemError, motion_among};
 use cplan_core::model::{Additions, Arm, Attachment, MotionProblem, Scene};
 use cplan_core::space::{Configuration, GoalSet};
-use cplan_handling::{Course, Driver, Mover, RobotJoints, Task, TaskError, TimedWorkspace, ToolJoint};
+use cplan_handling::{
+    Driver, MovingObstacle, ObstacleTrajectory, RobotJoints, Task, TaskError, TimedWorkspace, ToolJoint,
+};
 use cplan_robot::RobotReport;
 use cplan_solver::Options;
 use serde::de::Error;
@@ -59,21 +61,21 @@ struct SceneRecord {
 }
 
 impl MotionRecord {
-    fn new(motion: &MotionProblem, courses: &[Course]) -> Self {
+    fn new(motion: &MotionProblem, courses: &[ObstacleTrajectory]) -> Self {
         let scene = motion.scene();
         let Additions { loose, attachment, allowed_contacts } = scene.additions().clone();
         let (arm, workspace) = scene.clone().into_parts();
         let movers = loose.into_iter().zip(courses.iter().cloned());
-        let movers = movers.map(|(loose, course)| Mover { obstacle: loose.obstacle, course }).collect();
+        let movers = movers.map(|(loose, course)| MovingObstacle { obstacle: loose.obstacle, course }).collect();
         let workspace = TimedWorkspace { movers, ..workspace.into() };
         let scene = SceneRecord { arm, workspace, attachment, allowed_contacts };
         Self { scene, start: motion.start(), goals: motion.goals().clone() }
     }
 
     /// Returns the motion, and the trajectories of its loose obstacles.
-    fn motion(self) -> Result<(MotionProblem, Vec<Course>), ProblemError> {
+    fn motion(self) -> Result<(MotionProblem, Vec<ObstacleTrajectory>), ProblemError> {
         let Self { scene: SceneRecord { arm, mut workspace, attachment, allowed_contacts }, start, goals } = self;
-        workspace.hold_shapes();
+        workspace.restrict_shapes();
         let courses = workspace.courses();
         let (workspace, additions) = workspace.into_parts();
         let scene = Scene::with(arm, workspace, Additions { attachment, allowed_contacts, ..additions })?;
@@ -106,7 +108,7 @@ impl<'de> Deserialize<'de> for Problem {
             }
             TargetRecord::Task(task) => {
                 let mut task = task.into_owned();
-                task.hold_shapes();
+                task.restrict_shapes();
                 let scene: Result<Scene, TaskError> = task.check();
                 if robot.joints.stroke.is_some() && robot.joints.stroke != task.stroke {
                     return Err(D::Error::custom("the robot's stroke is not the task's"));
@@ -194,9 +196,13 @@ fn difference(at: &str, stated: &Value, planned: &Value) -> Option<String> {
 }
 
 /// Largest number of characters of a value in a message.
-const SHOWN: usize = 60;
+const MAX_SHOWN_CHARACTERS: usize = 60;
 
 fn shown(value: &Value) -> String {
     let text = value.to_string();
-    if text.chars().count() <= SHOWN { text } else { text.chars().take(SHOWN).chain("...".chars()).collect() }
+    if text.chars().count() <= MAX_SHOWN_CHARACTERS {
+        text
+    } else {
+        text.chars().take(MAX_SHOWN_CHARACTERS).chain("...".chars()).collect()
+    }
 }

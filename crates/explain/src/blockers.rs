@@ -2,13 +2,13 @@
 
 use super::change::Change;
 use super::element::Element;
-use super::question::Question;
-use cplan_core::check::{CertifiedPath, CheckedProof, Disconnection, StuckBox};
+use super::question::MotionQuestion;
+use cplan_core::check::{CertifiedPath, CheckedProof, CollisionBox, Disconnection};
 use cplan_core::model::{Outcome, Scene, Status};
 use cplan_interrupt::checkpoint;
 
 /// Largest number of sets sought, one after the other.
-const MOST_SETS: usize = 8;
+const MAX_SETS: usize = 8;
 
 /// An element that blocks the motion and cannot be left out of its set.
 #[derive(Debug, Clone, PartialEq)]
@@ -77,7 +77,7 @@ impl BlockingSet {
 /// decision: the first number applies to each element, the second to the few remaining ones whose result would
 /// otherwise be unknown. Makes `O(n)` decisions for the `n` elements that the proof names.
 #[must_use]
-pub fn blocking_set(question: &Question, proof: Option<CheckedProof>, boxes: [usize; 2]) -> BlockingSet {
+pub fn blocking_set(question: &MotionQuestion, proof: Option<CheckedProof>, boxes: [usize; 2]) -> BlockingSet {
     let mut filter =
         Filter { question, boxes: boxes[0], all: Element::all(question.scene()), set: Vec::new(), proof: None };
     filter.set.clone_from(&filter.all);
@@ -117,10 +117,10 @@ pub fn blocking_set(question: &Question, proof: Option<CheckedProof>, boxes: [us
 /// Returns blocking sets that have no obstacle in common. After each set, its obstacles are removed, until the
 /// remaining world has a motion.
 #[must_use]
-pub fn blocking_sets(question: &Question, proof: Option<CheckedProof>, boxes: [usize; 2]) -> Vec<BlockingSet> {
+pub fn blocking_sets(question: &MotionQuestion, proof: Option<CheckedProof>, boxes: [usize; 2]) -> Vec<BlockingSet> {
     let mut sets = vec![blocking_set(question, proof, boxes)];
     let mut gone: Vec<Element> = Vec::new();
-    while sets.len() < MOST_SETS
+    while sets.len() < MAX_SETS
         && let Some(last) = sets.last()
     {
         let obstacles: Vec<Element> = last.elements().into_iter().filter(|e| e.obstacle().is_some()).collect();
@@ -137,7 +137,7 @@ pub fn blocking_sets(question: &Question, proof: Option<CheckedProof>, boxes: [u
 
 /// A world from which elements are removed while it still has no motion.
 struct Filter<'a> {
-    question: &'a Question,
+    question: &'a MotionQuestion,
     boxes: usize,
     all: Vec<Element>,
     /// The elements that remain.
@@ -148,7 +148,7 @@ struct Filter<'a> {
 
 impl Filter<'_> {
     /// Returns the question with only these elements.
-    fn among(&self, set: &[Element]) -> Question {
+    fn among(&self, set: &[Element]) -> MotionQuestion {
         let gone: Vec<Element> = self.all.iter().filter(|element| !set.contains(element)).copied().collect();
         self.question.without(&gone)
     }
@@ -172,10 +172,11 @@ impl Filter<'_> {
         self.proof = proof;
         let Some(mut slim) = self.proof.clone() else { return };
         let (question, mut set) = (self.among(&self.set), self.set.clone());
-        let layer = |stuck: &StuckBox| question.scene().first_layer(stuck.pair.obstacle);
+        let layer = |stuck: &CollisionBox| question.scene().first_layer(stuck.pair.obstacle);
         for obstacle in self.set.iter().filter_map(|element| element.obstacle()) {
-            let fewer = slim.stuck().iter().filter(|stuck| layer(stuck) != obstacle).cloned().collect::<Vec<_>>();
-            if fewer.len() == slim.stuck().len() {
+            let fewer =
+                slim.collision_boxes().iter().filter(|stuck| layer(stuck) != obstacle).cloned().collect::<Vec<_>>();
+            if fewer.len() == slim.collision_boxes().len() {
                 set.retain(|element| element.obstacle() != Some(obstacle));
             } else if let Some(fewer) = held(&question, fewer) {
                 slim = fewer;
@@ -183,14 +184,14 @@ impl Filter<'_> {
             }
         }
         // Without an obstacle, the tip goal may be reached by more configurations, which the proof does not cover.
-        if let Some(slim) = held(&self.among(&set), slim.stuck().to_vec()) {
+        if let Some(slim) = held(&self.among(&set), slim.collision_boxes().to_vec()) {
             (self.set, self.proof) = (set, Some(slim));
         }
     }
 }
 
 /// Returns the proof with these boxes, if it is shown to hold before the time is up.
-fn held(question: &Question, stuck: Vec<StuckBox>) -> Option<CheckedProof> {
+fn held(question: &MotionQuestion, stuck: Vec<CollisionBox>) -> Option<CheckedProof> {
     let scene = question.scene();
     let clearance = scene.workspace().clearance;
     let check = || Disconnection::new(stuck).checked(scene, question.start(), &question.goals(), clearance).ok();

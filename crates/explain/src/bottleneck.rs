@@ -2,7 +2,7 @@
 //! equally.
 
 use super::change::{fineness, middle, shrunk};
-use super::question::Question;
+use super::question::MotionQuestion;
 use super::threshold::{Threshold, threshold};
 use cplan_core::model::{Contact, Obstruction};
 use cplan_core::space::Configuration;
@@ -22,25 +22,25 @@ pub struct Bottleneck {
 }
 
 /// Tolerance of the amount of shrinking, as a share of it.
-const FINE_SHARE: f64 = 1e-2;
+const RELATIVE_TOLERANCE: f64 = 1e-2;
 
 /// Smallest such tolerance, as a share of the tolerance of changes. Decisions nearer to the threshold take long.
-const FINEST: f64 = 1.0 / 16.0;
+const MIN_TOLERANCE_SHARE: f64 = 1.0 / 16.0;
 
 /// Number of places along the path at which the missing distance is measured.
-const LOOKS: usize = 1024;
+const PATH_SAMPLES: usize = 1024;
 
 impl Bottleneck {
     /// Returns by how much the place is too narrow, metres: the total distance that is missing on all sides, clearance
     /// included.
     #[must_use]
-    pub fn lacking(&self, clearance: f64) -> f64 {
-        lacking(&self.hits, clearance)
+    pub fn missing_distance(&self, clearance: f64) -> f64 {
+        missing_distance(&self.hits, clearance)
     }
 }
 
 /// Returns the sum, over all obstacles that are hit, of the largest missing distance.
-fn lacking(hits: &[Obstruction], clearance: f64) -> f64 {
+fn missing_distance(hits: &[Obstruction], clearance: f64) -> f64 {
     let mut worst: Vec<(usize, f64)> = Vec::new();
     for hit in hits {
         let (obstacle, lack) = (hit.contact.pair.obstacle, clearance - hit.contact.separation.distance);
@@ -54,7 +54,7 @@ fn lacking(hits: &[Obstruction], clearance: f64) -> f64 {
 
 /// Finds the bottleneck of an infeasible question. `None` if obstacles and clearance are not what blocks it.
 #[must_use]
-pub fn bottleneck(question: &Question, boxes: usize) -> Option<Bottleneck> {
+pub fn bottleneck(question: &MotionQuestion, boxes: usize) -> Option<Bottleneck> {
     let scene = question.scene();
     let clearance = scene.workspace().clearance;
     let extents = scene.workspace().obstacles.iter().filter_map(middle).map(|(_, extent)| extent);
@@ -65,7 +65,12 @@ pub fn bottleneck(question: &Question, boxes: usize) -> Option<Bottleneck> {
     let ask = |by: f64| giving_way(question, by).answer(boxes);
     let fine = fineness(question);
     let coarse = threshold(0.0, most, fine, ask)?;
-    let finer = threshold(coarse.closed, coarse.opens, (FINE_SHARE * coarse.opens).max(FINEST * fine), ask);
+    let finer = threshold(
+        coarse.closed,
+        coarse.opens,
+        (RELATIVE_TOLERANCE * coarse.opens).max(MIN_TOLERANCE_SHARE * fine),
+        ask,
+    );
     let by = finer.unwrap_or(coarse);
     let (at, hits) = narrowest(question, &by)?;
     let depth = |hit: &&Obstruction| hit.contact.separation.distance;
@@ -76,19 +81,19 @@ pub fn bottleneck(question: &Question, boxes: usize) -> Option<Bottleneck> {
 
 /// Returns the configuration on the opened path at which the arm lacks most distance in the true scene, and the
 /// collisions there.
-fn narrowest(question: &Question, by: &Threshold) -> Option<(Configuration, Vec<Obstruction>)> {
+fn narrowest(question: &MotionQuestion, by: &Threshold) -> Option<(Configuration, Vec<Obstruction>)> {
     let (scene, path) = (question.scene(), by.path.path());
     let clearance = scene.workspace().clearance;
-    let looks = (LOOKS / path.waypoints().len().max(1)).max(1);
+    let looks = (PATH_SAMPLES / path.waypoints().len().max(1)).max(1);
     let shares = (0..=looks).map(|k| k as f64 / looks as f64);
     let along = path.segments().flat_map(|(from, to)| shares.clone().map(move |share| from + (to - from) * share));
     let looked = along.chain([path.start()]).chain(by.path.nearest().map(|nearest| nearest.at));
     let hits = looked.map(|q| (q, scene.obstructions(q))).filter(|(_, hits)| !hits.is_empty());
-    hits.max_by(|a, b| lacking(&a.1, clearance).total_cmp(&lacking(&b.1, clearance)))
+    hits.max_by(|a, b| missing_distance(&a.1, clearance).total_cmp(&missing_distance(&b.1, clearance)))
 }
 
 /// Returns the question with clearance, and then obstacles, reduced by this distance.
-fn giving_way(question: &Question, by: f64) -> Question {
+fn giving_way(question: &MotionQuestion, by: f64) -> MotionQuestion {
     question.rebuilt(|_, workspace| {
         let beyond = by - workspace.clearance;
         workspace.clearance = (workspace.clearance - by).max(0.0);
@@ -101,7 +106,7 @@ fn giving_way(question: &Question, by: f64) -> Question {
 }
 
 /// Returns the corner of either shape that is deepest in the other one.
-fn place(question: &Question, at: Configuration, Contact { pair, .. }: Contact) -> Point {
+fn place(question: &MotionQuestion, at: Configuration, Contact { pair, .. }: Contact) -> Point {
     let scene = question.scene();
     let (part, piece) = (scene.part(pair).at(&scene.arm().pose(pair.link, at)), scene.piece(pair));
     let deep = |shape: &Convex, corner: &Point| separation(shape, &Convex::point(*corner)).distance;

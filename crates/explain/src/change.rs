@@ -1,7 +1,7 @@
 //! The smallest change of a single blocker that opens a path.
 
 use super::element::Element;
-use super::question::{Question, farthest};
+use super::question::{MotionQuestion, farthest};
 use super::threshold::{Threshold, threshold};
 use cplan_core::model::{Obstacle, Outcome};
 use cplan_geometry::{Convex, Point, Pose, Vector};
@@ -9,21 +9,21 @@ use serde::Serialize;
 use std::f64::consts::TAU;
 
 /// Tolerance of changes, metres and radians. For arms that reach less than a metre, this share of their reach.
-const FINE: f64 = 1e-3;
+const CHANGE_TOLERANCE: f64 = 1e-3;
 
 /// Largest tolerance, as a share of the largest possible change.
-const FINE_SHARE: f64 = 1e-2;
+const MAX_TOLERANCE_SHARE: f64 = 1e-2;
 
 /// Number of directions in which obstacles are moved, ...
-const DIRECTIONS: usize = 16;
+const MOVE_DIRECTIONS: usize = 16;
 
 /// ... and number of times that the directions beside the best one are tried, each time at half the angle.
-const REFINEMENTS: u32 = 3;
+const DIRECTION_REFINEMENTS: u32 = 3;
 
 /// The kind of change made to a blocker.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case", tag = "change")]
-pub enum Cure {
+pub enum ChangeKind {
     /// The obstacle is moved in this direction, of unit length.
     Moved {
         /// Direction in the plane.
@@ -46,7 +46,7 @@ pub enum Cure {
 /// The elements among which a change was tried.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Among {
+pub enum ChangeContext {
     /// All elements of the world.
     World,
     /// Only the other blockers of its set, because in the world another set blocks all paths as well.
@@ -59,9 +59,9 @@ pub struct Change {
     /// The element that is changed.
     pub element: Element,
     /// The kind of change.
-    pub cure: Cure,
+    pub cure: ChangeKind,
     /// The elements among which the change was tried.
-    pub among: Among,
+    pub among: ChangeContext,
     /// The amount of the change, metres or radians.
     pub by: Threshold,
 }
@@ -70,10 +70,10 @@ pub struct Change {
 /// moves this is an upper bound on the least one: of 16 directions and some between them, the stated direction needed
 /// the smallest step found.
 #[must_use]
-pub fn changes(question: &Question, element: Element, among: Among, boxes: usize) -> Vec<Change> {
+pub fn changes(question: &MotionQuestion, element: Element, among: ChangeContext, boxes: usize) -> Vec<Change> {
     let scene = question.scene();
     let fine = fineness(question);
-    let made = |cure: Cure, by: Threshold| Change { element, cure, among, by };
+    let made = |cure: ChangeKind, by: Threshold| Change { element, cure, among, by };
     match element {
         Element::Obstacle { number } => {
             let obstacle = &scene.workspace().obstacles[number];
@@ -85,40 +85,40 @@ pub fn changes(question: &Question, element: Element, among: Among, boxes: usize
         Element::Link { .. } => Vec::new(),
         Element::Limit { joint, side } => {
             let turns = scene.arm().joints[joint].joint_type.is_revolute();
-            let (most, fine) = (question.beyond(joint), if turns { FINE } else { fine });
+            let (most, fine) = (question.beyond(joint), if turns { CHANGE_TOLERANCE } else { fine });
             let ask = |by: f64| question.with_wider(joint, side, by).answer(boxes);
-            threshold(0.0, most, fine, ask).map(|by| made(Cure::Widened, by)).into_iter().collect()
+            threshold(0.0, most, fine, ask).map(|by| made(ChangeKind::Widened, by)).into_iter().collect()
         }
         Element::Clearance => {
             let clearance = scene.workspace().clearance;
             let ask = |by: f64| question.with_clearance((clearance - by).max(0.0)).answer(boxes);
-            let by = threshold(0.0, clearance, fine.min(FINE_SHARE * clearance), ask);
-            by.map(|by| made(Cure::Lowered, by)).into_iter().collect()
+            let by = threshold(0.0, clearance, fine.min(MAX_TOLERANCE_SHARE * clearance), ask);
+            by.map(|by| made(ChangeKind::Lowered, by)).into_iter().collect()
         }
     }
 }
 
 /// Returns the tolerance for lengths.
-pub(super) fn fineness(question: &Question) -> f64 {
-    FINE * question.scene().arm().reach().min(1.0)
+pub(super) fn fineness(question: &MotionQuestion) -> f64 {
+    CHANGE_TOLERANCE * question.scene().arm().reach().min(1.0)
 }
 
 /// Finds the least shrinking of an obstacle that opens a path.
 fn shrinking(
-    question: &Question,
+    question: &MotionQuestion,
     obstacle: &Obstacle,
     number: usize,
     fine: f64,
     boxes: usize,
-) -> Option<(Cure, Threshold)> {
+) -> Option<(ChangeKind, Threshold)> {
     let (_, most) = middle(obstacle)?;
     let ask = |by: f64| question.with_pieces(number, shrunk(obstacle, by)).answer(boxes);
-    let by = threshold(0.0, most, fine.min(FINE_SHARE * most), ask)?;
+    let by = threshold(0.0, most, fine.min(MAX_TOLERANCE_SHARE * most), ask)?;
     if by.opens >= most {
         // The obstacle has vanished. It is already known that its removal opens a path.
         return None;
     }
-    let cure = if is_eroded(obstacle) { Cure::Eroded } else { Cure::Scaled { to: 1.0 - by.opens / most } };
+    let cure = if is_eroded(obstacle) { ChangeKind::Eroded } else { ChangeKind::Scaled { to: 1.0 - by.opens / most } };
     Some((cure, by))
 }
 
@@ -156,12 +156,12 @@ pub(super) fn middle(obstacle: &Obstacle) -> Option<(Point, f64)> {
 /// Finds the least move of an obstacle that opens a path. Tries all directions with a step that doubles each time,
 /// bisects the step in the directions that open a path, and then tries the directions beside the best one.
 fn moving(
-    question: &Question,
+    question: &MotionQuestion,
     obstacle: &Obstacle,
     number: usize,
     fine: f64,
     boxes: usize,
-) -> Option<(Cure, Threshold)> {
+) -> Option<(ChangeKind, Threshold)> {
     let toward = |share: f64| {
         let (sin, cos) = (TAU * share).sin_cos();
         Vector::new(cos, sin)
@@ -173,8 +173,8 @@ fn moving(
     let most = farthest(question.scene());
     let (mut below, mut step) = (0.0, 4.0 * fine);
     let open = loop {
-        let opens = |k: &usize| matches!(ask(*k as f64 / DIRECTIONS as f64, step), Outcome::Found(_));
-        let open: Vec<f64> = (0..DIRECTIONS).filter(opens).map(|k| k as f64 / DIRECTIONS as f64).collect();
+        let opens = |k: &usize| matches!(ask(*k as f64 / MOVE_DIRECTIONS as f64, step), Outcome::Found(_));
+        let open: Vec<f64> = (0..MOVE_DIRECTIONS).filter(opens).map(|k| k as f64 / MOVE_DIRECTIONS as f64).collect();
         if !open.is_empty() {
             break open;
         }
@@ -196,12 +196,12 @@ fn moving(
         }
     };
     open.into_iter().for_each(|share| better(share, &mut best));
-    for halving in 1..=REFINEMENTS {
-        let beside = 1.0 / (DIRECTIONS << halving) as f64;
+    for halving in 1..=DIRECTION_REFINEMENTS {
+        let beside = 1.0 / (MOVE_DIRECTIONS << halving) as f64;
         if let Some((share, _)) = best {
             [share - beside, share + beside].into_iter().for_each(|share| better(share, &mut best));
         }
     }
     let (share, by) = best?;
-    Some((Cure::Moved { direction: toward(share).into() }, by))
+    Some((ChangeKind::Moved { direction: toward(share).into() }, by))
 }

@@ -1,6 +1,6 @@
 //! Starts and goals that are not free or out of reach, and the nearest free configurations.
 
-use super::question::{Question, Target};
+use super::question::{MotionQuestion, Target};
 use cplan_core::cspace::{NearestFree, nearest_free};
 use cplan_core::model::{Arm, Obstruction, inverse};
 use cplan_core::space::{Configuration, JointRange};
@@ -8,10 +8,10 @@ use cplan_geometry::Point;
 use serde::Serialize;
 
 /// Number of values of each joint from which the search for the nearest place of the tip begins.
-const SAMPLES: usize = 128;
+const SAMPLES_PER_JOINT: usize = 128;
 
 /// Smallest step of that search, as a share of a joint's range.
-const FINEST: f64 = 1e-12;
+const MIN_STEP: f64 = 1e-12;
 
 /// One of the two ends of a motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -61,7 +61,7 @@ pub struct OutOfReach {
 /// Finds the problems with the ends of a question: with the start, and, if every goal is blocked, with all goals. The
 /// goal nearest to a free configuration comes first.
 #[must_use]
-pub fn blocked_ends(question: &Question) -> (Vec<BlockedEnd>, Option<OutOfReach>) {
+pub fn blocked_ends(question: &MotionQuestion) -> (Vec<BlockedEnd>, Option<OutOfReach>) {
     let mut blocked: Vec<BlockedEnd> = Vec::new();
     if !question.is_free(question.start()) {
         blocked.push(of(question, End::Start, question.start()));
@@ -90,7 +90,7 @@ pub fn blocked_ends(question: &Question) -> (Vec<BlockedEnd>, Option<OutOfReach>
     (blocked, out_of_reach)
 }
 
-fn of(question: &Question, end: End, at: Configuration) -> BlockedEnd {
+fn of(question: &MotionQuestion, end: End, at: Configuration) -> BlockedEnd {
     let scene = question.scene();
     let beyond = [0, 1].map(|k| match scene.arm().joints[k].range {
         JointRange::Interval { lower, upper } => (lower - at[k]).max(at[k] - upper).max(0.0),
@@ -110,10 +110,11 @@ fn nearest_tip(arm: &Arm, tip: Point) -> OutOfReach {
         })
     };
     let off = |share: [f64; 2]| (arm.tip_at(at(share)) - tip).norm();
-    let lattice = (0..=SAMPLES).flat_map(|i| (0..=SAMPLES).map(move |j| [i, j].map(|n| n as f64 / SAMPLES as f64)));
+    let lattice = (0..=SAMPLES_PER_JOINT)
+        .flat_map(|i| (0..=SAMPLES_PER_JOINT).map(move |j| [i, j].map(|n| n as f64 / SAMPLES_PER_JOINT as f64)));
     let mut best = lattice.min_by(|a, b| off(*a).total_cmp(&off(*b))).unwrap_or([0.5; 2]);
-    let mut step = 1.0 / SAMPLES as f64;
-    while step > FINEST {
+    let mut step = 1.0 / SAMPLES_PER_JOINT as f64;
+    while step > MIN_STEP {
         let beside = (0..9).filter(|&k| k != 4).map(|k| [k / 3, k % 3].map(|n| f64::from(n) - 1.0));
         let beside = beside.map(|to| [0, 1].map(|k| (best[k] + step * to[k]).clamp(0.0, 1.0)));
         match beside.min_by(|a, b| off(*a).total_cmp(&off(*b))).filter(|next| off(*next) < off(best)) {

@@ -2,34 +2,34 @@
 
 use super::blockers::{BlockingSet, blocking_sets};
 use super::bottleneck::{Bottleneck, bottleneck};
-use super::change::{Among, Change, changes};
+use super::change::{Change, ChangeContext, changes};
 use super::ends::{BlockedEnd, OutOfReach, blocked_ends};
-use super::question::Question;
+use super::question::MotionQuestion;
 use super::shaping::{Saving, savings};
 use cplan_core::check::CheckedProof;
 use cplan_core::model::{Outcome, Status};
 use cplan_solver::{Answer, Options, Unknown, solve};
 
 /// Number of boxes for each of the many decisions.
-const BOXES: usize = 20_000;
+const BOXES_PER_DECISION: usize = 20_000;
 
 /// Number of boxes for the few remaining blockers whose result would otherwise be unknown.
-const BOXES_AT_LAST: usize = 1_000_000;
+const BOXES_FOR_LAST_DECISIONS: usize = 1_000_000;
 
 /// The reasons why there is no motion, or why the motion that exists is not shorter.
 #[derive(Debug, Clone)]
 pub struct Explanation {
     /// The question.
-    pub question: Question,
+    pub question: MotionQuestion,
     /// The explanation: why the path is not shorter, or why there is no path.
-    pub outcome: Outcome<Shaped, Closed>,
+    pub outcome: Outcome<FoundExplanation, InfeasibleExplanation>,
     /// True if the time limit was reached. Then sets may not be irreducible, and changes and savings may be missing.
     pub is_stopped: bool,
 }
 
 /// A motion that was found.
 #[derive(Debug, Clone)]
-pub struct Shaped {
+pub struct FoundExplanation {
     /// The shortest path, and how it was found.
     pub answer: Box<Answer>,
     /// What it would be shorter without, the greatest savings first.
@@ -38,7 +38,7 @@ pub struct Shaped {
 
 /// Reasons why there is no motion.
 #[derive(Debug, Clone)]
-pub struct Closed {
+pub struct InfeasibleExplanation {
     /// Proof that the whole world has no motion. `None` if start or goals are not free.
     pub proof: Option<CheckedProof>,
     /// Problems with start and goals, if the arm cannot be there.
@@ -65,7 +65,7 @@ impl Explanation {
 /// Usually takes tenths of a second. The question's time limit applies from the moment when it is known whether there
 /// is a motion.
 #[must_use]
-pub fn explain(question: &Question, options: &Options) -> Explanation {
+pub fn explain(question: &MotionQuestion, options: &Options) -> Explanation {
     let answer = question.problem().map(|problem| solve(&problem, options, &mut |_| ()));
     let started = question.started();
     let closed = |proof: Option<CheckedProof>| Outcome::Infeasible(closed(&started, proof));
@@ -76,13 +76,13 @@ pub fn explain(question: &Question, options: &Options) -> Explanation {
         Some(Outcome::Found(_)) => {
             let answer = answer.expect("it was just looked at");
             let savings = savings(&started, &answer, options);
-            Outcome::Found(Shaped { answer: Box::new(answer), savings })
+            Outcome::Found(FoundExplanation { answer: Box::new(answer), savings })
         }
     };
     Explanation { question: question.clone(), outcome, is_stopped: started.is_out_of_time() }
 }
 
-impl Closed {
+impl InfeasibleExplanation {
     /// Returns the smallest changes of single blockers, set by set.
     pub fn changes(&self) -> impl Iterator<Item = &Change> {
         self.sets.iter().flat_map(|set| &set.blockers).flat_map(|blocker| &blocker.changes)
@@ -90,21 +90,21 @@ impl Closed {
 }
 
 /// Explains why there is no motion.
-fn closed(question: &Question, proof: Option<CheckedProof>) -> Closed {
-    let mut sets = blocking_sets(question, proof.clone(), [BOXES, BOXES_AT_LAST]);
+fn closed(question: &MotionQuestion, proof: Option<CheckedProof>) -> InfeasibleExplanation {
+    let mut sets = blocking_sets(question, proof.clone(), [BOXES_PER_DECISION, BOXES_FOR_LAST_DECISIONS]);
     let all = super::Element::all(question.scene());
     for set in &mut sets {
         let elements = set.elements();
         let others: Vec<_> = all.iter().filter(|element| !elements.contains(element)).copied().collect();
         for blocker in &mut set.blockers {
             let element = blocker.element;
-            let opens = matches!(question.without(&[element]).answer(BOXES), Outcome::Found(_));
+            let opens = matches!(question.without(&[element]).answer(BOXES_PER_DECISION), Outcome::Found(_));
             blocker.changes = match opens {
-                true => changes(question, element, Among::World, BOXES),
-                false => changes(&question.without(&others), element, Among::Set, BOXES),
+                true => changes(question, element, ChangeContext::World, BOXES_PER_DECISION),
+                false => changes(&question.without(&others), element, ChangeContext::Set, BOXES_PER_DECISION),
             };
         }
     }
     let (ends, out_of_reach) = blocked_ends(question);
-    Closed { proof, ends, out_of_reach, sets, bottleneck: bottleneck(question, BOXES) }
+    InfeasibleExplanation { proof, ends, out_of_reach, sets, bottleneck: bottleneck(question, BOXES_PER_DECISION) }
 }

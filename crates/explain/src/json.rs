@@ -1,6 +1,9 @@
 //! An explanation as JSON.
 
-use super::{BlockedEnd, Blocker, Bottleneck, Change, Closed, Element, Explanation, OutOfReach, Saving, Shaped};
+use super::{
+    BlockedEnd, Blocker, Bottleneck, Change, Element, Explanation, FoundExplanation, InfeasibleExplanation, OutOfReach,
+    Saving,
+};
 use cplan_core::check::ProofBox;
 use cplan_core::model::{Obstruction, Outcome, Scene};
 use cplan_core::space::Configuration;
@@ -56,7 +59,7 @@ fn with(mut object: Map<String, Value>, more: Value) -> Value {
     Value::Object(object)
 }
 
-fn of_found(scene: &Scene, Shaped { answer, savings }: &Shaped) -> Value {
+fn of_found(scene: &Scene, FoundExplanation { answer, savings }: &FoundExplanation) -> Value {
     let saving = |saving: &Saving| {
         let Saving { element, length, at_least, at_most } = *saving;
         let more = json!({ "length": length, "shorter_by": { "at_least": at_least, "at_most": at_most } });
@@ -82,8 +85,8 @@ fn of_found(scene: &Scene, Shaped { answer, savings }: &Shaped) -> Value {
     Value::Object(object)
 }
 
-fn of_closed(scene: &Scene, closed: &Closed) -> Value {
-    let Closed { sets, bottleneck, ends, out_of_reach, .. } = closed;
+fn of_closed(scene: &Scene, closed: &InfeasibleExplanation) -> Value {
+    let InfeasibleExplanation { sets, bottleneck, ends, out_of_reach, .. } = closed;
     let change = |Change { cure, among, by, .. }: &Change| {
         let mut object = json!({ "opens": by.opens, "closed": by.closed, "among": among });
         if let (Value::Object(object), Ok(Value::Object(cure))) = (&mut object, serde_json::to_value(cure)) {
@@ -100,7 +103,7 @@ fn of_closed(scene: &Scene, closed: &Closed) -> Value {
         .iter()
         .map(|set| {
             let proof: Option<Vec<ProofBox>> =
-                set.proof.as_ref().map(|proof| proof.stuck().iter().map(ProofBox::from).collect());
+                set.proof.as_ref().map(|proof| proof.collision_boxes().iter().map(ProofBox::from).collect());
             let blockers: Vec<Value> = set.blockers.iter().map(blocker).collect();
             json!({ "blockers": blockers, "proof": proof, "irreducible": set.is_irreducible() })
         })
@@ -114,7 +117,7 @@ fn of_closed(scene: &Scene, closed: &Closed) -> Value {
     })
 }
 
-impl Closed {
+impl InfeasibleExplanation {
     /// Returns the names of the obstacles, and of links of the robot, in the first set.
     #[must_use]
     pub fn blocking<'a>(&self, scene: &'a Scene) -> Vec<&'a str> {
@@ -154,7 +157,7 @@ fn of_bottleneck(scene: &Scene, bottleneck: &Bottleneck) -> Value {
     json!({
         "joints": pair(bottleneck.at),
         "point": [bottleneck.point.x, bottleneck.point.y],
-        "too_narrow_by": bottleneck.lacking(clearance),
+        "too_narrow_by": bottleneck.missing_distance(clearance),
         "gives_way": { "opens": bottleneck.by.opens, "closed": bottleneck.by.closed },
         "hits": hits.collect::<Vec<_>>(),
     })

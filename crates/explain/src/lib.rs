@@ -2,7 +2,7 @@
 //! it longer.
 //!
 //! ```
-//! use cplan_explain::{Question, explain};
+//! use cplan_explain::{MotionQuestion, explain};
 //! use cplan_core::model::{Arm, Joint, Obstacle, Outcome, Scene, Workspace};
 //! use cplan_core::space::{Configuration, GoalSet};
 //! use cplan_core::model::Status;
@@ -14,7 +14,7 @@
 //! arm.joints[0] = Joint::turning("shoulder", -2.0, 2.0);
 //! let scene = Scene::new(arm, Workspace::new(posts))?;
 //! let goals = GoalSet::from(Configuration::new(1.0, 0.0));
-//! let explanation = explain(&Question::new(scene, Configuration::new(-1.0, 0.0), goals), &Options::default());
+//! let explanation = explain(&MotionQuestion::new(scene, Configuration::new(-1.0, 0.0), goals), &Options::default());
 //!
 //! let Outcome::Infeasible(closed) = &explanation.outcome else { panic!("{:?}", explanation.status()) };
 //! assert_eq!(closed.blocking(explanation.question.scene()), ["near"]);
@@ -35,11 +35,11 @@ mod threshold;
 
 pub use blockers::{Blocker, BlockingSet, blocking_set, blocking_sets};
 pub use bottleneck::{Bottleneck, bottleneck};
-pub use change::{Among, Change, Cure, changes};
+pub use change::{Change, ChangeContext, ChangeKind, changes};
 pub use element::{Element, Side};
 pub use ends::{BlockedEnd, End, OutOfReach, blocked_ends};
-pub use explanation::{Closed, Explanation, Shaped, explain};
-pub use question::{HARDLY_ANY, Question, TIME_LIMIT, Target};
-pub use reach::{Access, MOST_PLACES, Reach, Solution, reach};
+pub use explanation::{Explanation, FoundExplanation, InfeasibleExplanation, explain};
+pub use question::{MIN_CLEARANCE, MotionQuestion, TIME_LIMIT, Target};
+pub use reach::{Access, MAX_PLACES, Reach, Solution, reach};
 pub use shaping::{Saving, savings};
 pub use threshold::Threshold;

@@ -14,7 +14,7 @@ use std::time::Duration;
 /// clearance itself is removed. A path through a narrower gap would exist by luck only. Without any clearance, boxes
 /// could neither prove nor refute a path that passes nothing but obstacles as thin as a line. For arms that reach less
 /// than a metre, this share of their reach.
-pub const HARDLY_ANY: f64 = 1e-6;
+pub const MIN_CLEARANCE: f64 = 1e-6;
 
 /// Default time for an explanation, from the moment when it is known whether there is a motion. Most explanations take
 /// tenths of a second.
@@ -48,13 +48,13 @@ impl Target {
 /// A query for a motion. Unlike those of a [`MotionProblem`], its start and goals may be blocked, outside the limits,
 /// or out of reach.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Question {
+pub struct MotionQuestion {
     scene: Scene,
     start: Configuration,
     target: Target,
     /// How far the joints may go beyond a removed limit. This does not depend on the other removed elements.
     beyond: [f64; 2],
-    /// Least clearance when an element is removed: [`HARDLY_ANY`], if start and goals keep that distance.
+    /// Least clearance when an element is removed: [`MIN_CLEARANCE`], if start and goals keep that distance.
     least_clearance: f64,
     /// Time for all decisions together. `None` for no limit.
     time_limit: Option<Duration>,
@@ -62,7 +62,7 @@ pub struct Question {
     deadline: Option<Instant>,
 }
 
-impl From<&MotionProblem> for Question {
+impl From<&MotionProblem> for MotionQuestion {
     fn from(problem: &MotionProblem) -> Self {
         let target = Target::Goals(problem.goals().clone());
         Self::new(problem.scene().clone(), problem.start(), target)
@@ -75,14 +75,14 @@ impl From<GoalSet> for Target {
     }
 }
 
-impl Question {
+impl MotionQuestion {
     /// Creates a query for a motion from a start to a target. Neither needs to be free.
     #[must_use]
     pub fn new(scene: Scene, start: Configuration, target: impl Into<Target>) -> Self {
         let target = target.into();
         let beyond = beyond(&scene, start, &target);
         let asked = Self { scene, start, target, beyond, least_clearance: 0.0, time_limit: None, deadline: None };
-        let hardly_any = HARDLY_ANY * asked.scene.arm().reach().min(1.0);
+        let hardly_any = MIN_CLEARANCE * asked.scene.arm().reach().min(1.0);
         let kept = asked.with_clearance(asked.scene.workspace().clearance.max(hardly_any));
         let keeps = kept.is_free(start) == asked.is_free(start) && kept.goals() == asked.goals();
         Self { least_clearance: if keeps { hardly_any } else { 0.0 }, ..asked }
@@ -201,21 +201,21 @@ impl Question {
         self.beyond[joint]
     }
 
-    /// Returns the question without some of its elements. Removed limits are replaced as in [`Question::beyond`]. A
-    /// clearance of at least [`HARDLY_ANY`] is kept, if start and goals keep it. All other elements keep their indices,
+    /// Returns the question without some of its elements. Removed limits are replaced as in [`MotionQuestion::beyond`]. A
+    /// clearance of at least [`MIN_CLEARANCE`] is kept, if start and goals keep it. All other elements keep their indices,
     /// so that a proof which does not name a removed one holds in both questions.
     #[must_use]
     pub fn without(&self, elements: &[Element]) -> Self {
-        self.just_without(elements).rebuilt(|_, workspace| {
+        self.without_at_clearance(elements).rebuilt(|_, workspace| {
             workspace.clearance = workspace.clearance.max(self.least_clearance);
         })
     }
 
-    /// Returns the same as [`Question::without`], but keeps the world's clearance, however small. Statements about
+    /// Returns the same as [`MotionQuestion::without`], but keeps the world's clearance, however small. Statements about
     /// lengths refer to this question: a slightly larger clearance makes paths longer, so a lower bound for that
     /// question does not hold for this one.
     #[must_use]
-    pub fn just_without(&self, elements: &[Element]) -> Self {
+    pub fn without_at_clearance(&self, elements: &[Element]) -> Self {
         self.rebuilt(|arm, workspace| {
             for element in elements {
                 match *element {
@@ -273,7 +273,7 @@ fn beyond(scene: &Scene, start: Configuration, target: &Target) -> [f64; 2] {
 }
 
 /// Two sliding joints whose directions differ by less than this angle, radians, move along one line.
-const ONE_LINE: f64 = 1e-3;
+const PARALLEL_ANGLE: f64 = 1e-3;
 
 /// Returns the sine of the angle between two sliding joints. The smaller it is, the farther each joint must go to move
 /// the arm past an obstacle beside the other joint's line. 1 for other arms, and for joints that slide along one line,
@@ -283,7 +283,7 @@ fn crossing(arm: &Arm) -> f64 {
         [JointType::Prismatic { direction: a }, JointType::Prismatic { direction: b }] => a.perp(&b).abs(),
         _ => 1.0,
     };
-    if across < ONE_LINE { 1.0 } else { across }
+    if across < PARALLEL_ANGLE { 1.0 } else { across }
 }
 
 /// Returns a distance after which a sliding joint has left all obstacles behind, wherever it begins.

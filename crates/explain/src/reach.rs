@@ -11,13 +11,13 @@ use petgraph::unionfind::UnionFind;
 use serde::{Serialize, Serializer};
 
 /// Largest number of places.
-pub const MOST_PLACES: usize = 4_000_000;
+pub const MAX_PLACES: usize = 4_000_000;
 
 /// Number of boxes for each set of configurations that small motions connect.
-const BOXES: usize = 20_000;
+const BOXES_PER_SET: usize = 20_000;
 
 /// Number of configurations along each joint that are sampled for the bounds of the tip.
-const SAMPLES: usize = 256;
+const SAMPLES_PER_JOINT: usize = 256;
 
 /// Reachability of a configuration from home.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
@@ -108,7 +108,7 @@ impl Reach {
 ///
 /// Solutions of neighbouring cells are connected if the straight motion between them is certified. For each set of
 /// connected solutions, only one is decided ([`decide`]). A certified motion to it extends to all of them, and a proof
-/// that it is unreachable holds for all. `None` if there are more than [`MOST_PLACES`] places.
+/// that it is unreachable holds for all. `None` if there are more than [`MAX_PLACES`] places.
 ///
 /// Takes `O(n)` short certificates for `n` solutions, and one decision for each set.
 #[must_use]
@@ -118,7 +118,7 @@ pub fn reach(scene: &Scene, home: Configuration, cell: f64) -> Option<Reach> {
     // A whole number of cells, with one more on each side for tip places between the samples.
     let first = [0, 1].map(|k| (lower[k] / cell).floor() - 1.0);
     let count = [0, 1].map(|k| (upper[k] / cell).floor() - first[k] + 2.0);
-    if !(cell > 0.0 && count[0] * count[1] <= MOST_PLACES as f64) {
+    if !(cell > 0.0 && count[0] * count[1] <= MAX_PLACES as f64) {
         return None;
     }
     let mut reach =
@@ -141,7 +141,7 @@ pub fn reach(scene: &Scene, home: Configuration, cell: f64) -> Option<Reach> {
             solutions.map(judged).collect()
         })
         .collect();
-    settle(scene, &mut reach);
+    decide_places(scene, &mut reach);
     for (place, number, solution) in open {
         reach.places[place][number] = anywhere_on(scene, home, solution);
     }
@@ -152,7 +152,7 @@ pub fn reach(scene: &Scene, home: Configuration, cell: f64) -> Option<Reach> {
 fn tip_bounds(arm: &Arm) -> Option<[[f64; 2]; 2]> {
     let values = arm.topology().ranges.map(|range| {
         let (lower, upper) = range.domain();
-        (0..=SAMPLES).map(move |i| lower + (upper - lower) * i as f64 / SAMPLES as f64)
+        (0..=SAMPLES_PER_JOINT).map(move |i| lower + (upper - lower) * i as f64 / SAMPLES_PER_JOINT as f64)
     });
     let [first, second] = values;
     let tips = first.flat_map(|a| second.clone().map(move |b| arm.tip_at(Configuration::new(a, b))));
@@ -166,7 +166,7 @@ fn is_free(scene: &Scene, q: Configuration) -> bool {
 }
 
 /// Decides for all free solutions whether they can be reached.
-fn settle(scene: &Scene, reach: &mut Reach) {
+fn decide_places(scene: &Scene, reach: &mut Reach) {
     // All free solutions, with the first one of each place.
     let mut firsts = Vec::with_capacity(reach.places.len() + 1);
     let mut free: Vec<(usize, usize)> = Vec::new();
@@ -198,7 +198,7 @@ fn settle(scene: &Scene, reach: &mut Reach) {
     let mut known: Vec<Option<Access>> = vec![None; free.len()];
     for node in 0..free.len() {
         checkpoint();
-        let access = *known[labels[node]].get_or_insert_with(|| asked(scene, reach.home, joints(labels[node])).0);
+        let access = *known[labels[node]].get_or_insert_with(|| decided(scene, reach.home, joints(labels[node])).0);
         known[node] = Some(access);
     }
     for (&(place, solution), access) in free.iter().zip(known) {
@@ -208,14 +208,14 @@ fn settle(scene: &Scene, reach: &mut Reach) {
 
 /// Returns true if the straight motion between two configurations is free. On circles it takes the shorter direction.
 fn joins(scene: &Scene, from: Configuration, to: Configuration) -> bool {
-    let way = scene.arm().topology().displacement(from, to);
-    certify(scene, Path::new(vec![from, from + way]), scene.workspace().clearance).is_ok()
+    let displacement = scene.arm().topology().displacement(from, to);
+    certify(scene, Path::new(vec![from, from + displacement]), scene.workspace().clearance).is_ok()
 }
 
 /// Decides whether a motion from home leads there. Also returns where it ends.
-fn asked(scene: &Scene, home: Configuration, to: impl Into<GoalSet>) -> (Access, Option<Configuration>) {
+fn decided(scene: &Scene, home: Configuration, to: impl Into<GoalSet>) -> (Access, Option<Configuration>) {
     let Ok(problem) = MotionProblem::new(scene.clone(), home, to) else { return (Access::Unknown, None) };
-    match decide(&problem, BOXES) {
+    match decide(&problem, BOXES_PER_SET) {
         Outcome::Found(path) => (Access::Reachable, Some(path.path().goal())),
         Outcome::Infeasible(_) => (Access::Unreachable, None),
         Outcome::Unknown(_) => (Access::Unknown, None),
@@ -229,6 +229,6 @@ fn anywhere_on(scene: &Scene, home: Configuration, solution: Segment) -> Solutio
     if scene.blocked_along(&solution).is_some() {
         return Solution { joints: nearest(), access: Access::Blocked };
     }
-    let (access, end) = asked(scene, home, solution);
+    let (access, end) = decided(scene, home, solution);
     Solution { joints: end.unwrap_or_else(nearest), access }
 }

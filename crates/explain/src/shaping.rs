@@ -1,7 +1,7 @@
 //! The elements that make the shortest path longer.
 
 use super::element::Element;
-use super::question::Question;
+use super::question::MotionQuestion;
 use cplan_interrupt::checkpoint;
 use cplan_solver::{Answer, Bound, Options, solve};
 
@@ -21,12 +21,12 @@ pub struct Saving {
 /// Returns the elements without which the shortest path is proven to be shorter than that of `answer`, the greatest
 /// savings first. Plans a shortest path without each element in turn, until the question's time is up.
 #[must_use]
-pub fn savings(question: &Question, answer: &Answer, options: &Options) -> Vec<Saving> {
+pub fn savings(question: &MotionQuestion, answer: &Answer, options: &Options) -> Vec<Saving> {
     let Some(whole) = answer.bound() else { return Vec::new() };
     let mut savings = Vec::new();
     for element in Element::all(question.scene()) {
         checkpoint();
-        let Some(problem) = question.just_without(&[element]).problem() else { continue };
+        let Some(problem) = question.without_at_clearance(&[element]).problem() else { continue };
         let Some(without) = question.in_time(|| solve(&problem, options, &mut |_| ())) else { break };
         if let Some(Bound { lower, upper, .. }) = without.bound() {
             let (at_least, at_most) = (whole.lower - upper, whole.upper - lower);

@@ -27,7 +27,7 @@ pub(super) fn threshold(
     if !matches!(ask(closed), Outcome::Infeasible(_)) {
         return None;
     }
-    let mut known = Known { closed, below: closed, open: None };
+    let mut known = KnownResults { closed, below: closed, open: None };
     let mut step = tolerance;
     loop {
         let by = (closed + step).min(most);
@@ -59,7 +59,7 @@ pub(super) fn threshold(
 }
 
 /// Results for the amounts of a change that were tried.
-struct Known {
+struct KnownResults {
     /// The greatest amount with which there is provably no path.
     closed: f64,
     /// The greatest amount with which no path is known.
@@ -68,7 +68,7 @@ struct Known {
     open: Option<(f64, CertifiedPath)>,
 }
 
-impl Known {
+impl KnownResults {
     fn learn(&mut self, by: f64, answer: Outcome<CertifiedPath, Option<CheckedProof>>) {
         checkpoint();
         match answer {

@@ -1,8 +1,8 @@
 //! The decision where to go next.
 
 use super::explorer::Explorer;
-use super::known::Known;
-use super::reach::{Reach, free_about, join, places, straight_motions, tightened, unwrapped};
+use super::known_space::KnownSpace;
+use super::reach::{Reach, free_around, join, places, straight_motions, tightened, unwrapped};
 use super::result::Ending;
 use super::settings::Strategy;
 use super::wall::{self, Heading, Place};
@@ -10,7 +10,7 @@ use cplan_core::check::{CertifiedPath, certify};
 use cplan_core::cspace::Grid;
 use cplan_core::model::{MotionProblem, Outcome, Scene};
 use cplan_core::space::{Configuration, GoalSet, Path, Segment};
-use cplan_harmonic::{Component, Lattice, harmonic_way};
+use cplan_harmonic::{Component, Lattice, harmonic_path};
 use cplan_interrupt::checkpoint;
 use cplan_solver::{Options, Unknown, solve};
 use cplan_text::{counted, listed};
@@ -20,10 +20,10 @@ use std::collections::{BTreeSet, HashSet};
 const PLACES_AHEAD: usize = 8;
 
 /// Largest number of configurations examined for a better view, which takes several milliseconds.
-const MOST_VIEWS: usize = 150;
+const MAX_VIEWS: usize = 150;
 
 /// Cells along a wall that are gone past straight: as many as smooth its steps, not its corners.
-const BY_THE_WALL: usize = 4;
+const WALL_SMOOTHING_CELLS: usize = 4;
 
 /// The next action.
 pub enum Decision {
@@ -62,7 +62,7 @@ impl Explorer<'_> {
             checkpoint();
             back.extend(self.legs[leg].curve.curve().path().waypoints().iter().rev().skip(1));
             let place = back[back.len() - 1];
-            let near = free_about(&self.known.grid, place);
+            let near = free_around(&self.known.grid, place);
             if near.iter().all(|&cell| is_reached[cell]) {
                 continue;
             }
@@ -92,24 +92,24 @@ impl Explorer<'_> {
     fn exploring(&mut self, joined: &[usize]) -> Decision {
         loop {
             checkpoint();
-            let (way, most) = match self.settings.strategy {
+            let (route, most) = match self.settings.strategy {
                 Strategy::View => (self.best_view(joined), usize::MAX),
                 Strategy::Harmonic => (self.uphill(joined).map_or_else(|| self.nearest(joined), Ok), usize::MAX),
                 Strategy::Wall => match self.along_wall(joined) {
-                    Some(way) => (Ok(way), BY_THE_WALL),
+                    Some(route) => (Ok(route), WALL_SMOOTHING_CELLS),
                     None => (self.nearest(joined), usize::MAX),
                 },
                 Strategy::Nearest | Strategy::Goal => (self.nearest(joined), usize::MAX),
             };
-            let way = match way {
-                Ok(way) => way,
+            let route = match route {
+                Ok(route) => route,
                 Err(reach) => {
                     return self.where_it_was(&reach).unwrap_or_else(|configurations| {
                         Decision::Done(Ending::Explored { configurations, given_up: self.frontier.given_up })
                     });
                 }
             };
-            if let Some(decision) = self.along(&way, most) {
+            if let Some(decision) = self.along(&route, most) {
                 return decision;
             }
         }
@@ -124,16 +124,16 @@ impl Explorer<'_> {
         })?;
         let lattice = Lattice::from(&side);
         let component = Component::new(&lattice, lattice.wave(&goals));
-        let way = harmonic_way(&component, component.position_of(from)?)?;
-        let way: Vec<usize> = way.into_iter().map(|position| component.cell(position)).collect();
-        let Known { grid, closed, .. } = &self.known;
+        let route = harmonic_path(&component, component.position_of(from)?)?;
+        let route: Vec<usize> = route.into_iter().map(|position| component.cell(position)).collect();
+        let KnownSpace { grid, closed, .. } = &self.known;
         // The potential knows of no steps that are closed.
-        if !way.windows(2).any(|step| closed.contains(&[step[0], step[1]])) {
-            return Some(way);
+        if !route.windows(2).any(|step| closed.contains(&[step[0], step[1]])) {
+            return Some(route);
         }
-        let end = way[way.len() - 1];
+        let end = route[route.len() - 1];
         let reach = Reach::new(grid, closed, self.at, joined, |cell, _| cell == end);
-        (reach.cells.last() == Some(&end)).then(|| reach.way(end))
+        (reach.cells.last() == Some(&end)).then(|| reach.route(end))
     }
 
     /// Opens the cells on this `side` of the frontier: those reachable from a cell without crossing the frontier, and
@@ -159,22 +159,22 @@ impl Explorer<'_> {
     /// Moves to the nearest wall, and along it to the first frontier configuration. Returns `None` if the loop closes
     /// without one.
     fn along_wall(&mut self, joined: &[usize]) -> Option<Vec<usize>> {
-        let Known { grid, closed, .. } = &self.known;
+        let KnownSpace { grid, closed, .. } = &self.known;
         let mut begin = None;
         let reach = Reach::new(grid, closed, self.at, joined, |cell, _| {
             begin = wall::is_beside_wall(grid, cell).then_some(cell);
             begin.is_some()
         });
-        let mut way = reach.way(begin?);
+        let mut route = reach.route(begin?);
         let mut place = Place { cell: begin?, heading: self.heading() };
         let mut gone = HashSet::new();
         while !self.is_frontier(place.cell) {
             checkpoint();
             let next = wall::next(&self.known.grid, &self.known.closed, place);
             place = next.filter(|&next| gone.insert(next))?;
-            way.push(place.cell);
+            route.push(place.cell);
         }
-        Some(way)
+        Some(route)
     }
 
     /// Returns the direction of the last motion, in eighths of a turn.
@@ -192,13 +192,13 @@ impl Explorer<'_> {
 
     /// Moves towards the last cell of a path, straight past at most `most` cells at a time. Returns `None` if a step is
     /// not free, and records it.
-    fn along(&mut self, way: &[usize], most: usize) -> Option<Decision> {
-        let configurations = unwrapped(&self.known.grid, self.at, way);
+    fn along(&mut self, route: &[usize], most: usize) -> Option<Decision> {
+        let configurations = unwrapped(&self.known.grid, self.at, route);
         let clearance = self.solid.workspace().clearance;
         match tightened(&self.solid, &configurations, most) {
             Ok(path) => {
                 let certified = certify(&self.solid, path, clearance);
-                let target = way[way.len() - 1];
+                let target = route[route.len() - 1];
                 Some(
                     certified
                         .map_or_else(|_| Decision::Done(self.too_coarse()), |path| Decision::Go(path, Some(target))),
@@ -221,14 +221,14 @@ impl Explorer<'_> {
             found = frontier.contains(survey, sensor, cell).then_some(cell);
             found.is_some()
         });
-        reach.way_to(found)
+        reach.route_to(found)
     }
 
     /// Returns the path to the best view: among the configurations that show everything that the nearest frontier
     /// configuration shows (if no unknown obstacle interferes), the one with the most [`worth`], and of several the
     /// nearest. So little is left behind that would require a return.
     ///
-    /// The search stops at the distance beyond which nothing can be better, and after the nearest [`MOST_VIEWS`].
+    /// The search stops at the distance beyond which nothing can be better, and after the nearest [`MAX_VIEWS`].
     /// Farther away, fewer configurations are examined, at distances down to that of readings.
     fn best_view(&mut self, joined: &[usize]) -> Result<Vec<usize>, Reach> {
         let Self { survey, sensor, known, frontier, .. } = self;
@@ -243,22 +243,22 @@ impl Explorer<'_> {
             let worth = |seen: u32| worth(seen, length, sensor.step);
             let Some((most, _)) = best else {
                 if frontier.contains(survey, sensor, cell) {
-                    wanted = survey.shown_first(sensor, frontier.stand(cell));
+                    wanted = survey.shown_first(sensor, frontier.sensor_pose(cell));
                     best = Some((worth(frontier.gain(survey, sensor, cell)), cell));
                 }
                 return false;
             };
-            let may_be_best = is_asked(cell, length) && worth(frontier.most(cell)) > most;
+            let may_be_best = is_asked(cell, length) && worth(frontier.max_gain(cell)) > most;
             asked += usize::from(may_be_best);
-            if may_be_best && survey.shows_all(sensor, frontier.stand(cell), &wanted) {
+            if may_be_best && survey.shows_all(sensor, frontier.sensor_pose(cell), &wanted) {
                 let worth = worth(frontier.gain(survey, sensor, cell));
                 if worth > most {
                     best = Some((worth, cell));
                 }
             }
-            worth(frontier.most_of_all()) <= most || asked == MOST_VIEWS
+            worth(frontier.max_gain_anywhere()) <= most || asked == MAX_VIEWS
         });
-        reach.way_to(best.map(|(_, cell)| cell))
+        reach.route_to(best.map(|(_, cell)| cell))
     }
 
     /// Follows the planner's path through possibly free space, as far as free space is known.
@@ -272,7 +272,7 @@ impl Explorer<'_> {
         let optimistic = match solve(&problem, &self.settings.options, &mut |_| ()).outcome {
             Outcome::Found(path) => path,
             Outcome::Infeasible(proof) => {
-                let boxes = counted(proof.stuck().len(), "box");
+                let boxes = counted(proof.collision_boxes().len(), "box");
                 let why = format!(
                     "proven: separated from the goal by {boxes} of configurations that collide with seen obstacles"
                 );
@@ -311,11 +311,11 @@ impl Explorer<'_> {
         }
         loop {
             checkpoint();
-            let way = match self.showing(&joined, in_the_way).map_or_else(|| self.best_view(&joined), Ok) {
-                Ok(way) => way,
+            let route = match self.showing(&joined, in_the_way).map_or_else(|| self.best_view(&joined), Ok) {
+                Ok(route) => route,
                 Err(reach) => return self.where_it_was(&reach).unwrap_or_else(|_| self.within_known(goals)),
             };
-            if let Some(decision) = self.along(&way, usize::MAX) {
+            if let Some(decision) = self.along(&route, usize::MAX) {
                 return decision;
             }
         }
@@ -330,12 +330,12 @@ impl Explorer<'_> {
         let (grid, wanted) = (&known.grid, survey.by_rows(cells));
         let mut showing = None;
         let reach = Reach::new(grid, &known.closed, self.at, joined, |cell, _| {
-            let shows =
-                frontier.contains(survey, sensor, cell) && survey.shows_any(sensor, frontier.stand(cell), &wanted);
+            let shows = frontier.contains(survey, sensor, cell)
+                && survey.shows_any(sensor, frontier.sensor_pose(cell), &wanted);
             showing = shows.then_some(cell);
             shows
         });
-        showing.map(|cell| reach.way(cell))
+        showing.map(|cell| reach.route(cell))
     }
 
     /// Plans to the goal within known space, if nothing new can be seen.

@@ -2,14 +2,14 @@
 
 use super::decision::Decision;
 use super::frontier::Frontier;
-use super::known::Known;
+use super::known_space::KnownSpace;
 use super::reach::places;
-use super::result::{Ending, Exploration, Leg, Reading};
+use super::result::{Ending, Exploration, Leg, SensorReading};
 use super::settings::{ExploreError, Settings, Strategy};
 use super::survey::Survey;
 use cplan_core::check::{CertifiedPath, certify};
 use cplan_core::model::{MotionProblem, Scene};
-use cplan_core::space::{Configuration, Draws, GoalSet, Path};
+use cplan_core::space::{Configuration, GoalSet, Path, SplitMix64};
 use cplan_interrupt::Instant;
 use cplan_interrupt::checkpoint;
 use cplan_motion::Trajectory;
@@ -18,7 +18,7 @@ use cplan_text::counted;
 use cplan_world::Sensor;
 
 /// The arm is at a goal if it is no farther from it than this: whole turns may have been added to it, and rounded.
-const AT_GOAL: f64 = 1e-9;
+const GOAL_TOLERANCE: f64 = 1e-9;
 
 /// Explores the world of `scene` from `start`, knowing only the sensor's readings. Reports progress regularly.
 ///
@@ -45,8 +45,8 @@ pub fn explore(
     }
     let margin = settings.surveyed.unwrap_or(2.0 * sensor.cell) + clearance;
     let mut surroundings: Vec<usize> = (0..survey.map().cells.len()).filter(|&cell| !survey.is_unknown(cell)).collect();
-    surroundings.extend(survey.survey_about(arm, start, margin));
-    let known = Known::new(&survey, arm, settings.cells, clearance);
+    surroundings.extend(survey.survey_around(arm, start, margin));
+    let known = KnownSpace::new(&survey, arm, settings.cells, clearance);
     let frontier = Frontier::new(&survey, sensor, arm, &known.grid);
     let free = (0..known.grid.blocked.len()).filter(|&cell| !known.grid.blocked[cell]).collect();
     let mut explorer = Explorer {
@@ -58,7 +58,7 @@ pub fn explore(
         survey,
         known,
         frontier,
-        errors: Draws::new(sensor.seed),
+        errors: SplitMix64::new(sensor.seed),
         at: start,
         length: 0.0,
         fresh: Vec::new(),
@@ -85,8 +85,8 @@ pub fn explore(
         decisions.push(clock.elapsed());
         match decision {
             Decision::Done(ending) => break ending,
-            Decision::Go(way, until) => {
-                if let Err(why) = explorer.go(&way, until) {
+            Decision::Go(route, until) => {
+                if let Err(why) = explorer.go(&route, until) {
                     break Ending::Unknown(why);
                 }
             }
@@ -133,7 +133,7 @@ pub struct Explorer<'a> {
     pub survey: Survey,
     /// The arm among all that is not known to be free.
     pub solid: Scene,
-    pub known: Known,
+    pub known: KnownSpace,
     pub frontier: Frontier,
     pub at: Configuration,
     /// True if the last leg along an optimistic path showed nothing new, so that another one would not, either.
@@ -141,11 +141,11 @@ pub struct Explorer<'a> {
     /// True if the last leg was a return.
     pub is_back: bool,
     pub legs: Vec<Leg>,
-    errors: Draws,
+    errors: SplitMix64,
     length: f64,
     /// Cells of the map that are new since the last decision.
     fresh: Vec<usize>,
-    readings: Vec<Reading>,
+    readings: Vec<SensorReading>,
     opened: Vec<(usize, Vec<usize>)>,
     trajectory: Option<Trajectory>,
 }
@@ -159,7 +159,7 @@ impl Explorer<'_> {
             self.frontier.forget_edges();
         }
         self.fresh.extend(&new);
-        self.readings.push(Reading { at: self.at, length: self.length, new });
+        self.readings.push(SensorReading { at: self.at, length: self.length, new });
         is_new
     }
 
@@ -169,7 +169,7 @@ impl Explorer<'_> {
         let (arm, clearance) = (self.scene.arm(), self.scene.workspace().clearance);
         self.opened.push((self.readings.len(), self.known.update(&self.survey, arm, &fresh)));
         self.frontier.update(&self.survey, self.sensor);
-        self.frontier.ask_ahead(&self.survey, self.sensor, &self.known.grid);
+        self.frontier.evaluate_ahead(&self.survey, self.sensor, &self.known.grid);
         if !fresh.is_empty() {
             self.solid = self.survey.scene(arm, clearance, false);
         }
@@ -179,7 +179,7 @@ impl Explorer<'_> {
     fn is_at_goal(&self) -> bool {
         let topology = self.scene.arm().topology();
         let goals = self.goals.filter(|_| self.settings.strategy == Strategy::Goal);
-        goals.is_some_and(|goals| goals.contains(&topology, self.at, AT_GOAL))
+        goals.is_some_and(|goals| goals.contains(&topology, self.at, GOAL_TOLERANCE))
     }
 
     /// Returns true if a reading at a cell of the grid would show something new.
@@ -192,11 +192,11 @@ impl Explorer<'_> {
     ///
     /// # Errors
     /// The reason why a part of the path cannot be certified or timed.
-    fn go(&mut self, way: &CertifiedPath, until: Option<usize>) -> Result<(), String> {
+    fn go(&mut self, route: &CertifiedPath, until: Option<usize>) -> Result<(), String> {
         let before = self.readings.len();
         let mut gone = vec![self.at];
         let mut is_new = false;
-        for place in places(way.path(), self.sensor.step) {
+        for place in places(route.path(), self.sensor.step) {
             self.length += (place - self.at).norm();
             self.at = place;
             gone.push(place);
@@ -207,7 +207,7 @@ impl Explorer<'_> {
             }
         }
         if let Some(cell) = until.filter(|_| !is_new) {
-            self.frontier.give_up(cell);
+            self.frontier.record_nothing_new(cell);
         }
         self.is_stalled = until.is_none() && !is_new;
         self.is_back &= !is_new && until.is_none();

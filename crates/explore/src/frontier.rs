@@ -2,7 +2,7 @@
 
 use super::sight::Edges;
 use super::survey::Survey;
-use super::views::Stand;
+use super::views::SensorPose;
 use cplan_core::cspace::Grid;
 use cplan_core::model::Arm;
 use cplan_world::Sensor;
@@ -14,15 +14,15 @@ use cplan_world::Sensor;
 /// cell.
 #[derive(Debug)]
 pub struct Frontier {
-    configurations: Vec<Prospect>,
+    configurations: Vec<ExpectedReading>,
     /// Sensor pose at each configuration.
-    stands: Vec<Stand>,
+    stands: Vec<SensorPose>,
     /// The unknown cells of the map beside free ones: what rays come to first is one of them.
     ///
     /// None while something new has been seen since they were looked for.
     edges: Option<Edges>,
     /// No more cells than these can be seen from anywhere.
-    most_of_all: u32,
+    max_gain_anywhere: u32,
     /// When each cell of the map was counted last.
     counted: Vec<u32>,
     count: u32,
@@ -33,11 +33,11 @@ pub struct Frontier {
 }
 
 /// Configurations that are asked ahead at each decision: a fraction of a millisecond.
-const ASKED_AHEAD: usize = 256;
+const CONFIGURATIONS_AHEAD: usize = 256;
 
 /// Knowledge about a reading.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Prospect {
+struct ExpectedReading {
     /// A cell of the map that it comes to as long as nothing is known of that.
     witness: Option<usize>,
     /// It shows no more cells than these; 0 if nothing new, for ever.
@@ -52,13 +52,13 @@ impl Frontier {
         // Cells that meet a disc lie within one that is broader by their diagonal.
         let around = sensor.range / survey.map().resolution + std::f64::consts::SQRT_2;
         let most = (std::f64::consts::PI * around.powi(2)).min(cells as f64).ceil() as u32;
-        let stands: Vec<Stand> =
+        let stands: Vec<SensorPose> =
             (0..grid.blocked.len()).map(|cell| sensor.pose(arm, grid.center(cell).into())).collect();
         Self {
-            configurations: vec![Prospect { witness: None, most }; stands.len()],
+            configurations: vec![ExpectedReading { witness: None, most }; stands.len()],
             stands,
             edges: None,
-            most_of_all: most,
+            max_gain_anywhere: most,
             counted: vec![0; cells],
             count: 0,
             ahead: 0,
@@ -81,7 +81,7 @@ impl Frontier {
         let prospect = &mut self.configurations[cell];
         if prospect.most > 0 && !prospect.witness.is_some_and(|witness| survey.is_unknown(witness)) {
             // Rays that come to nothing new now never will.
-            prospect.witness = survey.promise(sensor, self.stands[cell], self.edges.as_ref());
+            prospect.witness = survey.reachable_unknown(sensor, self.stands[cell], self.edges.as_ref());
             if prospect.witness.is_none() {
                 prospect.most = 0;
             }
@@ -90,16 +90,16 @@ impl Frontier {
     }
 
     /// Asks some configurations whose answer is open, in turn, so that no decision has to ask them all: what shows nothing new never will.
-    pub fn ask_ahead(&mut self, survey: &Survey, sensor: &Sensor, grid: &Grid) {
+    pub fn evaluate_ahead(&mut self, survey: &Survey, sensor: &Sensor, grid: &Grid) {
         let mut asked = 0;
         for _ in 0..self.configurations.len() {
             let cell = self.ahead;
             self.ahead = (cell + 1) % self.configurations.len();
-            let Prospect { witness, most } = self.configurations[cell];
+            let ExpectedReading { witness, most } = self.configurations[cell];
             if !grid.blocked[cell] && most > 0 && !witness.is_some_and(|witness| survey.is_unknown(witness)) {
                 self.contains(survey, sensor, cell);
                 asked += 1;
-                if asked == ASKED_AHEAD {
+                if asked == CONFIGURATIONS_AHEAD {
                     break;
                 }
             }
@@ -108,20 +108,20 @@ impl Frontier {
 
     /// Returns the sensor pose for a reading at the centre of a cell of the grid.
     #[must_use]
-    pub fn stand(&self, cell: usize) -> Stand {
+    pub fn sensor_pose(&self, cell: usize) -> SensorPose {
         self.stands[cell]
     }
 
     /// Returns an upper bound on the number of new cells visible from a cell of the grid.
     #[must_use]
-    pub fn most(&self, cell: usize) -> u32 {
+    pub fn max_gain(&self, cell: usize) -> u32 {
         self.configurations[cell].most
     }
 
     /// Returns an upper bound on the number of new cells visible from any cell.
     #[must_use]
-    pub fn most_of_all(&self) -> u32 {
-        self.most_of_all
+    pub fn max_gain_anywhere(&self) -> u32 {
+        self.max_gain_anywhere
     }
 
     /// Returns the number of new cells visible from a cell of the grid if no unknown obstacle interferes.
@@ -139,7 +139,7 @@ impl Frontier {
 
     /// Takes note that a reading was taken there and showed nothing: where distances are wrong by chance more may seem to be seen than
     /// is, and the configuration is not asked again.
-    pub fn give_up(&mut self, cell: usize) {
+    pub fn record_nothing_new(&mut self, cell: usize) {
         if self.configurations[cell].most > 0 {
             self.configurations[cell].most = 0;
             self.given_up += 1;

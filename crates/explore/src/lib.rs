@@ -14,7 +14,7 @@
 //! - *Reached*: the arm is at the goal.
 //! - *Explored*: no reading at any reachable configuration of the grid would show anything new. This is decided, not
 //!   estimated: rays are as wide as the cells that they cross, so the result of a reading is known in advance up to the
-//!   first unknown cell of each ray ([`Survey::promise`]). (With distance errors a reading may hide cells that it
+//!   first unknown cell of each ray ([`Survey::reachable_unknown`]). (With distance errors a reading may hide cells that it
 //!   promised; such configurations are counted.)
 //! - *Unreachable*: proven. Either no path leads to the goal past the occupied cells, whatever the unseen cells
 //!   contain; or nothing new can be seen, and no path leads there in the known space. An occupied cell counts as solid
@@ -41,7 +41,7 @@ mod decision;
 mod explorer;
 mod frontier;
 mod json;
-mod known;
+mod known_space;
 mod map_files;
 mod reach;
 mod result;
@@ -53,6 +53,6 @@ mod wall;
 
 pub use explorer::explore;
 pub use map_files::{map_description, map_picture};
-pub use result::{Ending, Exploration, Leg, Reading};
+pub use result::{Ending, Exploration, Leg, SensorReading};
 pub use settings::{ExploreError, Settings, Strategy};
-pub use survey::{MOST_CELLS, Survey};
+pub use survey::{MAX_CELLS, Survey};

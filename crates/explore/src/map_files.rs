@@ -5,7 +5,7 @@ use cplan_world::Occupancy;
 
 /// Shades of free, unknown and occupied cells. With the thresholds of [`map_description`] each is read back as the
 /// same.
-const SHADES: [u8; 3] = [254, 205, 0];
+const CELL_SHADES: [u8; 3] = [254, 205, 0];
 
 /// Returns the YAML description of the picture in the file `picture` beside it.
 #[must_use]
@@ -28,9 +28,9 @@ pub fn map_picture(survey: &Survey) -> Vec<u8> {
     let map = survey.map();
     let mut bytes = format!("P5\n{} {}\n255\n", map.size[0], map.size[1]).into_bytes();
     bytes.extend(map.cells.iter().map(|cell| match cell {
-        Occupancy::Free => SHADES[0],
-        Occupancy::Unknown => SHADES[1],
-        Occupancy::Occupied => SHADES[2],
+        Occupancy::Free => CELL_SHADES[0],
+        Occupancy::Unknown => CELL_SHADES[1],
+        Occupancy::Occupied => CELL_SHADES[2],
     }));
     bytes
 }

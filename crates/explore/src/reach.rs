@@ -9,7 +9,7 @@ use cplan_interrupt::checkpoint;
 use std::collections::{BTreeSet, VecDeque};
 
 /// Steps from a cell's middle to another's that are not free, though both ends are.
-pub type Closed = BTreeSet<[usize; 2]>;
+pub type BlockedMoves = BTreeSet<[usize; 2]>;
 
 /// The cells that can be reached from a configuration, and the shortest ways there, from cell to cell.
 #[derive(Debug)]
@@ -40,20 +40,20 @@ impl OpenQueues {
 }
 
 /// No cell.
-const NONE: u32 = u32::MAX;
+const NO_CELL: u32 = u32::MAX;
 
 impl Reach {
     /// Searches from the cells joined to `start`. Stops at the first cell, with its path length, for which `is_enough`.
     pub fn new(
         grid: &Grid,
-        closed: &Closed,
+        closed: &BlockedMoves,
         start: Configuration,
         joined: &[usize],
         mut is_enough: impl FnMut(usize, f64) -> bool,
     ) -> Self {
         let free = FreeCells::new(grid);
         let count = grid.blocked.len();
-        let mut reach = Self { costs: vec![f64::INFINITY; count], before: vec![NONE; count], cells: Vec::new() };
+        let mut reach = Self { costs: vec![f64::INFINITY; count], before: vec![NO_CELL; count], cells: Vec::new() };
         let (sides, columns) = (grid.step(), grid.cells[1]);
         let lengths = [sides[0], sides[1], sides[0].hypot(sides[1])];
         let mut open = OpenQueues::default();
@@ -87,25 +87,25 @@ impl Reach {
     }
 
     /// Returns the cells on the path to a cell, itself last.
-    pub fn way(&self, cell: usize) -> Vec<usize> {
-        let mut way = vec![cell];
-        while let Some(&last) = way.last().filter(|&&last| self.before[last] != NONE) {
-            way.push(self.before[last] as usize);
+    pub fn route(&self, cell: usize) -> Vec<usize> {
+        let mut route = vec![cell];
+        while let Some(&last) = route.last().filter(|&&last| self.before[last] != NO_CELL) {
+            route.push(self.before[last] as usize);
         }
-        way.reverse();
-        way
+        route.reverse();
+        route
     }
 
     /// Returns the path to a cell, or the reach itself if there is no cell.
-    pub fn way_to(self, cell: Option<usize>) -> Result<Vec<usize>, Self> {
-        cell.map(|cell| self.way(cell)).ok_or(self)
+    pub fn route_to(self, cell: Option<usize>) -> Result<Vec<usize>, Self> {
+        cell.map(|cell| self.route(cell)).ok_or(self)
     }
 }
 
 /// Returns the configurations on a path of cells, starting with the start, unwrapped.
-pub fn unwrapped(grid: &Grid, start: Configuration, way: &[usize]) -> Vec<Configuration> {
+pub fn unwrapped(grid: &Grid, start: Configuration, route: &[usize]) -> Vec<Configuration> {
     let mut at = vec![start];
-    for &cell in way {
+    for &cell in route {
         at.push(grid.topology.lift(grid.center(cell), at[at.len() - 1]));
     }
     at.dedup();
@@ -115,13 +115,13 @@ pub fn unwrapped(grid: &Grid, start: Configuration, way: &[usize]) -> Vec<Config
 /// Returns the cells around a configuration whose centres are reachable by a straight motion, the nearest first.
 pub fn join(scene: &Scene, grid: &Grid, q: Configuration) -> Vec<usize> {
     let motions = straight_motions(scene);
-    let mut near = free_about(grid, q);
+    let mut near = free_around(grid, q);
     near.retain(|&cell| motions.is_free(q, grid.topology.lift(grid.center(cell), q)));
     near
 }
 
 /// Returns the free cells around a configuration, the nearest first.
-pub fn free_about(grid: &Grid, q: Configuration) -> Vec<usize> {
+pub fn free_around(grid: &Grid, q: Configuration) -> Vec<usize> {
     let middle = grid.locate(q);
     let beside = std::iter::once(middle).chain(grid.neighbors(middle));
     let mut near: Vec<usize> = beside.flat_map(|cell| std::iter::once(cell).chain(grid.neighbors(cell))).collect();

@@ -42,7 +42,7 @@ impl Ending {
 
 /// A look at the world.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Reading {
+pub struct SensorReading {
     /// Configuration of the arm.
     pub at: Configuration,
     /// Length of the way until then, in joint space.
@@ -72,7 +72,7 @@ pub struct Exploration {
     /// Cells known initially, without a reading: those around the arm, and those of a known map.
     pub surroundings: Vec<usize>,
     /// All readings, in order.
-    pub readings: Vec<Reading>,
+    pub readings: Vec<SensorReading>,
     /// Cells of the grid that were free for the first time at the beginning and at each decision, with the number of readings that had
     /// been taken.
     pub opened: Vec<(usize, Vec<usize>)>,

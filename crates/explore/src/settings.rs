@@ -1,6 +1,6 @@
 //! Settings of an exploration.
 
-use super::survey::MOST_CELLS;
+use super::survey::MAX_CELLS;
 use cplan_motion::Drive;
 use cplan_solver::Options;
 use cplan_world::OccupancyMap;
@@ -59,7 +59,7 @@ impl Default for Settings {
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum ExploreError {
     /// The map would be too large.
-    #[error("a map of cells of {0} m would have more than {MOST_CELLS} of them")]
+    #[error("a map of cells of {0} m would have more than {MAX_CELLS} of them")]
     Map(f64),
     /// The known map is not of this world.
     #[error("the known map {0}")]

@@ -1,20 +1,20 @@
 //! From where unknown cells of a map may be seen, cell by cell: from elsewhere no ray need be looked along.
 
 use super::survey::Survey;
-use super::views::Rows;
+use super::views::CellsByRow;
 use cplan_world::Occupancy;
 use std::f64::consts::SQRT_2;
 
 /// The unknown cells next to free ones, which rays reach first, and the cells from which rays may reach them.
 #[derive(Debug)]
 pub struct Edges {
-    pub rows: Rows,
+    pub rows: CellsByRow,
     /// True for cells from which a ray may reach one of them, and for unknown cells.
     within_sight: Vec<bool>,
 }
 
 /// No way leads to an edge.
-const NONE: u32 = u32::MAX;
+const NO_EDGE: u32 = u32::MAX;
 
 impl Edges {
     /// Computes them for the current map, for rays no longer than `range`.
@@ -27,22 +27,22 @@ impl Edges {
         let known = &survey.map().cells;
         let [width, height] = survey.map().size;
         // Along each axis one more than whole cells in its share of the range; and one for rounding.
-        let most_sides = (range / survey.map().resolution * SQRT_2 + 3.0).min(f64::from(NONE - 1)) as u32;
+        let most_sides = (range / survey.map().resolution * SQRT_2 + 3.0).min(f64::from(NO_EDGE - 1)) as u32;
         let mut is_edge = vec![false; known.len()];
         rows.iter().for_each(|(row, columns)| columns.iter().for_each(|column| is_edge[row * width + column] = true));
         let mut within_sight: Vec<bool> = known.iter().map(|&cell| cell == Occupancy::Unknown).collect();
         // Sides to the nearest edge from the cells of the row before, and then of this one.
-        let mut sides = vec![NONE; width];
+        let mut sides = vec![NO_EDGE; width];
         for (is_down, is_right) in [(false, false), (false, true), (true, false), (true, true)] {
-            sides.fill(NONE);
+            sides.fill(NO_EDGE);
             for row in (0..height).map(|k| if is_down { height - 1 - k } else { k }) {
-                let mut beside = NONE;
+                let mut beside = NO_EDGE;
                 for column in (0..width).map(|k| if is_right { width - 1 - k } else { k }) {
                     let cell = row * width + column;
                     beside = match known[cell] {
                         Occupancy::Free => beside.min(sides[column]).saturating_add(1),
                         _ if is_edge[cell] => 0,
-                        _ => NONE,
+                        _ => NO_EDGE,
                     };
                     sides[column] = beside;
                     within_sight[cell] |= beside <= most_sides;
@@ -63,7 +63,7 @@ impl Edges {
 mod tests {
     use super::*;
     use cplan_core::model::{Arm, Scene, Workspace};
-    use cplan_core::space::Draws;
+    use cplan_core::space::SplitMix64;
     use cplan_geometry::Point;
     use cplan_world::Sensor;
     use proptest::prelude::*;
@@ -82,7 +82,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_behind_a_wall_or_out_of_range_is_not_within_sight() {
+    fn hidden_or_distant_cells_are_not_visible() {
         // From the left: free, a wall, free, unknown.
         let (survey, sensor) = survey(|x, _| match x {
             5 => Occupancy::Occupied,
@@ -103,8 +103,8 @@ mod tests {
 
         /// Compares with tracing all rays.
         #[test]
-        fn what_all_rays_see_is_within_sight(seed: u64, unknown in 0.0..0.1, occupied in 0.0..0.4, cells in 1.0..9.0) {
-            let labels = std::cell::RefCell::new(Draws::new(seed));
+        fn cells_seen_by_rays_are_visible(seed: u64, unknown in 0.0..0.1, occupied in 0.0..0.4, cells in 1.0..9.0) {
+            let labels = std::cell::RefCell::new(SplitMix64::new(seed));
             let (survey, sensor) = survey(|_, _| match labels.borrow_mut().unit() {
                 share if share < unknown => Occupancy::Unknown,
                 share if share < unknown + occupied => Occupancy::Occupied,
@@ -116,10 +116,10 @@ mod tests {
             for _ in 0..100 {
                 // Somewhere on the map, or a little beside it.
                 let at = Point::new(3.6 * draws.unit() - 1.8, 3.6 * draws.unit() - 1.8);
-                let stand = (at, 7.0 * draws.unit() - 3.5);
-                let found = survey.promise(&sensor, stand, Some(&edges));
-                let all = survey.shown_first(&sensor, stand);
-                prop_assert_eq!(found.is_some(), !all.is_empty(), "{:?} of {:?} at {:?}", found, all, stand);
+                let sensor_pose = (at, 7.0 * draws.unit() - 3.5);
+                let found = survey.reachable_unknown(&sensor, sensor_pose, Some(&edges));
+                let all = survey.shown_first(&sensor, sensor_pose);
+                prop_assert_eq!(found.is_some(), !all.is_empty(), "{:?} of {:?} at {:?}", found, all, sensor_pose);
                 prop_assert!(found.is_none_or(|found| all.contains(&found)));
             }
         }

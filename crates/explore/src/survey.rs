@@ -1,16 +1,16 @@
 //! The known part of a world, cell by cell, and the true contents.
 
-use super::views::{AROUND_CELL, Crossing};
+use super::views::{CELL_RADIUS, Crossing};
 use cplan_core::model::{Arm, Heights, JointType, Obstacle, Scene, Shape, Workspace};
-use cplan_core::space::{Configuration, Draws};
+use cplan_core::space::{Configuration, SplitMix64};
 use cplan_geometry::{Convex, Point, Pose, Vector, shapes_meet};
 use cplan_world::{Occupancy, OccupancyMap, Sensor};
 
 /// Cells of the largest map.
-pub const MOST_CELLS: usize = 1 << 22;
+pub const MAX_CELLS: usize = 1 << 22;
 
 /// Margin of the map around the reach of the arm, in cells.
-const MARGIN: f64 = 2.0;
+const MAP_MARGIN: f64 = 2.0;
 
 /// A map that a sensor fills in. A known cell never changes.
 ///
@@ -28,16 +28,16 @@ pub struct Survey {
 }
 
 impl Survey {
-    /// Creates a map of a scene without any knowledge. Returns `None` if it would have more than [`MOST_CELLS`].
+    /// Creates a map of a scene without any knowledge. Returns `None` if it would have more than [`MAX_CELLS`].
     #[must_use]
     pub fn new(scene: &Scene, cell: f64) -> Option<Self> {
         let obstacles = &scene.workspace().obstacles;
         let heights = obstacles.iter().map(|obstacle| obstacle.heights).reduce(Heights::and);
         let heights = heights.unwrap_or(Heights::ALL);
         let [low, high] = extent(scene, heights);
-        let size = [0, 1].map(|k| ((high[k] - low[k]) / cell + 2.0 * MARGIN).ceil());
+        let size = [0, 1].map(|k| ((high[k] - low[k]) / cell + 2.0 * MAP_MARGIN).ceil());
         let count = size[0] * size[1];
-        if count.is_nan() || count > MOST_CELLS as f64 {
+        if count.is_nan() || count > MAX_CELLS as f64 {
             return None;
         }
         // The map is centred on the reach of the arm.
@@ -87,9 +87,12 @@ impl Survey {
                 let [width, height] = map.size;
                 let [x, y] = [cell % width, height - 1 - cell / width].map(|k| (k as f64 + 0.5) * map.resolution);
                 let at = map.pose.point(Point::new(x, y));
-                let (said, is) =
+                let (expected, is) =
                     if self.truth[cell].is_some() { ("free", "an obstacle") } else { ("occupied", "free space") };
-                return Err(format!("has {said} space near ({:.4}, {:.4}), but the world has {is} there", at.x, at.y));
+                return Err(format!(
+                    "has {expected} space near ({:.4}, {:.4}), but the world has {is} there",
+                    at.x, at.y
+                ));
             }
         }
         self.known.cells.clone_from(&map.cells);
@@ -133,7 +136,7 @@ impl Survey {
     fn touched(&self, shape: &Convex, margin: f64, asked: impl Fn(usize) -> bool) -> impl Iterator<Item = usize> {
         let cell = self.known.resolution;
         let grown = Convex::trusted(shape.core().to_vec(), shape.radius() + margin);
-        let around = grown.radius() / cell + AROUND_CELL;
+        let around = grown.radius() / cell + CELL_RADIUS;
         // In cells, from the middle of the first.
         let core: Vec<Vector> = shape.core().iter().map(|p| (p - self.origin()) / cell - Vector::repeat(0.5)).collect();
         let range = |k: usize| {
@@ -234,18 +237,19 @@ impl Survey {
     ///
     /// From a distance with errors, only facts that hold for every error are recorded: cells before all possible end
     /// cells are free, and a single possible end cell is occupied.
-    pub fn look(&mut self, sensor: &Sensor, arm: &Arm, q: Configuration, errors: &mut Draws) -> Vec<usize> {
+    pub fn look(&mut self, sensor: &Sensor, arm: &Arm, q: Configuration, errors: &mut SplitMix64) -> Vec<usize> {
         let (from, ahead) = sensor.pose(arm, q.into());
         let mut new = Vec::new();
         for angle in sensor.rays(ahead) {
             let crossings: Vec<Crossing> = self.crossings(from, angle, sensor.range).collect();
             let error = if sensor.noise > 0.0 { sensor.noise * (2.0 * errors.unit() - 1.0) } else { 0.0 };
             let hit = crossings.iter().position(|crossing| self.truth[crossing.cell].is_some());
-            let told = hit.map(|hit| crossings[hit].enters + error);
+            let reported = hit.map(|hit| crossings[hit].enters + error);
             // The first cell that the ray may have ended at, and whether no other is.
-            let (first, is_sole) = match (hit, told) {
-                (Some(hit), Some(told)) if sensor.noise > 0.0 => {
-                    let may_be = |crossing: &Crossing| (crossing.enters - told).abs() <= sensor.noise * (1.0 + 1e-9);
+            let (first, is_sole) = match (hit, reported) {
+                (Some(hit), Some(reported)) if sensor.noise > 0.0 => {
+                    let may_be =
+                        |crossing: &Crossing| (crossing.enters - reported).abs() <= sensor.noise * (1.0 + 1e-9);
                     let first = crossings.iter().position(may_be).unwrap_or(hit);
                     (first, crossings[first + 1..].iter().all(|crossing| !may_be(crossing)))
                 }
@@ -265,7 +269,7 @@ impl Survey {
 
     /// Records the contents of the cells that the arm touches at `q` and of those within `margin`: the user who places
     /// an arm somewhere has looked at the place.
-    pub fn survey_about(&mut self, arm: &Arm, q: Configuration, margin: f64) -> Vec<usize> {
+    pub fn survey_around(&mut self, arm: &Arm, q: Configuration, margin: f64) -> Vec<usize> {
         let mut new = self.under(arm, q, margin);
         new.retain(|&cell| self.is_unknown(cell));
         for &cell in &new {

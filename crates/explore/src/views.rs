@@ -8,19 +8,19 @@ use std::collections::BTreeSet;
 use std::f64::consts::PI;
 
 /// Radius of a disc that holds a cell, in cells, with room for rounding.
-pub(super) const AROUND_CELL: f64 = 0.75;
+pub(super) const CELL_RADIUS: f64 = 0.75;
 
 /// Room for rounding of distances, in cells.
-const SLACK: f64 = 1e-6;
+const DISTANCE_SLACK: f64 = 1e-6;
 
 /// Position of a sensor and its forward angle: [`Sensor::pose`].
-pub type Stand = (Point, f64);
+pub type SensorPose = (Point, f64);
 
 /// Cells of a map by their rows, those that have any, from the top; of each the columns in ascending order.
-pub type Rows = Vec<(usize, Vec<usize>)>;
+pub type CellsByRow = Vec<(usize, Vec<usize>)>;
 
 /// Returns the rows that have any columns.
-fn rows(height: usize, columns: impl Fn(usize) -> Vec<usize>) -> Rows {
+fn rows(height: usize, columns: impl Fn(usize) -> Vec<usize>) -> CellsByRow {
     (0..height).map(|row| (row, columns(row))).filter(|(_, columns)| !columns.is_empty()).collect()
 }
 
@@ -67,23 +67,23 @@ impl Survey {
     /// Returns an unknown cell that a reading would reach, or `None` if it would show nothing new. If `edges` are
     /// given, traces only rays that may reach one.
     #[must_use]
-    pub fn promise(&self, sensor: &Sensor, stand: Stand, edges: Option<&Edges>) -> Option<usize> {
+    pub fn reachable_unknown(&self, sensor: &Sensor, sensor_pose: SensorPose, edges: Option<&Edges>) -> Option<usize> {
         match edges {
-            Some(edges) if self.cell_at(stand.0).is_none_or(|cell| !edges.may_be_seen_from(cell)) => None,
-            Some(edges) => self.first_towards(sensor, stand, &edges.rows, |_| true),
-            None => self.first_unknown(sensor, stand).next(),
+            Some(edges) if self.cell_at(sensor_pose.0).is_none_or(|cell| !edges.may_be_seen_from(cell)) => None,
+            Some(edges) => self.first_towards(sensor, sensor_pose, &edges.rows, |_| true),
+            None => self.first_unknown(sensor, sensor_pose).next(),
         }
     }
 
     /// Returns true if a reading would reach any of some unknown cells first.
     #[must_use]
-    pub fn shows_any(&self, sensor: &Sensor, stand: Stand, wanted: &Rows) -> bool {
+    pub fn shows_any(&self, sensor: &Sensor, sensor_pose: SensorPose, wanted: &CellsByRow) -> bool {
         let width = self.known.size[0];
         let is_wanted = |cell: usize| {
             let row = wanted.binary_search_by_key(&(cell / width), |(row, _)| *row);
             row.is_ok_and(|row| wanted[row].1.binary_search(&(cell % width)).is_ok())
         };
-        self.first_towards(sensor, stand, wanted, is_wanted).is_some()
+        self.first_towards(sensor, sensor_pose, wanted, is_wanted).is_some()
     }
 
     /// Returns the first unknown cell of a ray of a reading for which `is_asked` holds. Traces only rays that may cross
@@ -91,12 +91,12 @@ impl Survey {
     fn first_towards(
         &self,
         sensor: &Sensor,
-        stand @ (from, ahead): Stand,
-        cells: &Rows,
+        sensor_pose @ (from, ahead): SensorPose,
+        cells: &CellsByRow,
         is_asked: impl Fn(usize) -> bool,
     ) -> Option<usize> {
         if self.cell_at(from).is_some_and(|cell| self.is_unknown(cell)) {
-            return self.first_unknown(sensor, stand).find(|&cell| is_asked(cell));
+            return self.first_unknown(sensor, sensor_pose).find(|&cell| is_asked(cell));
         }
         let mut is_tried = vec![false; sensor.rays];
         self.near(cells, from, sensor.range).find_map(|cell| {
@@ -112,7 +112,7 @@ impl Survey {
 
     /// Groups cells by row.
     #[must_use]
-    pub fn by_rows(&self, cells: &BTreeSet<usize>) -> Rows {
+    pub fn by_rows(&self, cells: &BTreeSet<usize>) -> CellsByRow {
         let width = self.known.size[0];
         rows(self.known.size[1], |y| cells.range(y * width..(y + 1) * width).map(|cell| cell % width).collect())
     }
@@ -121,14 +121,14 @@ impl Survey {
     fn rays_to(&self, sensor: &Sensor, from: Point, ahead: f64, cell: usize) -> impl Iterator<Item = usize> + use<> {
         let [width, height] = self.known.size;
         let middle = Vector::new((cell % width) as f64 + 0.5, (height - 1 - cell / width) as f64 + 0.5);
-        let way = middle - (from - self.origin()) / self.known.resolution;
-        let sine = AROUND_CELL / way.norm();
-        sensor.rays_about(ahead, way.y.atan2(way.x), if sine < 1.0 { sine.asin() } else { PI })
+        let direction = middle - (from - self.origin()) / self.known.resolution;
+        let sine = CELL_RADIUS / direction.norm();
+        sensor.rays_about(ahead, direction.y.atan2(direction.x), if sine < 1.0 { sine.asin() } else { PI })
     }
 
     /// Iterates, for each ray of a reading, over its first cell that is not known to be free, if that is unknown.
-    fn first_unknown(&self, sensor: &Sensor, stand: Stand) -> impl Iterator<Item = usize> {
-        self.views(sensor, stand).filter_map(|mut view| {
+    fn first_unknown(&self, sensor: &Sensor, sensor_pose: SensorPose) -> impl Iterator<Item = usize> {
+        self.views(sensor, sensor_pose).filter_map(|mut view| {
             let first = view.find(|&cell| self.known.cells[cell] != Occupancy::Free);
             first.filter(|&cell| self.is_unknown(cell))
         })
@@ -136,8 +136,8 @@ impl Survey {
 
     /// Returns the unknown cells that rays of a reading reach first, ascending.
     #[must_use]
-    pub fn shown_first(&self, sensor: &Sensor, stand: Stand) -> Vec<usize> {
-        let mut cells: Vec<usize> = self.first_unknown(sensor, stand).collect();
+    pub fn shown_first(&self, sensor: &Sensor, sensor_pose: SensorPose) -> Vec<usize> {
+        let mut cells: Vec<usize> = self.first_unknown(sensor, sensor_pose).collect();
         cells.sort_unstable();
         cells.dedup();
         cells
@@ -145,7 +145,7 @@ impl Survey {
 
     /// Returns true if the rays of a reading cross all of some cells before known obstacles.
     #[must_use]
-    pub fn shows_all(&self, sensor: &Sensor, (from, ahead): Stand, cells: &[usize]) -> bool {
+    pub fn shows_all(&self, sensor: &Sensor, (from, ahead): SensorPose, cells: &[usize]) -> bool {
         cells.iter().all(|&wanted| {
             self.rays_to(sensor, from, ahead, wanted).any(|ray| {
                 let view = self.crossings(from, sensor.ray(ahead, ray), sensor.range).map(|crossing| crossing.cell);
@@ -156,23 +156,25 @@ impl Survey {
 
     /// Iterates over the unknown cells that the rays of a reading cross before known obstacles; some cells occur more
     /// than once.
-    pub fn visible_unknown(&self, sensor: &Sensor, stand: Stand) -> impl Iterator<Item = usize> {
+    pub fn visible_unknown(&self, sensor: &Sensor, sensor_pose: SensorPose) -> impl Iterator<Item = usize> {
         let open = |&cell: &usize| self.known.cells[cell] != Occupancy::Occupied;
-        self.views(sensor, stand).flat_map(move |view| view.take_while(open)).filter(|&cell| self.is_unknown(cell))
+        self.views(sensor, sensor_pose)
+            .flat_map(move |view| view.take_while(open))
+            .filter(|&cell| self.is_unknown(cell))
     }
 
     /// Returns the cells that each ray of a reading crosses.
     fn views(
         &self,
         sensor: &Sensor,
-        (from, ahead): Stand,
+        (from, ahead): SensorPose,
     ) -> impl Iterator<Item = impl Iterator<Item = usize> + use<>> {
         let range = sensor.range;
         sensor.rays(ahead).map(move |angle| self.crossings(from, angle, range).map(|crossing| crossing.cell))
     }
 
     /// Returns the unknown cells that share a side with a free one.
-    pub(super) fn edges(&self) -> Rows {
+    pub(super) fn edges(&self) -> CellsByRow {
         let [width, height] = self.known.size;
         let is = |x: usize, y: usize, label| self.known.cells[y * width + x] == label;
         let is_edge = |x: usize, y: usize| {
@@ -187,11 +189,11 @@ impl Survey {
     }
 
     /// Iterates over the cells within a range of a point, up to rounding.
-    fn near<'a>(&self, cells: &'a Rows, point: Point, range: f64) -> impl Iterator<Item = usize> + use<'a> {
+    fn near<'a>(&self, cells: &'a CellsByRow, point: Point, range: f64) -> impl Iterator<Item = usize> + use<'a> {
         let local = (point - self.origin()) / self.known.resolution;
         let [width, height] = self.known.size;
         let (x, y) = (local.x, height as f64 - local.y);
-        let range = range / self.known.resolution + SLACK;
+        let range = range / self.known.resolution + DISTANCE_SLACK;
         let [above, below] =
             [y - range - 1.0, y + range].map(|y| cells.partition_point(|(row, _)| (*row as f64) < y.ceil()));
         cells[above..below].iter().flat_map(move |(row, columns)| {

@@ -1,6 +1,6 @@
 //! Wall following along the boundary of the known free space.
 
-use super::reach::Closed;
+use super::reach::BlockedMoves;
 use cplan_core::cspace::Grid;
 
 /// A heading, in eighths of a turn from `+q1` towards `+q2`. A wall follower moves along the axes, that is, by even
@@ -26,7 +26,7 @@ pub fn is_beside_wall(grid: &Grid, cell: usize) -> bool {
 ///
 /// The wall is the first blocked neighbour in the order from behind on the right to behind on the left. Without a wall
 /// or a free neighbour the walk ends. Headings repeat, so the walk eventually returns.
-pub fn next(grid: &Grid, closed: &Closed, at: Place) -> Option<Place> {
+pub fn next(grid: &Grid, closed: &BlockedMoves, at: Place) -> Option<Place> {
     let Place { cell, heading } = at;
     let wall = (0..8).map(|turn| (heading + 5 + turn) % 8).find(|&side| is_wall(grid, cell, side))?;
     let ahead = (1..8).map(|turn| (wall + turn) % 8).filter(|side| side.is_multiple_of(2));
@@ -66,7 +66,7 @@ mod tests {
     }
 
     /// Columns and rows of the places until one comes again.
-    fn followed(grid: &Grid, closed: &Closed, from: [usize; 2], heading: Heading) -> Vec<[usize; 2]> {
+    fn followed(grid: &Grid, closed: &BlockedMoves, from: [usize; 2], heading: Heading) -> Vec<[usize; 2]> {
         let high = grid.cells[1];
         let mut at = Place { cell: from[0] * high + from[1], heading };
         let mut seen = Vec::new();
@@ -81,9 +81,9 @@ mod tests {
     fn a_room_is_followed_leftwards_and_an_island_rightwards() {
         let grid = drawn(&["....", ".#..", "....", "...."], [limited(); 2]);
         let outer = [[1, 0], [2, 0], [3, 0], [3, 1], [3, 2], [3, 3], [2, 3], [1, 3], [0, 3], [0, 2], [0, 1], [0, 0]];
-        assert_eq!(followed(&grid, &Closed::new(), [0, 0], 0), outer);
+        assert_eq!(followed(&grid, &BlockedMoves::new(), [0, 0], 0), outer);
         let grid = drawn(&[".......", ".......", "...#...", ".......", "......."], [limited(); 2]);
-        let around = followed(&grid, &Closed::new(), [3, 1], 4);
+        let around = followed(&grid, &BlockedMoves::new(), [3, 1], 4);
         assert_eq!(around, [[2, 1], [2, 2], [2, 3], [3, 3], [4, 3], [4, 2], [4, 1], [3, 1]]);
     }
 
@@ -91,22 +91,22 @@ mod tests {
     fn a_dead_end_is_left_again_and_a_closed_step_is_none() {
         let grid = drawn(&["...", "##."], [limited(); 2]);
         let there_and_back = [[1, 1], [0, 1], [1, 1], [2, 1], [2, 0], [2, 1]];
-        assert_eq!(followed(&grid, &Closed::new(), [2, 1], 6), there_and_back);
+        assert_eq!(followed(&grid, &BlockedMoves::new(), [2, 1], 6), there_and_back);
         // Steps between (1, 1) and (0, 1).
-        let closed = Closed::from([[3, 1], [1, 3]]);
+        let closed = BlockedMoves::from([[3, 1], [1, 3]]);
         assert!(!followed(&grid, &closed, [2, 1], 6).contains(&[0, 1]));
     }
 
     #[test]
     fn on_a_circle_a_wall_is_followed_across_the_seam() {
         let grid = drawn(&["....", "....", "####"], [JointRange::Circle, limited()]);
-        assert_eq!(followed(&grid, &Closed::new(), [2, 1], 0), [[3, 1], [0, 1], [1, 1], [2, 1]]);
+        assert_eq!(followed(&grid, &BlockedMoves::new(), [2, 1], 0), [[3, 1], [0, 1], [1, 1], [2, 1]]);
     }
 
     #[test]
-    fn without_a_wall_there_is_nothing_to_follow() {
+    fn wall_following_needs_a_wall() {
         let grid = drawn(&["...", "...", "..."], [JointRange::Circle; 2]);
         assert!(!is_beside_wall(&grid, 4));
-        assert_eq!(next(&grid, &Closed::new(), Place { cell: 4, heading: 0 }), None);
+        assert_eq!(next(&grid, &BlockedMoves::new(), Place { cell: 4, heading: 0 }), None);
     }
 }

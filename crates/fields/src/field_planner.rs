@@ -2,11 +2,11 @@
 
 use crate::field_choice::{FieldChoice, FieldPlanner};
 use crate::{
-    Cell, Device, Domain, Downforce, Equation, Escape, Escaped, ForceField, Khatib, Levels, Limits, Measure,
-    RelaxError, Relaxation, Relaxed, Slope, Stopping, Stuck, Trap, relax_from, relax_on,
+    Cell, DeadEnd, Device, Domain, Equation, Escape, EscapedMinima, ForceField, ForceGuide, Khatib, Levels, Limits,
+    Measure, RelaxError, Relaxation, RelaxedField, Stopping, Trap, ValueGuide, relax_from, relax_on,
 };
 use cplan_core::cspace::{Grid, ZonedGrid};
-use cplan_core::planner::attach::Joined;
+use cplan_core::planner::attach::JoinedQuery;
 use cplan_core::planner::{Note, PathKind, Planner, Proposal, Query, Run, Size, Trace, grid_path};
 use cplan_core::space::{Configuration, Path};
 use cplan_harmonic::Place;
@@ -16,7 +16,7 @@ use cplan_harmonic::Place;
 pub const RELATIVE_TOLERANCE: f64 = 1e-6;
 
 /// The result of following a field.
-struct Followed {
+struct FollowResult {
     /// The path, or the reason for its absence.
     path: Result<Path, String>,
     trace: Trace,
@@ -37,7 +37,7 @@ impl Planner for FieldPlanner {
         let nothing = || Trace::Field { cells: grid.cells, potential: vec![f64::NEG_INFINITY; grid.blocked.len()] };
         let ended =
             |outcome, cells| Run { outcome, trace: nothing(), size: Size::Grid { cells, sweeps: 0 }, note: None };
-        let joined = match Joined::new(grid, query) {
+        let joined = match JoinedQuery::new(grid, query) {
             Ok(joined) => joined,
             Err(reason) => return ended(Proposal::GaveUp(reason), 0),
         };
@@ -49,7 +49,7 @@ impl Planner for FieldPlanner {
         let Some(start) = joined.start.cells.iter().copied().find(reached) else {
             return ended(Proposal::NoPath, cells);
         };
-        let task = Task { space, query, joined: &joined, start, kind: self.path };
+        let task = FieldQuery { space, query, joined: &joined, start, kind: self.path };
         let followed = match self.field {
             FieldChoice::Khatib(laws) => task.follow_forces(laws, self.escape, &goals, self.limits),
             FieldChoice::Relaxed { equation, relaxation, measure, tolerance, max_sweeps, on, stencil } => {
@@ -76,23 +76,23 @@ impl Planner for FieldPlanner {
 /// # Errors
 /// The reason, if the start or a goal cannot be joined to the grid.
 pub fn field_domain(grid: &Grid, query: &Query, limits: Limits) -> Result<Domain, String> {
-    let goals = Joined::new(grid, query)?.sources();
+    let goals = JoinedQuery::new(grid, query)?.sources();
     Ok(Domain::of_grid(grid, &goals, limits, Levels::PROBABILITY))
 }
 
 /// A path query on a field.
-struct Task<'a> {
+struct FieldQuery<'a> {
     space: &'a ZonedGrid,
     query: &'a Query,
-    joined: &'a Joined,
+    joined: &'a JoinedQuery,
     /// The cell of the start, or the one that it is joined to.
     start: usize,
     kind: PathKind,
 }
 
-impl Task<'_> {
+impl FieldQuery<'_> {
     /// Follows attraction and repulsion.
-    fn follow_forces(&self, laws: Khatib, escape: Option<Escape>, goals: &[usize], limits: Limits) -> Followed {
+    fn follow_forces(&self, laws: Khatib, escape: Option<Escape>, goals: &[usize], limits: Limits) -> FollowResult {
         let grid = &self.space.grid;
         let centers: Vec<Configuration> = goals.iter().map(|&cell| grid.center(cell)).collect();
         let field = ForceField::new(grid, laws, &centers, limits);
@@ -102,7 +102,7 @@ impl Task<'_> {
         });
         let trace = Trace::Potential { cells: grid.cells, heights: heights.collect() };
         let at = |place: Place| grid_path::cell(grid, place).filter(|&cell| !grid.blocked[cell]);
-        let mut guide = Downforce::new(&field, goals, at).with_escape(escape);
+        let mut guide = ForceGuide::new(&field, goals, at).with_escape(escape);
         let path = grid_path::along(grid, self.query, self.joined, &mut guide, self.start, self.kind);
         let path = path.map_err(|Trap { cell, value, minimum }| {
             let at = shown(grid, cell);
@@ -111,9 +111,9 @@ impl Task<'_> {
                 false => format!("the forces trap the arm at {at}, where they add up to {value:.4e}"),
             }
         });
-        let Escaped { minima, moves } = guide.escaped();
+        let EscapedMinima { minima, moves } = guide.escaped();
         let note = escape.filter(|_| minima > 0).map(|by| Note::Escaped { how: by.description(), minima, moves });
-        Followed { path, trace, sweeps: 0, note }
+        FollowResult { path, trace, sweeps: 0, note }
     }
 
     /// Relaxes and climbs; the reason if there is no field.
@@ -124,10 +124,10 @@ impl Task<'_> {
         relaxation: &Relaxation,
         stopping: &Stopping,
         on: Device,
-    ) -> Result<Followed, String> {
+    ) -> Result<FollowResult, String> {
         let grid = &self.space.grid;
-        let climb = |field: &Relaxed| {
-            let mut guide = Slope::new(domain, &field.values, |place: Place| grid_path::cell(grid, place));
+        let climb = |field: &RelaxedField| {
+            let mut guide = ValueGuide::new(domain, &field.values, |place: Place| grid_path::cell(grid, place));
             grid_path::along(grid, self.query, self.joined, &mut guide, self.start, self.kind)
         };
         let refused = |error: RelaxError| error.to_string();
@@ -163,7 +163,7 @@ impl Task<'_> {
         };
         let earlier = if let Some(Note::Continued { first, .. }) = note { first } else { 0 };
         let trace = Trace::Field { cells: domain.cells(), potential };
-        Ok(Followed { path, trace, sweeps: earlier + sweeps, note })
+        Ok(FollowResult { path, trace, sweeps: earlier + sweeps, note })
     }
 }
 
@@ -177,7 +177,7 @@ fn stayed(escape: Option<Escape>) -> &'static str {
 }
 
 /// Describes the place where a climb is stuck.
-fn what(stuck: &Stuck) -> &'static str {
+fn what(stuck: &DeadEnd) -> &'static str {
     if stuck.flat { "the field is flat" } else { "the field has a local maximum" }
 }
 
@@ -199,11 +199,11 @@ fn unfinished(domain: &Domain, equation: &Equation, sweeps: usize) -> String {
 }
 
 /// Explains why a climb is stuck, as far as possible.
-fn why(stuck: &Stuck, domain: &Domain, equation: &Equation, on: Device) -> String {
+fn why(stuck: &DeadEnd, domain: &Domain, equation: &Equation, on: Device) -> String {
     match stuck {
         _ if !equation.is_monotone_on(domain) => not_monotone(equation),
-        Stuck { value: 0.0, .. } => format!("its values are too small for {}", on.precision()),
-        Stuck { value, .. } => format!("values around {value} differ by less than {} can tell", on.precision()),
+        DeadEnd { value: 0.0, .. } => format!("its values are too small for {}", on.precision()),
+        DeadEnd { value, .. } => format!("values around {value} differ by less than {} can tell", on.precision()),
     }
 }
 

@@ -17,11 +17,13 @@ mod relax;
 
 pub use field_choice::{EquationChoice, FieldChoice, FieldPlanner};
 pub use field_planner::{RELATIVE_TOLERANCE, field_domain};
-pub use khatib::{Attraction, Downforce, Escape, Escaped, ForceField, Khatib, Repulsion, Trap, nearest_obstacles};
+pub use khatib::{
+    Attraction, Escape, EscapedMinima, ForceField, ForceGuide, Khatib, Repulsion, Trap, nearest_obstacles,
+};
 pub use moving::{Disc, Moment, MovingField, Solver};
 pub use relax::{
-    Boundary, Cell, Convergence, Device, Difference, Direction, Domain, Ending, Equation, Factor, Influence, Leap,
-    Levels, Limits, Lines, Measure, Neighbor, Order, Precision, RelaxError, Relaxation, Relaxed, Sample, Scan, Scheme,
-    Slope, Stencil, Stopping, Stuck, Trace, Watched, around, by_multigrid, descend, eliminated, relax, relax_from,
-    relax_on, relax_watched, trace,
+    Boundary, Cell, Convergence, DeadEnd, Device, Difference, Direction, Domain, Ending, Equation, Factor, Influence,
+    Leap, Levels, Limits, Lines, Measure, Neighbor, Order, Precision, RelaxError, Relaxation, RelaxedField, Sample,
+    Scan, Scheme, Stencil, Stopping, SweepSnapshot, Trace, ValueGuide, around, by_multigrid, descend, eliminated,
+    relax, relax_from, relax_on, relax_watched, trace,
 };

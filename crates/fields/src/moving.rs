@@ -2,14 +2,14 @@
 
 use super::relax::{Memory, by_multigrid_in};
 use super::{
-    Boundary, Cell, Convergence, Difference, Domain, Equation, Influence, Levels, Measure, RelaxError, Relaxation,
-    Slope, Stopping, Stuck, around, relax_from,
+    Boundary, Cell, Convergence, DeadEnd, Difference, Domain, Equation, Influence, Levels, Measure, RelaxError,
+    Relaxation, Stopping, ValueGuide, around, relax_from,
 };
 use cplan_harmonic::{LatticePoint, Place, Streamline, advance, direction, follow};
 use std::f64::consts::FRAC_1_SQRT_2;
 
 /// Cells are squares.
-const SIDES: [f64; 2] = [1.0; 2];
+const SQUARE_SIDES: [f64; 2] = [1.0; 2];
 
 /// A disc of cells: those whose centres are closer to its centre than its radius, in cells. It does not wrap around
 /// circles.
@@ -195,32 +195,32 @@ impl MovingField {
         &self.values
     }
 
-    fn guide(&self) -> Slope<'_, impl Fn(Place) -> Option<usize>> {
-        Slope::new(&self.domain, &self.values, |place| self.domain.cell_at(place))
+    fn guide(&self) -> ValueGuide<'_, impl Fn(Place) -> Option<usize>> {
+        ValueGuide::new(&self.domain, &self.values, |place| self.domain.cell_at(place))
     }
 
     /// Returns the unit direction in which the field leads from a point: see [`direction()`]. Returns `None` in
     /// obstacles and goals, and where the field is level, as in regions from which no goal is reachable.
     #[must_use]
     pub fn direction(&self, at: LatticePoint) -> Option<[f64; 2]> {
-        direction(&self.guide(), SIDES, at)
+        direction(&self.guide(), SQUARE_SIDES, at)
     }
 
-    /// Returns the end of this many steps of [`STEP`](cplan_harmonic::STEP) from a point: see [`advance()`]. All lie in
+    /// Returns the end of this many steps of [`STEP_LENGTH`](cplan_harmonic::STEP_LENGTH) from a point: see [`advance()`]. All lie in
     /// free cells and goals.
     #[must_use]
     pub fn advance(&self, from: LatticePoint, steps: usize) -> LatticePoint {
-        advance(&self.guide(), SIDES, from, steps)
+        advance(&self.guide(), SQUARE_SIDES, from, steps)
     }
 
     /// Returns the curve to the goal in the field of the last moment: see [`follow()`].
     ///
     /// # Errors
-    /// [`Stuck`] if no goal is reachable, or the field has not converged.
+    /// [`DeadEnd`] if no goal is reachable, or the field has not converged.
     ///
     /// # Panics
     /// If the point lies in no cell.
-    pub fn follow(&self, from: LatticePoint) -> Result<Streamline, Stuck> {
-        follow(&mut self.guide(), SIDES, from)
+    pub fn follow(&self, from: LatticePoint) -> Result<Streamline, DeadEnd> {
+        follow(&mut self.guide(), SQUARE_SIDES, from)
     }
 }

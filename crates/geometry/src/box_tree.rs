@@ -6,7 +6,7 @@ use super::Point;
 pub type Bounds = [Point; 2];
 
 /// Largest number of boxes in a leaf. Testing this few one by one is fast.
-const LEAF: usize = 8;
+const MAX_LEAF_BOXES: usize = 8;
 
 /// A tree of boxes. Each node splits its boxes in two at the median centre, along the longer side of their common
 /// bounds.
@@ -47,7 +47,7 @@ impl BoxTree {
         if !meet(&self.nodes[node].0, bounds) {
             return;
         }
-        if order.len() <= LEAF {
+        if order.len() <= MAX_LEAF_BOXES {
             found.extend(order.iter().filter(|&&k| meet(&self.boxes[k as usize], bounds)));
             return;
         }
@@ -68,7 +68,7 @@ fn build(boxes: &[Bounds], order: &mut [u32], nodes: &mut Vec<(Bounds, u32)>) {
         .fold([Point::new(f64::INFINITY, f64::INFINITY), Point::new(f64::NEG_INFINITY, f64::NEG_INFINITY)], join);
     let node = nodes.len();
     nodes.push((cover, 0));
-    if order.len() > LEAF {
+    if order.len() > MAX_LEAF_BOXES {
         let size = cover[1] - cover[0];
         let axis = usize::from(size.y > size.x);
         let middle = |k: u32| boxes[k as usize][0][axis] + boxes[k as usize][1][axis];
@@ -90,7 +90,7 @@ mod tests {
         #![proptest_config(cplan_cases::cases(256))]
 
         #[test]
-        fn finds_what_looking_at_all_finds(
+        fn the_tree_agrees_with_brute_force(
             boxes in proptest::collection::vec((0..50i32, 0..50i32, 0..9i32, 0..9i32), 0..200),
             probe in (0..50i32, 0..50i32, 0..20i32, 0..20i32),
         ) {

@@ -85,13 +85,13 @@ impl TryFrom<Corners> for Convex {
 }
 
 /// Largest bend of a corner that counts as rounding, as a fraction of the greatest coordinate.
-const BENT: f64 = 16.0 * f64::EPSILON;
+const BEND_ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 /// Returns true if the corners go once around their convex hull. Corners that are not on the hull may be off its sides
 /// by rounding.
 fn is_hull_up_to_rounding(core: &[Point]) -> bool {
     let hull = hull(core);
-    let bent = BENT * core.iter().fold(0.0_f64, |most, p| most.max(p.amax()));
+    let bent = BEND_ROUNDING * core.iter().fold(0.0_f64, |most, p| most.max(p.amax()));
     let n = core.len();
     let Some(first) = core.iter().position(|p| hull.len() > 2 && *p == hull[0]) else { return false };
     // The side on which the previous corner lies, and its position along it.

@@ -1,16 +1,16 @@
 //! Decomposition of a simple polygon into convex pieces.
 
-use super::planar::{Boundary, HalfEdges, NONE, triangulate};
-use super::polygon::without_straight;
+use super::planar::{Boundary, HalfEdges, NO_ENTRY, triangulate};
+use super::polygon::without_straight_corners;
 use super::{Convex, Orientation, Point, SimplePolygon, orientation};
 use cplan_interrupt::checkpoint;
 
 /// Largest number of corners of a piece. Queries take time that grows with the corners of a piece, and with many small
 /// pieces only those nearby are queried.
-pub const MOST_CORNERS: usize = 64;
+pub const MAX_CORNERS: usize = 64;
 
 /// Decomposes a polygon into strictly convex polygons (of radius 0) with disjoint interiors, each of at most
-/// [`MOST_CORNERS`] corners. Their union is `polygon`. `O(n log n)`.
+/// [`MAX_CORNERS`] corners. Their union is `polygon`. `O(n log n)`.
 ///
 /// A sweep triangulates the polygon, then every diagonal is removed that no reflex corner needs (S. Hertel, K.
 /// Mehlhorn, *Fast Triangulation of Simple Polygons*, 1983). The number of pieces is at most four times the least
@@ -21,7 +21,7 @@ pub const MOST_CORNERS: usize = 64;
 #[must_use]
 pub fn decompose(polygon: &SimplePolygon) -> Vec<Convex> {
     // Straight corners must not become ends of diagonals.
-    let corners = without_straight(polygon.corners());
+    let corners = without_straight_corners(polygon.corners());
     let pieces = if polygon.is_convex() {
         vec![corners]
     } else {
@@ -30,17 +30,17 @@ pub fn decompose(polygon: &SimplePolygon) -> Vec<Convex> {
     };
     let mut convex = Vec::with_capacity(pieces.len());
     for piece in pieces {
-        cut_up(without_straight(&piece), 0.0, &mut convex);
+        cut_up(without_straight_corners(&piece), 0.0, &mut convex);
     }
     convex
 }
 
 impl Convex {
-    /// Cuts the shape along diagonals into shapes of at most [`MOST_CORNERS`] corners. The core must be strictly
+    /// Cuts the shape along diagonals into shapes of at most [`MAX_CORNERS`] corners. The core must be strictly
     /// convex. `O(n)`.
     #[must_use]
     pub fn cut_up(self) -> Vec<Self> {
-        if self.core().len() <= MOST_CORNERS {
+        if self.core().len() <= MAX_CORNERS {
             return vec![self];
         }
         let mut pieces = Vec::new();
@@ -49,16 +49,16 @@ impl Convex {
     }
 }
 
-/// Cuts a strictly convex polygon, grown by `radius`, along diagonals into pieces of at most [`MOST_CORNERS`] corners,
+/// Cuts a strictly convex polygon, grown by `radius`, along diagonals into pieces of at most [`MAX_CORNERS`] corners,
 /// and appends them to `out`. `O(n)`.
 ///
 /// Each round cuts off as few caps of equal length as possible, each by one diagonal, and continues with the rest. So
 /// one piece holds most of the area, and the thin pieces are at the rim.
 fn cut_up(mut ring: Vec<Point>, radius: f64, out: &mut Vec<Convex>) {
-    while ring.len() > MOST_CORNERS {
+    while ring.len() > MAX_CORNERS {
         checkpoint();
         let n = ring.len();
-        let caps = n.div_ceil(MOST_CORNERS - 1);
+        let caps = n.div_ceil(MAX_CORNERS - 1);
         let at = |cap: usize| cap * n / caps;
         for cap in 0..caps {
             let mut corners = ring[at(cap)..at(cap + 1)].to_vec();
@@ -82,7 +82,7 @@ fn convex_faces(vertices: &[Point], HalfEdges { origin, twin }: HalfEdges) -> Ve
     let mut removed = vec![false; origin.len()];
     for half in 0..origin.len() {
         let other = twin[half];
-        if other == NONE || (other as usize) < half {
+        if other == NO_ENTRY || (other as usize) < half {
             continue;
         }
         let other = other as usize;

@@ -45,7 +45,7 @@ mod tests {
         #![proptest_config(cplan_cases::cases(256))]
 
         #[test]
-        fn discs_fit_about_what_is_left_and_about_nothing_else(
+        fn discs_fit_exactly_about_the_eroded_points(
             points in prop::collection::vec((-1.0..1.0f64, -1.0..1.0f64), 3..8), radius in 0.0..0.2f64,
             by in 0.0..0.6f64, at in (-1.0..1.0f64, -1.0..1.0f64),
         ) {
@@ -78,7 +78,7 @@ mod tests {
 
         /// A receding shape is farther away by `by`, with sharp corners. Growing it again restores it.
         #[test]
-        fn what_recedes_is_farther_away(shape in shapes(), other in shapes(), by in 0.0..0.5f64) {
+        fn receding_increases_every_distance(shape in shapes(), other in shapes(), by in 0.0..0.5f64) {
             let (near, far) = (separation(&other, &shape), separation(&other, &shape.receding(by)));
             prop_assert!((far.distance - near.distance - by).abs() < 1e-12);
             let difference = shape.receding(by).minkowski_difference(&other);
@@ -90,7 +90,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_too_thin_leaves_nothing() {
+    fn too_thin_shapes_erode_to_nothing() {
         let bar = Convex::trusted(
             vec![Point::new(0., 0.), Point::new(1., 0.), Point::new(1., 0.1), Point::new(0., 0.1)],
             0.0,

@@ -60,7 +60,7 @@ mod tests {
     }
 
     #[test]
-    fn a_square_keeps_a_smaller_one() {
+    fn the_inset_of_a_square() {
         let square = points(&[(0.0, 0.0), (4.0, 0.0), (4.0, 4.0), (0.0, 4.0)]);
         assert_eq!(inset(&square, 1.0), Some(points(&[(1.0, 1.0), (3.0, 1.0), (3.0, 3.0), (1.0, 3.0)])));
         assert_eq!(inset(&square, 2.0), None);
@@ -68,7 +68,7 @@ mod tests {
     }
 
     #[test]
-    fn a_segment_is_cut_to_what_lies_in_a_polygon() {
+    fn segments_are_clipped_to_a_polygon() {
         let square = points(&[(0.0, 0.0), (4.0, 0.0), (4.0, 4.0), (0.0, 4.0)]);
         let cut = hull(&common(&points(&[(-1.0, 2.0), (2.0, 2.0)]), &square));
         assert_eq!(cut, points(&[(0.0, 2.0), (2.0, 2.0)]));

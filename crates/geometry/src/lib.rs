@@ -20,7 +20,7 @@
 mod box_tree;
 mod convex;
 mod decompose;
-mod drawn_in;
+mod inset_union;
 mod erosion;
 mod galloping;
 mod hull;
@@ -44,17 +44,17 @@ mod turning;
 pub use box_tree::{Bounds, BoxTree};
 pub use convex::reach;
 pub use convex::{Convex, ConvexError};
-pub use decompose::{MOST_CORNERS, decompose};
-pub use drawn_in::{can_be_drawn_in, drawn_in};
+pub use decompose::{MAX_CORNERS, decompose};
 pub use galloping::farthest;
 pub use hull::hull;
 pub use inset::{common, inset};
+pub use inset_union::{can_inset_union, inset_union};
 pub use intervals::{Interval, merge_in_place};
 pub use meet::shapes_meet;
 pub use minkowski::minkowski_difference;
 pub use minkowski::penetration_depth;
 pub use open_list::OpenList;
-pub use ordered::Ordered;
+pub use ordered::OrderedF64;
 pub use penetration::{
     CornerInside, Location, PointPenetration, PolygonTest, point_penetration, polygon_test, signed_distance,
 };

@@ -1,13 +1,13 @@
 //! The open list of a best-first search.
 
-use super::Ordered;
+use super::OrderedF64;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
 /// Entries ordered by key. Entries with equal keys are ordered by value, so the order is deterministic.
 #[derive(Debug, Clone)]
 pub struct OpenList<T> {
-    heap: BinaryHeap<Reverse<(Ordered, T)>>,
+    heap: BinaryHeap<Reverse<(OrderedF64, T)>>,
 }
 
 impl<T: Ord> Default for OpenList<T> {
@@ -19,18 +19,18 @@ impl<T: Ord> Default for OpenList<T> {
 impl<T: Ord> OpenList<T> {
     /// Adds an entry. `O(log n)`.
     pub fn push(&mut self, key: f64, entry: T) {
-        self.heap.push(Reverse((Ordered(key), entry)));
+        self.heap.push(Reverse((OrderedF64(key), entry)));
     }
 
     /// Removes and returns the entry with the least key. `O(log n)`.
     pub fn pop(&mut self) -> Option<(f64, T)> {
-        self.heap.pop().map(|Reverse((Ordered(key), entry))| (key, entry))
+        self.heap.pop().map(|Reverse((OrderedF64(key), entry))| (key, entry))
     }
 
     /// Returns the entry with the least key.
     #[must_use]
     pub fn peek(&self) -> Option<(f64, &T)> {
-        self.heap.peek().map(|Reverse((Ordered(key), entry))| (*key, entry))
+        self.heap.peek().map(|Reverse((OrderedF64(key), entry))| (*key, entry))
     }
 
     /// Removes all entries.

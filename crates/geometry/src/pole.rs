@@ -1,11 +1,11 @@
 //! The pole of inaccessibility: the point of a polygon that is farthest from its outline.
 
 use super::penetration::distance_to_segment;
-use super::{Ordered, Point};
+use super::{OrderedF64, Point};
 use std::collections::BinaryHeap;
 
 /// Largest number of cells examined. In a sliver almost every point is near the optimum, so more cells bring nothing.
-const MOST: usize = 4096;
+const MAX_CELLS: usize = 4096;
 
 /// Finds the pole of inaccessibility (Garcia-Castellanos and Lombardo 2007) of a polygon, and its distance from the
 /// outline. No point inside is farther from the outline by more than `precision`. Returns `None` if the polygon has no
@@ -21,7 +21,7 @@ pub fn pole_of_inaccessibility(corners: &[Point], precision: f64) -> Option<(Poi
     }
     let half = (high - low).max() / 2.0;
     let mut best: Option<(Point, f64)> = None;
-    let mut waiting: BinaryHeap<(Ordered, [Ordered; 3])> = BinaryHeap::new();
+    let mut waiting: BinaryHeap<(OrderedF64, [OrderedF64; 3])> = BinaryHeap::new();
     let look = |[x, y, half]: [f64; 3], best: &mut Option<(Point, f64)>, waiting: &mut BinaryHeap<_>| {
         let middle = Point::new(x, y);
         let depth = depth(corners, middle);
@@ -29,11 +29,11 @@ pub fn pole_of_inaccessibility(corners: &[Point], precision: f64) -> Option<(Poi
         if depth > known {
             *best = Some((middle, depth));
         }
-        waiting.push((Ordered(depth + half * std::f64::consts::SQRT_2), [x, y, half].map(Ordered)));
+        waiting.push((OrderedF64(depth + half * std::f64::consts::SQRT_2), [x, y, half].map(OrderedF64)));
     };
     look([(low.x + high.x) / 2.0, (low.y + high.y) / 2.0, half], &mut best, &mut waiting);
-    for _ in 0..MOST {
-        let Some((Ordered(most), [x, y, half])) = waiting.pop() else { break };
+    for _ in 0..MAX_CELLS {
+        let Some((OrderedF64(most), [x, y, half])) = waiting.pop() else { break };
         if most <= best.map_or(0.0, |(_, depth)| depth) + precision {
             break;
         }
@@ -83,7 +83,7 @@ mod tests {
     }
 
     #[test]
-    fn what_has_no_inside_has_no_pole() {
+    fn polygons_without_area_have_no_pole() {
         assert_eq!(pole_of_inaccessibility(&[], 0.1), None);
         assert_eq!(pole_of_inaccessibility(&polygon(&[(1.0, 2.0)]), 0.1), None);
         assert_eq!(pole_of_inaccessibility(&polygon(&[(0.0, 0.0), (1.0, 1.0)]), 0.1), None);

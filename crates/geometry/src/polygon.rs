@@ -90,7 +90,7 @@ impl SimplePolygon {
     /// the list that meets an earlier one.
     pub fn new(mut corners: Vec<Point>) -> Result<Self, PolygonError> {
         check_corners(&corners)?;
-        check_neighbours(&corners)?;
+        check_neighbors(&corners)?;
         check_sides(&corners)?;
         if !is_counter_clockwise(&corners) {
             corners[1..].reverse();
@@ -160,7 +160,7 @@ pub(super) fn turn(corners: &[Point], i: usize) -> Orientation {
 }
 
 /// Removes the straight corners of a ring; exact. No corner may repeat the previous one.
-pub(super) fn without_straight(ring: &[Point]) -> Vec<Point> {
+pub(super) fn without_straight_corners(ring: &[Point]) -> Vec<Point> {
     (0..ring.len()).filter(|&i| turn(ring, i) != Orientation::Collinear).map(|i| ring[i]).collect()
 }
 
@@ -202,7 +202,7 @@ fn check_corners(corners: &[Point]) -> Result<(), PolygonError> {
 }
 
 /// Checks the area and spikes, by each corner and its neighbours.
-fn check_neighbours(corners: &[Point]) -> Result<(), PolygonError> {
+fn check_neighbors(corners: &[Point]) -> Result<(), PolygonError> {
     let n = corners.len();
     if (0..n).all(|i| turn(corners, i) == Orientation::Collinear) {
         return Err(PolygonError::NoArea);

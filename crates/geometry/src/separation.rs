@@ -30,10 +30,10 @@ pub fn separation(a: &Convex, b: &Convex) -> Separation {
 /// Computes the [`separation`] of a shape moved by a pose from another, and passes the moved corners to `and`. A shape
 /// with few corners is moved without an allocation.
 pub fn separation_at<R>(a: &Convex, pose: &Pose, b: &Convex, and: impl FnOnce(&[Point], Separation) -> R) -> R {
-    const FEW: usize = 8;
+    const FEW_SIDES: usize = 8;
     let (mut few, many);
-    let corners = if a.core().len() <= FEW {
-        few = [Point::zeros(); FEW];
+    let corners = if a.core().len() <= FEW_SIDES {
+        few = [Point::zeros(); FEW_SIDES];
         for (corner, p) in few.iter_mut().zip(a.core()) {
             *corner = pose.point(*p);
         }
@@ -149,7 +149,7 @@ fn nearest_features(a: &[Point], b: &[Point], error: f64) -> Separation {
 }
 
 /// Relative margin on squared distances from side lines, so that rounding does not hide a better side.
-const SLACK: f64 = 1e-12;
+const SIDE_MARGIN: f64 = 1e-12;
 
 /// Looks for a corner closer to a side than the best so far. `best` holds the squared distance, and the offset from the
 /// nearest point of the side to the corner, times `sign`.
@@ -169,7 +169,7 @@ fn nearest_to_sides(corners: &[Point], core: &[Point], error: f64, sign: f64, be
             // Positive if the corner is left of the side, that is, inside.
             let left = along.x * from.y - along.y * from.x;
             let left2 = left * left;
-            if left2 > best.distance * length2 * (1.0 + SLACK) || is_one_sided && left > 0.0 && left2 > inside {
+            if left2 > best.distance * length2 * (1.0 + SIDE_MARGIN) || is_one_sided && left > 0.0 && left2 > inside {
                 continue;
             }
             let t = from.dot(&along);

@@ -9,10 +9,10 @@ use cplan_gpu::{Edge, Gpu, GpuError, GridEquations, Multigrid, Settings, Stencil
 use std::time::Instant;
 
 /// Rows and columns of the source's field.
-const FIELD: [usize; 2] = [65, 85];
+const FIELD_SIZE: [usize; 2] = [65, 85];
 
 /// Runs of each row; the fastest counts.
-const RUNS: usize = 10;
+const RUNS_PER_ROW: usize = 10;
 
 /// The drift of a cell, by its row and column.
 type Drift = fn(usize, usize) -> [f64; 2];
@@ -75,9 +75,9 @@ fn main() -> Result<(), GpuError> {
     let gpu = Gpu::open()?;
     let kind = if gpu.is_software() { "all in software, on the CPU: no times of a GPU" } else { "hardware" };
     println!("{} ({kind})\n", gpu.adapter());
-    println!("{} x {} cells, milliseconds with the way there and back", FIELD[1], FIELD[0]);
+    println!("{} x {} cells, milliseconds with the way there and back", FIELD_SIZE[1], FIELD_SIZE[0]);
     println!("{:<28} {:>8} {:>8} {:>10} {:>7}", "", "CPU 2011", "GPU 2011", "here", "sweeps");
-    let (gs, sor) = ((Sweep::RedBlack, 1.0), (Sweep::RedBlack, formula(FIELD)));
+    let (gs, sor) = ((Sweep::RedBlack, 1.0), (Sweep::RedBlack, formula(FIELD_SIZE)));
     let (jacobi, weighted) = ((Sweep::Jacobi, 1.0), (Sweep::Jacobi, 0.8));
     let rows: [Row; 12] = [
         ("harmonic, GS", none, false, gs, "5.38", "0.62"),
@@ -94,9 +94,9 @@ fn main() -> Result<(), GpuError> {
         ("local, upwind, SOR", local, true, sor, "16.92", "0.85"),
     ];
     for (name, drift, is_upwind, (sweep, factor), cpu, published) in rows {
-        let problem = problem(FIELD, drift, is_upwind)?;
+        let problem = problem(FIELD_SIZE, drift, is_upwind)?;
         let settings = Settings { sweep, factor, ..Settings::default() };
-        let (time, relaxed) = timed(RUNS, || gpu.relax(&problem, &settings))?;
+        let (time, relaxed) = timed(RUNS_PER_ROW, || gpu.relax(&problem, &settings))?;
         println!("{name:<28} {cpu:>8} {published:>8} {time:>10.2} {:>7}", relaxed.sweeps);
     }
     println!("\nopen squares, nanoseconds a cell: of a red-black sweep, and of multigrid until 1e-10");

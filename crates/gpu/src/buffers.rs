@@ -4,11 +4,11 @@ use super::{Gpu, GpuError};
 use wgpu::util::DeviceExt as _;
 
 /// Threads of a block, along columns and rows.
-pub(super) const BLOCK: [usize; 2] = [32, 8];
+pub(super) const THREADS_PER_BLOCK: [usize; 2] = [32, 8];
 
 /// Returns the number of blocks that cover this many places, along columns and rows.
 pub(super) fn blocks(columns: usize, rows: usize) -> [u32; 2] {
-    [columns.div_ceil(BLOCK[0]) as u32, rows.div_ceil(BLOCK[1]) as u32]
+    [columns.div_ceil(THREADS_PER_BLOCK[0]) as u32, rows.div_ceil(THREADS_PER_BLOCK[1]) as u32]
 }
 
 impl Gpu {

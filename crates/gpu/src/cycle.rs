@@ -6,10 +6,10 @@ use super::relax::turns;
 use super::{Edge, Gpu, GpuError, GridEquations};
 
 /// Sweeps before and after each correction.
-const SMOOTHING: usize = 2;
+const SMOOTHING_SWEEPS: usize = 2;
 
 /// Sweeps on the coarsest grid, which has 8 x 8 cells at the most.
-const LAST: usize = 32;
+const COARSEST_SWEEPS: usize = 32;
 
 /// Parameters of a level for the kernels, in the order of `Level` in `kernels/levels.wgsl`.
 #[repr(C)]
@@ -96,17 +96,17 @@ impl Cycle {
     fn descend(&self, gpu: &Gpu, pass: &mut wgpu::ComputePass, level: usize, is_full: bool) {
         let stage = &self.stages[level];
         let Some(next) = &stage.next else {
-            stage.smooth(gpu, pass, LAST, false);
+            stage.smooth(gpu, pass, COARSEST_SWEEPS, false);
             return;
         };
-        stage.smooth(gpu, pass, SMOOTHING, false);
+        stage.smooth(gpu, pass, SMOOTHING_SWEEPS, false);
         run(pass, &gpu.pipelines.restrict, &next.restrict, next.restrict_blocks);
         self.descend(gpu, pass, level + 1, is_full);
         if is_full {
             self.descend(gpu, pass, level + 1, false);
         }
         run(pass, &gpu.pipelines.prolong, &next.prolong, next.prolong_blocks);
-        stage.smooth(gpu, pass, SMOOTHING, true);
+        stage.smooth(gpu, pass, SMOOTHING_SWEEPS, true);
     }
 }
 

@@ -36,7 +36,7 @@ pub struct GridEquations {
 }
 
 /// Largest number of cells: places are counted in 32 bits, with four weights per cell.
-const MOST: usize = 1 << 29;
+const MAX_CELLS: usize = 1 << 29;
 
 impl GridEquations {
     /// Of `cells[0]` rows and `cells[1]` columns, row by row. `edges[0]` is beyond the first and the last row, `outside` the value
@@ -59,7 +59,7 @@ impl GridEquations {
             Stencil::Weights(weights) => (weights.len(), weights.iter().flatten().all(|w| w.is_finite())),
             Stencil::Altered(strength) => (strength.len(), strength.iter().all(|s| s.is_finite())),
         };
-        let Some(count) = cells[0].checked_mul(cells[1]).filter(|&count| count <= MOST) else {
+        let Some(count) = cells[0].checked_mul(cells[1]).filter(|&count| count <= MAX_CELLS) else {
             return refused("there are more than 2^29 cells");
         };
         if values.len() != count || unknown.len() != count || given != count {

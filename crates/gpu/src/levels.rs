@@ -5,10 +5,10 @@ use super::{Edge, GridEquations};
 /// Factor by which the diffusion between blocks of 2 x 2 cells is reduced. In open space, 2 would be exact, because
 /// block centres are twice as far apart. A slightly smaller value keeps corrections small where blocks meet walls, so
 /// that cycles converge (tested on random walls of up to 1024 x 1024 cells).
-const STIFFNESS: f64 = 1.7;
+const DIFFUSION_REDUCTION: f64 = 1.7;
 
 /// Least number of rows or columns of a grid that is still coarsened.
-const COARSEST: usize = 8;
+const MIN_COARSENED_SIDE: usize = 8;
 
 /// Equations on a grid, row by row: `own * x - sum of side * neighbour = right`.
 #[derive(Debug, Clone, PartialEq)]
@@ -22,7 +22,7 @@ pub(super) struct Level {
 }
 
 /// The side of a neighbour that faces the cell.
-const BACK: [usize; 4] = [1, 0, 3, 2];
+const OPPOSITE_SIDE: [usize; 4] = [1, 0, 3, 2];
 
 impl Level {
     /// The finest: the problem's weights, `1 - weight` for sides at which the cell meets itself.
@@ -63,11 +63,11 @@ impl Level {
 
     /// Returns true if there is no coarser level.
     fn is_coarsest(&self) -> bool {
-        self.cells.iter().all(|&n| n <= COARSEST)
+        self.cells.iter().all(|&n| n <= MIN_COARSENED_SIDE)
     }
 
     /// Returns the level of blocks of 2 x 2 cells. Its couplings are the flows through common sides, with diffusion
-    /// divided by [`STIFFNESS`]. Drift that exceeds diffusion is taken upwind, so that coefficients keep their signs on
+    /// divided by [`DIFFUSION_REDUCTION`]. Drift that exceeds diffusion is taken upwind, so that coefficients keep their signs on
     /// every level. `O(cells)`.
     fn coarser(&self) -> Self {
         let cells = self.cells.map(|n| n.div_ceil(2));
@@ -85,7 +85,7 @@ impl Level {
                     && block(next) != here
                 {
                     there[here][side] += weight;
-                    back[here][side] += self.sides[next][BACK[side]];
+                    back[here][side] += self.sides[next][OPPOSITE_SIDE[side]];
                 }
             }
             lost[here] += rest;
@@ -95,9 +95,9 @@ impl Level {
             for side in 0..4 {
                 let (diffusion, drift) =
                     (0.5 * (there[here][side] + back[here][side]), 0.5 * (there[here][side] - back[here][side]));
-                coarse.sides[here][side] = (diffusion / STIFFNESS).max(drift.abs()) + drift;
+                coarse.sides[here][side] = (diffusion / DIFFUSION_REDUCTION).max(drift.abs()) + drift;
             }
-            let own = coarse.sides[here].iter().sum::<f64>() + lost[here].max(0.0) / STIFFNESS;
+            let own = coarse.sides[here].iter().sum::<f64>() + lost[here].max(0.0) / DIFFUSION_REDUCTION;
             coarse.own[here] = own;
         }
         coarse

@@ -55,5 +55,5 @@ mod rule;
 pub use gpu::{Gpu, GpuError};
 pub use grid_equations::{Edge, GridEquations, Stencil};
 pub use multigrid::{Multigrid, Solution};
-pub use relax::Relaxed;
+pub use relax::RelaxedField;
 pub use rule::{Ending, Measure, Settings, Sweep};

@@ -36,13 +36,13 @@ pub struct Solution {
 }
 
 /// Number of cycles between residuals in double precision.
-const ROUND: u32 = 2;
+const CYCLES_PER_ROUND: u32 = 2;
 
 /// A round that leaves more than this fraction of the residual counts as no progress.
-const HELPED: f64 = 0.5;
+const MAX_RESIDUAL_RATIO: f64 = 0.5;
 
 /// Number of consecutive rounds without progress after which the solver stops.
-const PATIENCE: u32 = 4;
+const MAX_IDLE_ROUNDS: u32 = 4;
 
 impl Gpu {
     /// Solves a linear problem by multigrid: F-cycles in single precision on the GPU compute corrections for residuals
@@ -75,14 +75,14 @@ impl Gpu {
             watched(&self.device, || {
                 let cycle = Cycle::new(self, &levels)?;
                 let mut idle = 0;
-                while !solved.converged && solved.cycles < settings.max_cycles && idle < PATIENCE {
+                while !solved.converged && solved.cycles < settings.max_cycles && idle < MAX_IDLE_ROUNDS {
                     checkpoint();
-                    let cycles = ROUND.min(settings.max_cycles - solved.cycles);
+                    let cycles = CYCLES_PER_ROUND.min(settings.max_cycles - solved.cycles);
                     let next = self.corrected(&cycle, cycles, &values, &left.0)?;
                     solved.cycles += cycles;
                     let after = residual(&next);
                     // NaN also counts as no progress.
-                    idle = if after.1 <= HELPED * solved.residual { 0 } else { idle + 1 };
+                    idle = if after.1 <= MAX_RESIDUAL_RATIO * solved.residual { 0 } else { idle + 1 };
                     if !after.1.is_finite() {
                         break;
                     }

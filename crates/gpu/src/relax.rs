@@ -8,7 +8,7 @@ use cplan_interrupt::checkpoint;
 
 /// A relaxed field.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Relaxed {
+pub struct RelaxedField {
     /// One value per cell, row by row. Given values are unchanged up to rounding to single precision.
     pub values: Vec<f64>,
     /// Number of sweeps.
@@ -20,17 +20,17 @@ pub struct Relaxed {
 }
 
 /// Largest number of sweeps submitted at once. Even, so that Jacobi's two buffers return to their places.
-const AT_ONCE: usize = 64;
+const MAX_SWEEPS_PER_SUBMISSION: usize = 64;
 
 /// Largest number of cell updates submitted at once. They take a fraction of a second on any GPU, so that no driver
 /// assumes a hang.
-const UPDATES_AT_ONCE: usize = 1 << 28;
+const MAX_UPDATES_PER_SUBMISSION: usize = 1 << 28;
 
 /// Factor by which a value may exceed the initial ones. Larger values will not recover.
-const BEYOND: f32 = 1e30;
+const DIVERGENCE_FACTOR: f32 = 1e30;
 
 /// Least number of sweeps without progress that counts as a floor.
-const PATIENCE: usize = 64;
+const MIN_IDLE_SWEEPS: usize = 64;
 
 /// The cells that a dispatch updates, in the order of `Turn` in `kernels/sweep.wgsl`.
 #[repr(C)]
@@ -57,19 +57,19 @@ impl Gpu {
     /// # Errors
     /// [`GpuError::Refused`] for settings that make no sense, [`GpuError::Diverged`], [`GpuError::TooLarge`], [`GpuError::Failed`].
     /// A relaxation that does not converge is no error: its [`Ending`] says so.
-    pub fn relax(&self, problem: &GridEquations, settings: &Settings) -> Result<Relaxed, GpuError> {
+    pub fn relax(&self, problem: &GridEquations, settings: &Settings) -> Result<RelaxedField, GpuError> {
         if let Some(refusal) = settings.refusal() {
             return Err(refusal);
         }
         let is_done = !problem.unknown.contains(&true);
         if is_done || settings.max_sweeps == 0 {
             let ending = if is_done { Ending::Converged } else { Ending::Unconverged };
-            return Ok(Relaxed { values: problem.values.clone(), sweeps: 0, change: f64::INFINITY, ending });
+            return Ok(RelaxedField { values: problem.values.clone(), sweeps: 0, change: f64::INFINITY, ending });
         }
         watched(&self.device, || self.relax_all(problem, settings))
     }
 
-    fn relax_all(&self, problem: &GridEquations, settings: &Settings) -> Result<Relaxed, GpuError> {
+    fn relax_all(&self, problem: &GridEquations, settings: &Settings) -> Result<RelaxedField, GpuError> {
         let half = Half::new(problem.cells);
         let [across, down] = blocks(half.half, half.rows);
         let odd = GridEquations::odd_circles(problem.cells, problem.edges);
@@ -112,7 +112,7 @@ impl Gpu {
         });
         let finish = self.group(&self.pipelines.finish, &[(0, &rule), (6, &partials), (7, &state)]);
 
-        let at_once = (UPDATES_AT_ONCE / problem.values.len()).clamp(2, AT_ONCE) / 2 * 2;
+        let at_once = (MAX_UPDATES_PER_SUBMISSION / problem.values.len()).clamp(2, MAX_SWEEPS_PER_SUBMISSION) / 2 * 2;
         let ended = loop {
             checkpoint();
             self.submit(|pass| {
@@ -140,7 +140,7 @@ impl Gpu {
             3 => Ending::Unconverged,
             _ => return Err(diverged(&values, problem, ended.sweeps)),
         };
-        Ok(Relaxed { values, sweeps: ended.sweeps, change: f64::from(ended.change), ending })
+        Ok(RelaxedField { values, sweeps: ended.sweeps, change: f64::from(ended.change), ending })
     }
 }
 
@@ -159,7 +159,7 @@ fn greatest(values: &[f64]) -> f32 {
 /// Above this, values are lost.
 fn beyond(problem: &GridEquations) -> f32 {
     let greatest = greatest(&problem.values).max(problem.outside.abs() as f32);
-    if greatest > 0.0 { (BEYOND * greatest).min(f32::MAX / 2.0) } else { BEYOND }
+    if greatest > 0.0 { (DIVERGENCE_FACTOR * greatest).min(f32::MAX / 2.0) } else { DIVERGENCE_FACTOR }
 }
 
 fn diverged(values: &[f64], problem: &GridEquations, sweeps: u32) -> GpuError {
@@ -195,7 +195,7 @@ fn rule(problem: &GridEquations, settings: &Settings, half: Half, odd: u32, bloc
         below: settings.below as f32,
         beyond: beyond(problem),
         rounding: rounding(settings.factor),
-        patience: half.rows.max(half.columns).max(PATIENCE) as u32,
+        patience: half.rows.max(half.columns).max(MIN_IDLE_SWEEPS) as u32,
         unused: [0; 2],
     }
 }

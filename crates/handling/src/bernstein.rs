@@ -3,7 +3,7 @@
 use std::ops::{Add, Mul, Sub};
 
 /// Number of halvings after which a zero is as precise as doubles allow.
-const HALVINGS: usize = 60;
+const MAX_HALVINGS: usize = 60;
 
 /// A polynomial of degree 5 at most. With `u` from 0 to 1 and `n` its degree, it is
 /// `sum binomial(n, i) u^i (1 - u)^(n - i) c_i`. The terms are weighted by shares, so nothing cancels, and the
@@ -106,7 +106,7 @@ impl Polynomial<f64> {
         if first == (self.at(to) > 0.0) {
             return None;
         }
-        for _ in 0..HALVINGS {
+        for _ in 0..MAX_HALVINGS {
             let middle = (from + to) / 2.0;
             if (self.at(middle) > 0.0) == first { from = middle } else { to = middle }
         }

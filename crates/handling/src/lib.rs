@@ -2,7 +2,7 @@
 //!
 //! - [`Task`]: objects, and the steps in which an arm picks, carries and places them. A [`Payload`] is an object while
 //!   the arm carries it.
-//! - Obstacles that move: a [`TimedWorkspace`] has [`Mover`]s, a [`TimedScene`] their trajectories.
+//! - Obstacles that move: a [`TimedWorkspace`] has [`MovingObstacle`]s, a [`TimedScene`] their trajectories.
 //! - The tool: a [`Stroke`] that lowers it, a [`Wrist`] that turns it, and all other joints of the robot
 //!   ([`RobotJoints`], [`HeldJoint`]).
 //! - Records of motions: a [`Recording`] holds samples, [`Piece`]s of polynomials join them, and [`Claims`] hold the
@@ -27,7 +27,7 @@ mod timed;
 pub use claims::{BlendsClaim, Claims, EventClaim, OptimumClaim, RecordedStep, RecordedTurn, StepClaims, TaskClaims};
 pub use held::{HeldEffect, HeldJoint, HeldMotion};
 pub use interpolation::{INTERPOLATION, Interpolation, SMOOTH_INTERPOLATION};
-pub use mover::{Course, CourseError, LATEST, Leg, Mover, Stop};
+pub use mover::{Leg, MAX_STOP_TIME, MovingObstacle, ObstacleTrajectory, ObstacleTrajectoryError, Stop};
 pub use payload::Payload;
 pub use piece::{Derivative, Piece, State};
 pub use recording::{Recording, RecordingError};

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 /// Greatest time in a course, seconds: as long as the longest motion that is timed. A larger time is a mistake.
-pub const LATEST: f64 = 1e6;
+pub const MAX_STOP_TIME: f64 = 1e6;
 
 /// The pose of a mover's frame at a time.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -25,8 +25,8 @@ pub struct Stop {
 /// The motion of an obstacle: straight and uniform from stop to stop. It waits at the first stop until its time. It
 /// stays at the last stop, or leaves it at a constant velocity for ever, like an object on a conveyor.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(try_from = "CourseRecord", into = "CourseRecord")]
-pub struct Course {
+#[serde(try_from = "ObstacleTrajectoryRecord", into = "ObstacleTrajectoryRecord")]
+pub struct ObstacleTrajectory {
     stops: Vec<Stop>,
     /// Velocity from the last stop on, metres a second.
     velocity: Vector,
@@ -34,36 +34,38 @@ pub struct Course {
     legs: Vec<Leg>,
 }
 
-/// The data of a [`Course`].
+/// The data of a [`ObstacleTrajectory`].
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct CourseRecord {
+struct ObstacleTrajectoryRecord {
     stops: Vec<Stop>,
     velocity: Vector,
 }
 
-impl From<Course> for CourseRecord {
-    fn from(Course { stops, velocity, .. }: Course) -> Self {
+impl From<ObstacleTrajectory> for ObstacleTrajectoryRecord {
+    fn from(ObstacleTrajectory { stops, velocity, .. }: ObstacleTrajectory) -> Self {
         Self { stops, velocity }
     }
 }
 
-impl TryFrom<CourseRecord> for Course {
-    type Error = CourseError;
+impl TryFrom<ObstacleTrajectoryRecord> for ObstacleTrajectory {
+    type Error = ObstacleTrajectoryError;
 
-    fn try_from(CourseRecord { stops, velocity }: CourseRecord) -> Result<Self, CourseError> {
+    fn try_from(
+        ObstacleTrajectoryRecord { stops, velocity }: ObstacleTrajectoryRecord,
+    ) -> Result<Self, ObstacleTrajectoryError> {
         Self::new(stops, velocity)
     }
 }
 
 /// A defect of a course's stops.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
-pub enum CourseError {
+pub enum ObstacleTrajectoryError {
     /// There are no stops.
     #[error("a moving obstacle needs at least one stop")]
     Empty,
-    /// A time that is not later than the previous one, or negative, or beyond [`LATEST`].
-    #[error("stop {} is at {time} s; times begin at 0 or later, increase, and end before {LATEST:e}", stop + 1)]
+    /// A time that is not later than the previous one, or negative, or beyond [`MAX_STOP_TIME`].
+    #[error("stop {} is at {time} s; times begin at 0 or later, increase, and end before {MAX_STOP_TIME:e}", stop + 1)]
     Time {
         /// Number of the stop, from 0.
         stop: usize,
@@ -114,25 +116,25 @@ impl Leg {
     }
 }
 
-impl Course {
+impl ObstacleTrajectory {
     /// Creates a course from stop to stop, which continues after the last one at `velocity`.
     ///
     /// # Errors
-    /// [`CourseError`]: the first one found.
-    pub fn new(stops: Vec<Stop>, velocity: Vector) -> Result<Self, CourseError> {
+    /// [`ObstacleTrajectoryError`]: the first one found.
+    pub fn new(stops: Vec<Stop>, velocity: Vector) -> Result<Self, ObstacleTrajectoryError> {
         if stops.is_empty() {
-            return Err(CourseError::Empty);
+            return Err(ObstacleTrajectoryError::Empty);
         }
         let mut before = -1.0;
         for (stop, Stop { time, at, angle }) in stops.iter().enumerate() {
-            if !(0.0..=LATEST).contains(time) || *time <= before {
-                return Err(CourseError::Time { stop, time: *time });
+            if !(0.0..=MAX_STOP_TIME).contains(time) || *time <= before {
+                return Err(ObstacleTrajectoryError::Time { stop, time: *time });
             }
             before = *time;
             let is_last = stop + 1 == stops.len();
             let numbers = [at.x, at.y, *angle].into_iter().chain(velocity.iter().copied().filter(|_| is_last));
             if !are_small(numbers) {
-                return Err(CourseError::Place { stop });
+                return Err(ObstacleTrajectoryError::Place { stop });
             }
         }
         let legs = legs(&stops, velocity);
@@ -143,7 +145,7 @@ impl Course {
     ///
     /// # Errors
     /// If numbers are not finite.
-    pub fn conveyor(at: [f64; 2], velocity: [f64; 2]) -> Result<Self, CourseError> {
+    pub fn conveyor(at: [f64; 2], velocity: [f64; 2]) -> Result<Self, ObstacleTrajectoryError> {
         Self::new(vec![Stop { time: 0.0, at: at.into(), angle: 0.0 }], velocity.into())
     }
 
@@ -255,14 +257,14 @@ fn legs(stops: &[Stop], velocity: Vector) -> Vec<Leg> {
 /// An obstacle that moves. Its motion does not depend on the arm.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Mover {
+pub struct MovingObstacle {
     /// Name, heights and shape, in its own frame.
     pub obstacle: Obstacle,
     /// Motion of that frame.
-    pub course: Course,
+    pub course: ObstacleTrajectory,
 }
 
-impl Mover {
+impl MovingObstacle {
     /// Returns the obstacle at its place at a time.
     #[must_use]
     pub fn at(&self, time: f64) -> Obstacle {
@@ -289,23 +291,23 @@ mod tests {
     #[test]
     fn waits_goes_stays_and_leaves() {
         let stops = vec![stop(1.0, 0.0, 0.0, 0.0), stop(3.0, 1.0, 2.0, 1.0)];
-        let stays = Course::new(stops.clone(), Vector::zeros()).unwrap();
-        let place = |course: &Course, time: f64| {
+        let stays = ObstacleTrajectory::new(stops.clone(), Vector::zeros()).unwrap();
+        let place = |course: &ObstacleTrajectory, time: f64| {
             let pose = course.pose(time);
             [pose.translation.x, pose.translation.y, pose.rotation.angle()]
         };
         assert_eq!(place(&stays, 0.5), [0.0, 0.0, 0.0]);
         assert_eq!(place(&stays, 2.0), [0.5, 1.0, 0.5]);
         assert_eq!(place(&stays, 99.0), [1.0, 2.0, 1.0]);
-        let leaves = Course::new(stops, Vector::new(0.5, 0.0)).unwrap();
+        let leaves = ObstacleTrajectory::new(stops, Vector::new(0.5, 0.0)).unwrap();
         assert_eq!(place(&leaves, 5.0), [2.0, 2.0, 1.0]);
-        assert_eq!(place(&Course::conveyor([1.0, 0.0], [0.0, -0.25]).unwrap(), 4.0), [1.0, -1.0, 0.0]);
+        assert_eq!(place(&ObstacleTrajectory::conveyor([1.0, 0.0], [0.0, -0.25]).unwrap(), 4.0), [1.0, -1.0, 0.0]);
     }
 
     #[test]
-    fn a_course_from_a_later_time_on() {
+    fn a_trajectory_from_a_later_time_on() {
         let stops = vec![stop(1.0, 0.0, 0.0, 0.0), stop(3.0, 1.0, 2.0, 7.0)];
-        let course = Course::new(stops, Vector::new(0.5, 0.0)).unwrap();
+        let course = ObstacleTrajectory::new(stops, Vector::new(0.5, 0.0)).unwrap();
         for time in [0.0, 0.5, 1.0, 1.7, 3.0, 4.5] {
             let later = course.since(time);
             for since in [0.0, 0.3, 0.5, 1.0, 2.5, 9.0] {
@@ -317,8 +319,8 @@ mod tests {
     }
 
     #[test]
-    fn when_a_course_passes_a_point() {
-        let belt = Course::conveyor([1.0, -1.0], [0.0, 0.25]).unwrap();
+    fn times_at_which_a_trajectory_passes_a_point() {
+        let belt = ObstacleTrajectory::conveyor([1.0, -1.0], [0.0, 0.25]).unwrap();
         assert_eq!(belt.passes(Point::new(1.0, 0.0), 1e-3), [[4.0, 4.0]]);
         assert!(
             belt.passes(Point::new(1.0, -1.1), 1e-3).is_empty() && belt.passes(Point::new(1.1, 0.0), 1e-3).is_empty()
@@ -329,23 +331,23 @@ mod tests {
             stop(3.0, 1.0, 0.0, 0.0),
             stop(4.0, 0.0, 0.0, 0.0),
         ];
-        let there_and_back = Course::new(stops, Vector::zeros()).unwrap();
+        let there_and_back = ObstacleTrajectory::new(stops, Vector::zeros()).unwrap();
         assert_eq!(there_and_back.passes(Point::new(1.0, 0.0), 1e-3), [[2.0, 3.0]]);
         assert_eq!(there_and_back.passes(Point::new(0.5, 0.0), 1e-3), [[1.5, 1.5], [3.5, 3.5]]);
         assert_eq!(there_and_back.passes(Point::zeros(), 1e-3), [[0.0, 1.0], [4.0, f64::INFINITY]]);
     }
 
     #[test]
-    fn stops_that_make_no_course() {
-        let course = |stops: Vec<Stop>| Course::new(stops, Vector::zeros()).unwrap_err();
-        assert_eq!(course(vec![]), CourseError::Empty);
+    fn invalid_stops() {
+        let course = |stops: Vec<Stop>| ObstacleTrajectory::new(stops, Vector::zeros()).unwrap_err();
+        assert_eq!(course(vec![]), ObstacleTrajectoryError::Empty);
         assert_eq!(
             course(vec![stop(1.0, 0.0, 0.0, 0.0), stop(1.0, 1.0, 0.0, 0.0)]),
-            CourseError::Time { stop: 1, time: 1.0 }
+            ObstacleTrajectoryError::Time { stop: 1, time: 1.0 }
         );
-        assert_eq!(course(vec![stop(-1.0, 0.0, 0.0, 0.0)]), CourseError::Time { stop: 0, time: -1.0 });
-        assert_eq!(course(vec![stop(0.0, f64::NAN, 0.0, 0.0)]), CourseError::Place { stop: 0 });
-        assert!(Course::conveyor([0.0, 0.0], [f64::INFINITY, 0.0]).is_err());
+        assert_eq!(course(vec![stop(-1.0, 0.0, 0.0, 0.0)]), ObstacleTrajectoryError::Time { stop: 0, time: -1.0 });
+        assert_eq!(course(vec![stop(0.0, f64::NAN, 0.0, 0.0)]), ObstacleTrajectoryError::Place { stop: 0 });
+        assert!(ObstacleTrajectory::conveyor([0.0, 0.0], [f64::INFINITY, 0.0]).is_err());
     }
 
     proptest! {
@@ -362,7 +364,7 @@ mod tests {
                 time += lasts;
                 stop(time, *x, *y, *angle)
             });
-            let course = Course::new(stops.collect(), Vector::new(at[0][0], at[1][0])).unwrap();
+            let course = ObstacleTrajectory::new(stops.collect(), Vector::new(at[0][0], at[1][0])).unwrap();
             let drift = course.drift(from, from + lasts);
             let point = Point::from(point);
             let middle = drift.middle.point(point);

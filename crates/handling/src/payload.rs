@@ -3,7 +3,7 @@
 use super::{Object, Task, TimedWorkspace};
 use cplan_core::model::{Additions, Arm, AttachedPart, Attachment, Body, Grip, Heights, Scene};
 use cplan_dynamics::{joined, spread};
-use cplan_geometry::{Convex, Pose, drawn_in};
+use cplan_geometry::{Convex, Pose, inset_union};
 
 /// An object of a task while the arm carries it.
 #[derive(Debug, Clone, PartialEq)]
@@ -42,12 +42,12 @@ impl Payload {
             shape,
             number,
             on_supports,
-            is_evidence: !pieces[number].is_sliver(),
+            proves_collisions: !pieces[number].is_sliver(),
         };
         let mut parts: Vec<AttachedPart> =
             pieces.iter().enumerate().map(|(number, piece)| part(number, piece.clone(), false)).collect();
         if !self.supports.is_empty() {
-            let left = drawn_in(pieces, AT_MOST * Self::penetration_allowance(arm)).into_iter().enumerate();
+            let left = inset_union(pieces, AT_MOST * Self::penetration_allowance(arm)).into_iter().enumerate();
             parts.extend(left.flat_map(|(number, left)| left.into_iter().map(move |shape| part(number, shape, true))));
         }
         Attachment { name: name.clone(), heights, grip: self.grip, parts, supports: self.supports.clone() }
@@ -79,7 +79,7 @@ impl Task {
         touched: impl IntoIterator<Item = usize>,
     ) -> Scene {
         let allowed_contacts: Vec<usize> =
-            touched.into_iter().map(|object| self.number_among(moving, object)).collect();
+            touched.into_iter().map(|object| self.obstacle_number_among(moving, object)).collect();
         let payload = payload.map(|payload| (payload, self.objects[payload.object].carried_heights()));
         self.scene_of(self.arm.clone(), self.surroundings(poses, moving), payload, allowed_contacts)
     }

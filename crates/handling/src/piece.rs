@@ -235,7 +235,7 @@ mod tests {
         }
 
         #[test]
-        fn a_piece_stays_as_near_to_its_chord_as_its_bend_says(
+        fn the_bend_bounds_the_distance_from_the_chord(
             values in prop::array::uniform6(-3.0..3.0_f64), ends in (0.0..1.0_f64, 0.0..1.0_f64), at in 0.0..1.0_f64,
             degree in 0..3_usize,
         ) {

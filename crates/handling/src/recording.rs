@@ -7,10 +7,10 @@ use thiserror::Error;
 
 /// Limit on joint values, radians or metres: larger ones are no values of an arm, and doubles near the limit still
 /// resolve a nanometre.
-const LARGEST_VALUE: f64 = 1e6;
+const MAX_VALUE: f64 = 1e6;
 
 /// Limit on times and velocities: larger ones are a mistake. Seconds since 1970 are far below.
-const LARGEST_RATE: f64 = 1e12;
+const MAX_RATE: f64 = 1e12;
 
 /// A motion of both joints, given by samples and their [`Interpolation`]. Radians or metres, and seconds; values are
 /// not wrapped.
@@ -104,14 +104,14 @@ impl Recording {
         }
         for sample in 0..position.len() {
             let rates = velocity.as_ref().map(|v| v[sample]);
-            let numbers = [("position", Some(position[sample]), LARGEST_VALUE), ("velocity", rates, LARGEST_RATE)];
+            let numbers = [("position", Some(position[sample]), MAX_VALUE), ("velocity", rates, MAX_RATE)];
             for (what, row, limit) in numbers {
                 if let Some(&value) = row.iter().flatten().find(|v| outside(**v, limit)) {
                     return Err(RecordingError::Value { sample, what, value });
                 }
             }
             let Some(time) = &time else { continue };
-            if outside(time[sample], LARGEST_RATE) {
+            if outside(time[sample], MAX_RATE) {
                 return Err(RecordingError::Value { sample, what: "time", value: time[sample] });
             }
             if sample > 0 && time[sample] <= time[sample - 1] {
@@ -142,7 +142,7 @@ impl Recording {
             return Err(RecordingError::Count { positions, what: "accelerations", others });
         }
         for (sample, row) in acceleration.iter().enumerate() {
-            if let Some(&value) = row.iter().find(|value| outside(**value, LARGEST_RATE)) {
+            if let Some(&value) = row.iter().find(|value| outside(**value, MAX_RATE)) {
                 return Err(RecordingError::Value { sample, what: "acceleration", value });
             }
         }
@@ -316,7 +316,7 @@ mod tests {
     }
 
     #[test]
-    fn a_part_is_what_the_samples_say() {
+    fn parts_are_the_samples_of_the_range() {
         let at = |k: usize| q(k as f64, -(k as f64));
         let all = || (0..5).map(at).collect::<Vec<_>>();
         let times = vec![0.0, 1.0, 2.5, 3.0, 4.0];
@@ -332,7 +332,7 @@ mod tests {
     }
 
     #[test]
-    fn one_sample_stands_still() {
+    fn a_single_sample_does_not_move() {
         let still = Recording::new(vec![q(0.1, 0.2)], Some(vec![3.0]), Some(vec![q(0.0, 0.0)])).unwrap();
         assert_eq!(still.duration(), Some(0.0));
         let pieces = still.pieces();

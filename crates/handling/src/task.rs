@@ -1,6 +1,6 @@
 //! Tasks: objects, and the steps to execute with them.
 
-use super::{Course, Mover, Payload, Stroke, TimedWorkspace};
+use super::{MovingObstacle, ObstacleTrajectory, Payload, Stroke, TimedWorkspace};
 use cplan_core::model::{Arm, Goal, Heights, Obstacle, Shape};
 use cplan_core::space::Configuration;
 use cplan_geometry::{Convex, Interval, Point, Pose};
@@ -38,7 +38,7 @@ pub struct Object {
     pub at: Pose,
     /// Motion from the initial pose until it is picked, if it moves.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub course: Option<Course>,
+    pub course: Option<ObstacleTrajectory>,
     /// Mass in kilograms.
     #[serde(default)]
     pub mass: f64,
@@ -155,7 +155,9 @@ impl Task {
     #[must_use]
     pub fn obstacles(&self, poses: &[Option<Pose>]) -> TimedWorkspace {
         let mut workspace = self.workspace.clone();
-        workspace.obstacles.extend(self.objects.iter().zip(poses).map(|(object, pose)| object.lying(pose.as_ref())));
+        workspace
+            .obstacles
+            .extend(self.objects.iter().zip(poses).map(|(object, pose)| object.obstacle_at(pose.as_ref())));
         workspace
     }
 
@@ -169,47 +171,47 @@ impl Task {
 
     /// Returns the trajectories of the moving obstacles of [`Task::surroundings`], on the clock of the task.
     #[must_use]
-    pub fn courses(&self, moving: &[usize]) -> Vec<Course> {
+    pub fn courses(&self, moving: &[usize]) -> Vec<ObstacleTrajectory> {
         let objects = moving.iter().filter_map(|&object| self.objects[object].course.clone());
         self.workspace.courses().into_iter().chain(objects).collect()
     }
 
     /// Returns the same on a clock that begins at a time of the task's.
     #[must_use]
-    pub fn courses_since(&self, moving: &[usize], begin: f64) -> Vec<Course> {
+    pub fn courses_since(&self, moving: &[usize], begin: f64) -> Vec<ObstacleTrajectory> {
         self.courses(moving).iter().map(|course| course.since(begin)).collect()
     }
 
     /// Returns the same for the objects that move initially.
     #[must_use]
-    pub fn courses_at_first(&self) -> Vec<Course> {
-        self.courses(&self.moving_at_first().collect::<Vec<_>>())
+    pub fn courses_at_first(&self) -> Vec<ObstacleTrajectory> {
+        self.courses(&self.initially_moving().collect::<Vec<_>>())
     }
 
     /// Returns the number of an object as an obstacle while `moving` objects move.
     #[must_use]
-    pub fn number_among(&self, moving: &[usize], object: usize) -> usize {
+    pub fn obstacle_number_among(&self, moving: &[usize], object: usize) -> usize {
         let standing = self.obstacle_number(self.objects.len()) + self.workspace.movers.len();
         let place = moving.iter().position(|&other| other == object);
         place.map_or_else(|| self.obstacle_number(object), |place| standing + place)
     }
 
     /// Iterates over the objects that move initially, in order.
-    pub fn moving_at_first(&self) -> impl Iterator<Item = usize> {
+    pub fn initially_moving(&self) -> impl Iterator<Item = usize> {
         self.objects.iter().enumerate().filter(|(_, object)| object.course.is_some()).map(|(number, _)| number)
     }
 
     /// Returns true if there are moving obstacles or moving objects.
     #[must_use]
-    pub fn has_movers(&self) -> bool {
-        !self.workspace.movers.is_empty() || self.moving_at_first().next().is_some()
+    pub fn has_moving_obstacles(&self) -> bool {
+        !self.workspace.movers.is_empty() || self.initially_moving().next().is_some()
     }
 
     /// Restricts the shapes of obstacles and objects to the convex pieces that are judged. This is for tasks that are
     /// read as data.
-    pub fn hold_shapes(&mut self) {
-        self.workspace.hold_shapes();
-        self.objects.iter_mut().for_each(|object| object.shape.hold_to(&object.pieces));
+    pub fn restrict_shapes(&mut self) {
+        self.workspace.restrict_shapes();
+        self.objects.iter_mut().for_each(|object| object.shape.restrict_to(&object.pieces));
     }
 
     /// Iterates over all steps. Those of a group in any order come in the order of the file.
@@ -225,7 +227,7 @@ impl Task {
 impl Object {
     /// Returns the object as an obstacle at `pose`. Without a pose, the obstacle has no pieces.
     #[must_use]
-    pub fn lying(&self, pose: Option<&Pose>) -> Obstacle {
+    pub fn obstacle_at(&self, pose: Option<&Pose>) -> Obstacle {
         let (shape, pieces) = match pose {
             Some(pose) => (self.shape.at(pose), self.pieces.iter().map(|piece| piece.at(pose)).collect()),
             None => (Shape::Pieces, Vec::new()),
@@ -235,18 +237,18 @@ impl Object {
 
     /// Returns its initial pose. Returns `None` if it moves.
     #[must_use]
-    pub fn standing_at_first(&self) -> Option<Pose> {
+    pub fn initial_static_pose(&self) -> Option<Pose> {
         self.course.is_none().then_some(self.at)
     }
 
     /// Returns the object as a moving obstacle, if it moves.
     #[must_use]
-    pub fn moving(&self) -> Option<Mover> {
+    pub fn moving(&self) -> Option<MovingObstacle> {
         let obstacle = || {
             let (shape, pieces) = (self.shape.clone(), self.pieces.clone());
             Obstacle { name: self.name.clone(), shape, pieces, heights: self.heights }
         };
-        self.course.clone().map(|course| Mover { obstacle: obstacle(), course })
+        self.course.clone().map(|course| MovingObstacle { obstacle: obstacle(), course })
     }
 
     /// Returns its extent along the plane's normal over all heights from where it lies to where it is carried.

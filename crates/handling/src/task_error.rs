@@ -1,14 +1,14 @@
 //! Checks that an arm, objects and steps form a task.
 
-use super::{Action, Holding, Item, LATEST, Object, Step, Stroke, Task, TimedScene};
+use super::{Action, Holding, Item, MAX_STOP_TIME, Object, Step, Stroke, Task, TimedScene};
 use cplan_core::model::{
-    Goal, LARGEST, MotionProblem, MotionProblemError, Scene, SceneError, are_small, is_pose, is_small,
+    Goal, MAX_COORDINATE, MotionProblem, MotionProblemError, Scene, SceneError, are_small, is_pose, is_small,
 };
 use std::collections::BTreeSet;
 use std::f64::consts::TAU;
 
 /// Limit on the duration of any part of a task, seconds; same as for motions.
-const LONGEST: f64 = 1e6;
+const MAX_PART_DURATION: f64 = 1e6;
 
 /// Reason why an arm, objects and steps do not form a task.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -70,8 +70,8 @@ impl Task {
     /// Returns the first problem, such as invalid numbers, a start that is not free, picks of missing objects, or
     /// places without a load; see [`TaskError`].
     pub fn check(&self) -> Result<Scene, TaskError> {
-        let at_first: Vec<_> = self.objects.iter().map(Object::standing_at_first).collect();
-        let moving: Vec<usize> = self.moving_at_first().collect();
+        let at_first: Vec<_> = self.objects.iter().map(Object::initial_static_pose).collect();
+        let moving: Vec<usize> = self.initially_moving().collect();
         self.objects.iter().try_for_each(check_object)?;
         let scene = self.surroundings(&at_first, &moving).scene(self.arm.clone())?;
         if let Some((mover, why)) = self.unmoved() {
@@ -123,7 +123,10 @@ impl Task {
         let wrist = self.wrist.iter().map(|wrist| (wrist.velocity, wrist.acceleration, TAU));
         let farthest = |stroke: &Stroke| self.objects.iter().map(|object| stroke.depth(object)).fold(0.0, f64::max);
         let stroke = self.stroke.iter().map(|stroke| (stroke.velocity, stroke.acceleration, farthest(stroke)));
-        let why = if !wrist.chain(stroke).all(|(velocity, acceleration, way)| is_drive(velocity, acceleration, way)) {
+        let why = if !wrist
+            .chain(stroke)
+            .all(|(velocity, acceleration, distance)| is_drive(velocity, acceleration, distance))
+        {
             "speeds and accelerations must be positive, finite, and large enough for at most a million seconds"
         } else if self.stroke.iter().any(|s| !s.joint.is_sound() || s.joint.range.is_circle()) {
             "its joint needs a sign of 1 or -1, a range, and a rest value within the range"
@@ -139,9 +142,9 @@ impl Task {
 }
 
 /// Returns true if a distance takes a finite, plausible time at these limits.
-fn is_drive(velocity: f64, acceleration: f64, way: f64) -> bool {
+fn is_drive(velocity: f64, acceleration: f64, distance: f64) -> bool {
     let is_limit = |limit: f64| limit.is_finite() && limit > 0.0;
-    is_limit(velocity) && is_limit(acceleration) && way / velocity + velocity / acceleration <= LONGEST
+    is_limit(velocity) && is_limit(acceleration) && distance / velocity + velocity / acceleration <= MAX_PART_DURATION
 }
 
 fn angle_at_first(object: &Object) -> f64 {
@@ -151,9 +154,9 @@ fn angle_at_first(object: &Object) -> f64 {
 fn check_object(object: &Object) -> Result<(), TaskError> {
     let why = if !is_pose(&object.at) {
         "its pose must be finite"
-    } else if !(0.0..=LARGEST).contains(&object.lift) {
+    } else if !(0.0..=MAX_COORDINATE).contains(&object.lift) {
         "its lift must be from 0 to 1e15 m"
-    } else if !(0.0..=LARGEST).contains(&object.mass) {
+    } else if !(0.0..=MAX_COORDINATE).contains(&object.mass) {
         "its mass must be from 0 to 1e15 kg"
     } else if !object.pieces.iter().all(is_small) {
         "it is larger than 1e15 m"
@@ -205,7 +208,7 @@ impl Gripper<'_> {
         if step.number == 0 || step.cycle == 0 {
             return Err(wrong(step, "numbers begin with 1"));
         }
-        if !(step.speed > 0.0 && step.speed <= 1.0 && (0.0..=LONGEST).contains(&step.dwell)) {
+        if !(step.speed > 0.0 && step.speed <= 1.0 && (0.0..=MAX_PART_DURATION).contains(&step.dwell)) {
             return Err(wrong(
                 step,
                 "its speed must be greater than 0 and at most 1, and its dwell from 0 to a million seconds",
@@ -221,7 +224,8 @@ impl Gripper<'_> {
                 }
                 let is_first = self.task.objects[*object].course.is_some() && self.picked.insert(*object);
                 let mut ends = when.iter().flatten();
-                let is_timely = is_first && ends.clone().is_sorted() && ends.all(|end| (0.0..=LATEST).contains(end));
+                let is_timely =
+                    is_first && ends.clone().is_sorted() && ends.all(|end| (0.0..=MAX_STOP_TIME).contains(end));
                 if !when.is_empty() && !is_timely {
                     return Err(wrong(
                         step,

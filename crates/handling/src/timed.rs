@@ -1,6 +1,6 @@
 //! Workspaces and scenes whose obstacles move in time.
 
-use super::{Course, Mover};
+use super::{MovingObstacle, ObstacleTrajectory};
 use cplan_core::model::{Additions, Arm, Obstacle, Obstruction, Pair, Preference, Scene, SceneError, Workspace};
 use cplan_core::space::Configuration;
 use cplan_geometry::Pose;
@@ -20,7 +20,7 @@ pub struct TimedWorkspace {
     pub preferences: Vec<Preference>,
     /// Moving obstacles.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub movers: Vec<Mover>,
+    pub movers: Vec<MovingObstacle>,
 }
 
 impl From<Workspace> for TimedWorkspace {
@@ -34,7 +34,7 @@ impl TimedWorkspace {
     #[must_use]
     pub fn into_parts(self) -> (Workspace, Additions) {
         let Self { name, obstacles, clearance, preferences, movers } = self;
-        let loose = movers.iter().map(Mover::loose).collect();
+        let loose = movers.iter().map(MovingObstacle::loose).collect();
         (Workspace { name, obstacles, clearance, preferences }, Additions { loose, ..Additions::default() })
     }
 
@@ -57,7 +57,7 @@ impl TimedWorkspace {
 
     /// Returns the trajectories of the moving obstacles.
     #[must_use]
-    pub fn courses(&self) -> Vec<Course> {
+    pub fn courses(&self) -> Vec<ObstacleTrajectory> {
         self.movers.iter().map(|mover| mover.course.clone()).collect()
     }
 
@@ -68,7 +68,7 @@ impl TimedWorkspace {
     }
 
     /// Makes the displayed shapes agree with the pieces that are judged. For workspaces that are read as data.
-    pub fn hold_shapes(&mut self) {
+    pub fn restrict_shapes(&mut self) {
         let moving = self.movers.iter_mut().map(|mover| &mut mover.obstacle);
         self.obstacles.iter_mut().chain(moving).for_each(Obstacle::hold_shape);
     }
@@ -80,7 +80,7 @@ pub struct TimedScene<'a> {
     /// The scene.
     pub scene: &'a Scene,
     /// The trajectory of each loose obstacle. If there are none, loose obstacles are ignored.
-    pub courses: &'a [Course],
+    pub courses: &'a [ObstacleTrajectory],
 }
 
 impl<'a> From<&'a Scene> for TimedScene<'a> {
@@ -98,7 +98,7 @@ impl<'a> TimedScene<'a> {
 
     /// Returns the trajectory of a pair's obstacle, if it moves.
     #[must_use]
-    pub fn course(self, pair: Pair) -> Option<&'a Course> {
+    pub fn course(self, pair: Pair) -> Option<&'a ObstacleTrajectory> {
         self.courses.get(self.scene.loose_index(pair)?)
     }
 

@@ -1,6 +1,6 @@
 //! The curve along the gradient of a field, between the cells.
 //!
-//! [`follow`] works with any [`Guide`]: the harmonic potential ([`Uphill`](crate::Uphill)), a relaxed field, or forces.
+//! [`follow`] works with any [`Guide`]: the harmonic potential ([`PotentialGuide`](crate::PotentialGuide)), a relaxed field, or forces.
 //! A guide returns the direction at the centres of free cells: the gradient of the logarithm, by central differences.
 //! `follow` interpolates bilinearly and integrates with the fourth-order Runge-Kutta method, in steps of a fifth of a
 //! cell.
@@ -18,15 +18,15 @@ pub type LatticePoint = [f64; 2];
 
 /// Length of a step, in cells. The direction, interpolated between centres, changes little within a step, and the error
 /// of the integrator is far below that of the field.
-pub const STEP: f64 = 0.2;
+pub const STEP_LENGTH: f64 = 0.2;
 
 /// Number of steps within which the curve must reach a better cell: about four cells.
-const WINDOW: usize = 20;
+const PROGRESS_WINDOW: usize = 20;
 
 /// A field on the cells of a lattice, given by the direction to follow.
 pub trait Guide {
     /// Reasons why a curve ends without reaching a goal.
-    type Stuck;
+    type DeadEnd;
 
     /// Returns the gradient at the centre of a cell, per cell along each axis, in any unit. Returns `None` for cells
     /// that are not free and for goals.
@@ -44,13 +44,13 @@ pub trait Guide {
     ///
     /// # Errors
     /// The reason why no such cells exist.
-    fn onward(&mut self, from: Place) -> Result<Vec<Place>, Self::Stuck>;
+    fn onward(&mut self, from: Place) -> Result<Vec<Place>, Self::DeadEnd>;
 }
 
 /// A curve along a field, and the goal that it reaches.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Streamline {
-    /// Points from the given one to one in the goal's cell. Neighbours are at most [`STEP`] apart, except where the
+    /// Points from the given one to one in the goal's cell. Neighbours are at most [`STEP_LENGTH`] apart, except where the
     /// field has no direction.
     pub points: Vec<LatticePoint>,
     /// Cell of the goal.
@@ -61,22 +61,22 @@ pub struct Streamline {
 /// lengths `sides`. Takes a few microseconds per cell.
 ///
 /// The gradient is interpolated bilinearly between the centres of free cells, and integrated by the classical
-/// fourth-order Runge-Kutta method in steps of [`STEP`].
+/// fourth-order Runge-Kutta method in steps of [`STEP_LENGTH`].
 ///
 /// Along walls, only the free centres count, which leads the curve away from the walls. A step that would still leave
 /// the free cells slides along their sides. Where the curve makes no progress (at a saddle, or in a narrow bend), it
 /// moves to a better cell by [`Guide::onward`]. So the curve stays in free cells, and ends where the guide's cells do.
 ///
 /// # Errors
-/// [`Guide::Stuck`] if the guide has no further cells.
-pub fn follow<G: Guide>(guide: &mut G, sides: [f64; 2], from: LatticePoint) -> Result<Streamline, G::Stuck> {
+/// [`Guide::DeadEnd`] if the guide has no further cells.
+pub fn follow<G: Guide>(guide: &mut G, sides: [f64; 2], from: LatticePoint) -> Result<Streamline, G::DeadEnd> {
     let mut points = vec![from];
     // The best cell so far, and the number of points on reaching it.
     let mut best = (nearest(from), 1);
     let mut square = Square::new(sides);
     loop {
         checkpoint();
-        for _ in 0..WINDOW {
+        for _ in 0..PROGRESS_WINDOW {
             let at = points[points.len() - 1];
             if guide.is_goal(nearest(at)) {
                 return Ok(Streamline { points, place: nearest(at) });
@@ -103,7 +103,7 @@ pub fn direction<G: Guide>(guide: &G, sides: [f64; 2], at: LatticePoint) -> Opti
     Square::new(sides).direction(guide, at)
 }
 
-/// Advances along a field by the given number of [`STEP`]s, for callers whose field changes at the next moment. Does
+/// Advances along a field by the given number of [`STEP_LENGTH`]s, for callers whose field changes at the next moment. Does
 /// not check for progress.
 ///
 /// The point stays in free cells. It stops early in a goal's cell, or if no step stays in free cells.
@@ -168,11 +168,11 @@ impl Square {
         let moved = |d: [f64; 2], by: f64| [0, 1].map(|k| at[k] + by * d[k]);
         let a = self.direction(guide, at)?;
         // Beyond the free cells there may be no direction; keep the previous one.
-        let b = self.direction(guide, moved(a, STEP / 2.0)).unwrap_or(a);
-        let c = self.direction(guide, moved(b, STEP / 2.0)).unwrap_or(b);
-        let d = self.direction(guide, moved(c, STEP)).unwrap_or(c);
+        let b = self.direction(guide, moved(a, STEP_LENGTH / 2.0)).unwrap_or(a);
+        let c = self.direction(guide, moved(b, STEP_LENGTH / 2.0)).unwrap_or(b);
+        let d = self.direction(guide, moved(c, STEP_LENGTH)).unwrap_or(c);
         let mean = [0, 1].map(|k| (a[k] + 2.0 * b[k] + 2.0 * c[k] + d[k]) / 6.0);
-        let next = moved(mean, STEP);
+        let next = moved(mean, STEP_LENGTH);
         let stays = |to: LatticePoint| {
             let (here, there) = (nearest(at), nearest(to));
             let beside = |place: Place| guide.slope(place).is_some() || guide.is_goal(place);

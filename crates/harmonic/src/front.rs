@@ -5,7 +5,7 @@ use std::collections::BinaryHeap;
 
 /// Positions ordered by key, then by number, so that the order is deterministic.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Front {
+pub(super) struct KeyQueue {
     heap: BinaryHeap<Reverse<(Key, u32)>>,
 }
 
@@ -33,7 +33,7 @@ impl PartialEq for Key {
 
 impl Eq for Key {}
 
-impl Front {
+impl KeyQueue {
     /// Adds a position. `O(log n)`.
     pub fn push(&mut self, key: f64, position: u32) {
         self.heap.push(Reverse((Key(key), position)));
@@ -61,7 +61,7 @@ mod tests {
 
     #[test]
     fn least_first_then_the_least_position() {
-        let mut front = Front::default();
+        let mut front = KeyQueue::default();
         [(2.0, 0), (1.0, 7), (f64::INFINITY, 1), (1.0, 3)].into_iter().for_each(|(key, at)| front.push(key, at));
         let order = std::iter::from_fn(|| front.peek().inspect(|_| front.pop())).collect::<Vec<_>>();
         assert_eq!(order, [(1.0, 3), (1.0, 7), (2.0, 0), (f64::INFINITY, 1)]);

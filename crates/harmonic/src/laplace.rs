@@ -23,7 +23,7 @@ pub struct Field {
 ///
 /// Each step of a walk to the goal lowers the value by this fraction, which is less than a millionth for ten million
 /// steps.
-pub(super) const LOSS: f64 = f64::EPSILON * 512.0;
+pub(super) const WALK_LOSS: f64 = f64::EPSILON * 512.0;
 
 /// Computes the harmonic potential on a component, in relative precision at any distance. Values may be `1e-50000`.
 ///
@@ -36,21 +36,21 @@ pub(super) const LOSS: f64 = f64::EPSILON * 512.0;
 /// [`Multigrid`](cplan_multigrid::Multigrid).
 #[must_use]
 pub fn harmonic(component: &Component) -> Field {
-    let Peeling { potential, windows, .. } = Peeling::new(component, LOSS).run();
+    let Peeling { potential, windows, .. } = Peeling::new(component, WALK_LOSS).run();
     Field { potential, windows }
 }
 
 /// Returns the positions from `from` to a goal by steepest ascent of [`harmonic`]. Solves only the part that the ascent
 /// needs, so it takes less time near the goal.
 #[must_use]
-pub fn harmonic_way(component: &Component, from: usize) -> Option<Vec<usize>> {
-    Peeling::new(component, LOSS).run_to(from).potential.ascend(component, from)
+pub fn harmonic_path(component: &Component, from: usize) -> Option<Vec<usize>> {
+    Peeling::new(component, WALK_LOSS).run_to(from).potential.ascend(component, from)
 }
 
 /// Estimates [`harmonic`] in a fraction of the time: a positive potential that falls with the steps from the goal,
 /// faster in narrow places. For pictures of the cells from which the goal is reachable.
 #[must_use]
-pub fn rough_harmonic(component: &Component) -> Potential {
+pub fn estimated_harmonic(component: &Component) -> Potential {
     let clearance = component.room().clearance;
     let mut log2 = vec![0.0; component.len()];
     for i in component.goals..component.len() {
@@ -73,7 +73,7 @@ pub fn residual(component: &Component, potential: &Potential) -> f64 {
     let mut worst = 0.0_f64;
     for i in component.goals..component.len() {
         let at = potential.at(i);
-        let mut sum = -LOSS * at.mantissa;
+        let mut sum = -WALK_LOSS * at.mantissa;
         for n in component.neighbors(i) {
             let value = if n == component.wall() { 0.0 } else { potential.at(n).mantissa_at(at.exponent) };
             sum += value - at.mantissa;

@@ -6,9 +6,9 @@ use cplan_interrupt::checkpoint;
 pub const UNREACHED: u32 = u32::MAX;
 
 /// Label of a [`Site::Twin`].
-const TWIN: u32 = u32::MAX - 1;
+const TWIN_LABEL: u32 = u32::MAX - 1;
 /// Label of a [`Site::Wall`].
-const WALL: u32 = u32::MAX - 2;
+const WALL_LABEL: u32 = u32::MAX - 2;
 
 /// Kind of a place. One byte each, because a map of them is kept and copied for every wave.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -56,7 +56,10 @@ impl Lattice {
         let [rows, columns] = cells;
         assert_eq!(blocked.len(), rows * columns, "one flag a cell");
         let stride = columns + 2;
-        assert!((rows + 2).saturating_mul(stride) < WALL as usize, "the grid has too many cells for 32-bit labels");
+        assert!(
+            (rows + 2).saturating_mul(stride) < WALL_LABEL as usize,
+            "the grid has too many cells for 32-bit labels"
+        );
         let mut sites = vec![Site::Wall; (rows + 2) * stride];
         for (line, blocked) in sites.chunks_exact_mut(stride).skip(1).zip(blocked.chunks_exact(columns.max(1))) {
             for (cell, &blocked) in line[1..].iter_mut().zip(blocked) {
@@ -138,8 +141,8 @@ impl Lattice {
     pub fn wave(&self, sources: &[usize]) -> Wave {
         let label = |site: &Site| match site {
             Site::Free => UNREACHED,
-            Site::Twin => TWIN,
-            Site::Wall => WALL,
+            Site::Twin => TWIN_LABEL,
+            Site::Wall => WALL_LABEL,
         };
         let mut labels: Vec<u32> = self.sites.iter().map(label).collect();
         let mut order: Vec<u32> = Vec::with_capacity(self.cells[0] * self.cells[1]);
@@ -160,8 +163,8 @@ impl Lattice {
             for at in begin..end {
                 for next in self.around(order[at] as usize) {
                     // One comparison rejects both walls and labelled cells.
-                    if labels[next] >= TWIN {
-                        let next = if labels[next] == TWIN { self.other_side(next) } else { next };
+                    if labels[next] >= TWIN_LABEL {
+                        let next = if labels[next] == TWIN_LABEL { self.other_side(next) } else { next };
                         if labels[next] == UNREACHED {
                             labels[next] = levels as u32;
                             order.push(next as u32);
@@ -186,7 +189,7 @@ impl Wave {
     #[must_use]
     pub fn label(&self, lattice: &Lattice, index: usize) -> u32 {
         match self.labels[lattice.framed(index)] {
-            WALL.. => UNREACHED,
+            WALL_LABEL.. => UNREACHED,
             label => label,
         }
     }
@@ -197,7 +200,7 @@ impl Wave {
         let [rows, columns] = lattice.cells;
         let mut labels = Vec::with_capacity(rows * columns);
         for line in self.labels.chunks_exact(lattice.stride).skip(1).take(rows) {
-            labels.extend(line[1..=columns].iter().map(|&label| if label >= WALL { UNREACHED } else { label }));
+            labels.extend(line[1..=columns].iter().map(|&label| if label >= WALL_LABEL { UNREACHED } else { label }));
         }
         labels
     }
@@ -208,7 +211,7 @@ impl Wave {
     pub fn descend(&self, lattice: &Lattice, index: usize) -> Option<Vec<usize>> {
         let mut at = lattice.framed(index);
         let mut label = self.labels[at];
-        if label >= WALL {
+        if label >= WALL_LABEL {
             return None;
         }
         let mut cells = vec![index];

@@ -12,7 +12,7 @@
 //! `1e-50000`.
 //!
 //! ```
-//! use cplan_harmonic::{Component, Lattice, Uphill, follow, harmonic};
+//! use cplan_harmonic::{Component, Lattice, PotentialGuide, follow, harmonic};
 //!
 //! // A corridor of 3000 cells with a bend, one cell wide: `true` is wall.
 //! let (rows, columns) = (2, 1500);
@@ -36,7 +36,7 @@
 //!     let inside = (0..=rows as i64).contains(&i) && (0..columns as i64).contains(&j);
 //!     inside.then(|| component.position_of(i as usize * columns + j as usize))?
 //! };
-//! let curve = follow(&mut Uphill::new(&component, &field.potential, at), [1.0, 1.0], [2.0, 0.0]).unwrap();
+//! let curve = follow(&mut PotentialGuide::new(&component, &field.potential, at), [1.0, 1.0], [2.0, 0.0]).unwrap();
 //! assert_eq!(curve.place, [0, 0]);
 //! ```
 //!
@@ -85,8 +85,8 @@ mod streamline;
 mod wide;
 
 pub use component::{Component, Room};
-pub use follow::{Guide, LatticePoint, Place, STEP, Streamline, advance, direction, follow};
-pub use laplace::{Field, harmonic, harmonic_way, residual, rough_harmonic};
+pub use follow::{Guide, LatticePoint, Place, STEP_LENGTH, Streamline, advance, direction, follow};
+pub use laplace::{Field, estimated_harmonic, harmonic, harmonic_path, residual};
 pub use lattice::{Lattice, UNREACHED, Wave};
 pub use potential::Potential;
-pub use streamline::{LocalMaximum, Uphill};
+pub use streamline::{LocalMaximum, PotentialGuide};

@@ -4,14 +4,14 @@ use cplan_interrupt::checkpoint;
 use std::collections::VecDeque;
 
 /// Marks a missing link or node.
-const NONE: u32 = u32::MAX;
+const NO_LINK: u32 = u32::MAX;
 
 /// Number of right-hand sides solved together.
-pub(super) const SIDES: usize = 2;
+pub(super) const RIGHT_SIDES: usize = 2;
 
 /// If the node with the fewest links has at least one link for this many remaining nodes, the rest is solved as a dense
 /// matrix.
-const FULL: usize = 4;
+const DENSE_RATIO: usize = 4;
 
 /// Unknowns, each with `(ground + sum of weights) u = source + sum of weight * neighbour's u`: the potential in a
 /// network of conductances, in which `ground` leads to known potentials.
@@ -26,7 +26,7 @@ pub(super) struct Network {
     first: Vec<u32>,
     degree: Vec<u32>,
     ground: Vec<f64>,
-    source: Vec<[f64; SIDES]>,
+    source: Vec<[f64; RIGHT_SIDES]>,
     links: Vec<Link>,
     /// First unused link.
     spare: u32,
@@ -43,17 +43,17 @@ impl Network {
     /// Creates nodes without links.
     pub fn new(nodes: usize) -> Self {
         Self {
-            first: vec![NONE; nodes],
+            first: vec![NO_LINK; nodes],
             degree: vec![0; nodes],
             ground: vec![0.0; nodes],
-            source: vec![[0.0; SIDES]; nodes],
+            source: vec![[0.0; RIGHT_SIDES]; nodes],
             links: Vec::with_capacity(4 * nodes),
-            spare: NONE,
+            spare: NO_LINK,
         }
     }
 
     /// Joins a node to known potentials, with the given `weight` to potential 0 and `source` as weighted potentials.
-    pub fn ground(&mut self, node: usize, weight: f64, source: [f64; SIDES]) {
+    pub fn ground(&mut self, node: usize, weight: f64, source: [f64; RIGHT_SIDES]) {
         self.ground[node] += weight;
         for (sum, source) in self.source[node].iter_mut().zip(source) {
             *sum += weight * source;
@@ -63,7 +63,7 @@ impl Network {
     /// Adds a link in one direction between two different nodes. The opposite direction is another link.
     pub fn join(&mut self, node: usize, to: usize, weight: f64) {
         let mut at = self.first[node];
-        while at != NONE {
+        while at != NO_LINK {
             let link = &mut self.links[at as usize];
             if link.to as usize == to {
                 link.weight += weight;
@@ -77,7 +77,7 @@ impl Network {
     fn add(&mut self, node: usize, to: u32, weight: f64) {
         let link = Link { to, next: self.first[node], weight };
         let at = self.spare;
-        if at == NONE {
+        if at == NO_LINK {
             self.first[node] = self.links.len() as u32;
             self.links.push(link);
         } else {
@@ -90,15 +90,15 @@ impl Network {
 
     /// Returns the unknowns. Nodes are eliminated in order of least degree, which costs a constant time per node in
     /// trees and corridors. [`super::peeling`] gives wide rooms to another solver.
-    pub fn solve(mut self) -> Vec<[f64; SIDES]> {
+    pub fn solve(mut self) -> Vec<[f64; RIGHT_SIDES]> {
         let order = self.eliminate();
-        let mut solution = vec![[0.0; SIDES]; self.first.len()];
+        let mut solution = vec![[0.0; RIGHT_SIDES]; self.first.len()];
         self.solve_rest(&order, &mut solution);
         for &node in order.iter().rev() {
             let node = node as usize;
             let mut value = self.source[node];
             let mut at = self.first[node];
-            while at != NONE {
+            while at != NO_LINK {
                 let link = self.links[at as usize];
                 for (value, other) in value.iter_mut().zip(solution[link.to as usize]) {
                     *value += link.weight * other;
@@ -112,18 +112,18 @@ impl Network {
     }
 
     /// Solves for the remaining nodes, whose links form a dense matrix.
-    fn solve_rest(&self, order: &[u32], solution: &mut [[f64; SIDES]]) {
+    fn solve_rest(&self, order: &[u32], solution: &mut [[f64; RIGHT_SIDES]]) {
         let mut number = vec![0; self.first.len()];
-        order.iter().for_each(|&node| number[node as usize] = NONE);
-        let rest: Vec<usize> = (0..number.len()).filter(|&node| number[node] != NONE).collect();
+        order.iter().for_each(|&node| number[node as usize] = NO_LINK);
+        let rest: Vec<usize> = (0..number.len()).filter(|&node| number[node] != NO_LINK).collect();
         rest.iter().enumerate().for_each(|(k, &node)| number[node] = k as u32);
         let n = rest.len();
         // Rows of weights. The last columns are ground and sources.
-        let width = n + 1 + SIDES;
+        let width = n + 1 + RIGHT_SIDES;
         let mut rows = vec![0.0; n * width];
         for (row, &node) in rows.chunks_exact_mut(width).zip(&rest) {
             let mut at = self.first[node];
-            while at != NONE {
+            while at != NO_LINK {
                 let link = self.links[at as usize];
                 row[number[link.to as usize] as usize] = link.weight;
                 at = link.next;
@@ -168,10 +168,10 @@ impl Network {
         for node in 0..nodes {
             enqueue(&mut waiting, self.degree[node] as usize, node as u32);
         }
-        let mut slot = vec![NONE; nodes];
+        let mut slot = vec![NO_LINK; nodes];
         let mut around: Vec<(u32, f64)> = Vec::new();
         let mut least = 0;
-        while order.len() < nodes && nodes - order.len() > FULL * least {
+        while order.len() < nodes && nodes - order.len() > DENSE_RATIO * least {
             let Some(node) = waiting[least].pop_front() else {
                 least += 1;
                 continue;
@@ -186,7 +186,7 @@ impl Network {
             around.clear();
             let mut pivot = self.ground[i];
             let mut at = self.first[i];
-            while at != NONE {
+            while at != NO_LINK {
                 let Link { to, next, weight } = self.links[at as usize];
                 around.push((to, weight));
                 pivot += weight;
@@ -204,14 +204,14 @@ impl Network {
                 self.unlink(j, node, &mut slot);
                 for &(other, weight) in around.iter().filter(|other| other.0 != to) {
                     match slot[other as usize] {
-                        NONE => self.add(j, other, share * weight),
+                        NO_LINK => self.add(j, other, share * weight),
                         at => self.links[at as usize].weight += share * weight,
                     }
                 }
                 let mut at = self.first[j];
-                while at != NONE {
+                while at != NO_LINK {
                     let link = self.links[at as usize];
-                    slot[link.to as usize] = NONE;
+                    slot[link.to as usize] = NO_LINK;
                     at = link.next;
                 }
                 let degree = self.degree[j] as usize;
@@ -224,12 +224,12 @@ impl Network {
 
     /// Removes the link from `node` to `gone`, and records the places of its other links in `slot`.
     fn unlink(&mut self, node: usize, gone: u32, slot: &mut [u32]) {
-        let (mut before, mut at) = (NONE, self.first[node]);
-        while at != NONE {
+        let (mut before, mut at) = (NO_LINK, self.first[node]);
+        while at != NO_LINK {
             let Link { to, next, .. } = self.links[at as usize];
             if to == gone {
                 match before {
-                    NONE => self.first[node] = next,
+                    NO_LINK => self.first[node] = next,
                     before => self.links[before as usize].next = next,
                 }
                 self.links[at as usize].next = self.spare;

@@ -13,42 +13,42 @@
 //! no path is long, the first window covers everything and is usually the last.
 
 use super::extent::Bounds;
-use super::front::Front;
+use super::front::KeyQueue;
 use super::laplace::decay;
-use super::network::{Network, SIDES};
-use super::potential::Scaled;
-use super::wide::Wide;
+use super::network::{Network, RIGHT_SIDES};
+use super::potential::ScaledNumber;
+use super::wide::WideSystem;
 use super::{Component, Potential};
 use cplan_interrupt::checkpoint;
 use std::f64::consts::LN_2;
 
 /// Number of a cell that is in no window.
-const NONE: u32 = u32::MAX;
+const NO_WINDOW: u32 = u32::MAX;
 
 /// Estimated depth of a window, as the fall of the potential in nepers (natural logarithm).
-const DEPTH: f64 = 64.0;
+const WINDOW_DEPTH: f64 = 64.0;
 
 /// A value is accepted if the missing part is at most this fraction of it.
-const NEGLIGIBLE: f64 = f64::EPSILON / 4.0;
+const NEGLIGIBLE_SHARE: f64 = f64::EPSILON / 4.0;
 
 /// Values below this fraction of the greatest are postponed to a later window, in which they are large. Far above the least
 /// double.
-const SMALLEST: f64 = 1e-200;
+const MIN_VALUE_SHARE: f64 = 1e-200;
 
 /// A window without more room than this is eliminated: a maze.
-const NARROW: u32 = 3;
+const MAX_MAZE_ROOM: u32 = 3;
 /// A corridor is also eliminated up to this room. The factor fills with the square of the width.
-const MEDIUM: u32 = 12;
+const MAX_CORRIDOR_ROOM: u32 = 12;
 /// Largest number of cells for which a window always counts as a corridor.
-const SMALL: usize = 2000;
+const SMALL_WINDOW_CELLS: usize = 2000;
 /// Largest number of cells of a corridor, as a multiple of its squared room. A window is 41 times as deep as the room,
 /// and twice as wide.
-const CORRIDOR: usize = 128;
+const CORRIDOR_CELLS_PER_ROOM: usize = 128;
 
 /// Wide windows are refined down to this fraction of the greatest value.
-const FLOOR: f64 = 1e-36;
+const REFINEMENT_FLOOR: f64 = 1e-36;
 /// Values above this fraction of the greatest are then precise.
-const PRECISE: f64 = 1e-30;
+const PRECISE_SHARE: f64 = 1e-30;
 
 /// The part of the potential that is known so far.
 pub(super) struct Peeling<'a> {
@@ -63,8 +63,8 @@ pub(super) struct Peeling<'a> {
     /// Number of unknown positions.
     unknown: usize,
     /// Accepted positions that may have unknown neighbours, greatest value first. Keys are negated binary logarithms.
-    front: Front,
-    /// Number of each position in the window, or [`NONE`]; empty until windows are gathered.
+    front: KeyQueue,
+    /// Number of each position in the window, or [`NO_WINDOW`]; empty until windows are gathered.
     number: Vec<u32>,
     depth: f64,
     pub windows: usize,
@@ -92,9 +92,9 @@ const CELLS_BETWEEN_CHECKPOINTS: usize = 4096;
 impl<'a> Peeling<'a> {
     pub fn new(component: &'a Component, loss: f64) -> Self {
         let mut potential = Potential::zero(component.len());
-        let mut front = Front::default();
+        let mut front = KeyQueue::default();
         for goal in 0..component.goals {
-            potential.set(goal, Scaled { mantissa: 1.0, exponent: 0 });
+            potential.set(goal, ScaledNumber { mantissa: 1.0, exponent: 0 });
             front.push(0.0, goal as u32);
         }
         Self {
@@ -106,7 +106,7 @@ impl<'a> Peeling<'a> {
             unknown: component.len() - component.goals,
             front,
             number: Vec::new(),
-            depth: DEPTH,
+            depth: WINDOW_DEPTH,
             windows: 0,
         }
     }
@@ -124,7 +124,7 @@ impl<'a> Peeling<'a> {
     fn run_until(mut self, last: Option<usize>) -> Self {
         // Mazes and spirals are better solved in several windows.
         let [rows, columns] = self.component.shape;
-        if self.unknown > SMALL && self.component.levels <= rows + columns {
+        if self.unknown > SMALL_WINDOW_CELLS && self.component.levels <= rows + columns {
             self.windows += 1;
             self.solve_whole(last);
             if last.is_some_and(|last| self.is_known(last)) {
@@ -132,7 +132,7 @@ impl<'a> Peeling<'a> {
             }
         }
         if self.unknown > 0 {
-            self.number = vec![NONE; self.component.len()];
+            self.number = vec![NO_WINDOW; self.component.len()];
             self.room = self.component.room().widest;
             let widest = self.room.iter().copied().max().unwrap_or(0);
             self.decay = (0..=widest).map(decay).collect();
@@ -143,18 +143,20 @@ impl<'a> Peeling<'a> {
             checkpoint();
             self.windows += 1;
             let widest = window.cells.iter().map(|&cell| self.room[cell as usize]).max().unwrap_or(0);
-            let corridor = SMALL + CORRIDOR * (widest.min(MEDIUM) as usize).pow(2);
-            let small = if widest <= MEDIUM { corridor } else { SMALL };
-            let direct = widest <= NARROW || window.cells.len() <= small;
+            let corridor =
+                SMALL_WINDOW_CELLS + CORRIDOR_CELLS_PER_ROOM * (widest.min(MAX_CORRIDOR_ROOM) as usize).pow(2);
+            let small = if widest <= MAX_CORRIDOR_ROOM { corridor } else { SMALL_WINDOW_CELLS };
+            let direct = widest <= MAX_MAZE_ROOM || window.cells.len() <= small;
             let wide = if direct { None } else { self.wide(&window) };
-            let solved = wide.and_then(|wide| wide.solve(FLOOR * window.greatest, None).map(|values| (wide, values)));
+            let solved =
+                wide.and_then(|wide| wide.solve(REFINEMENT_FLOOR * window.greatest, None).map(|values| (wide, values)));
             let accepted = if let Some((wide, values)) = solved {
                 let component = self.component;
                 let at = |i: usize| wide.extent.at(component.place(window.cells[i] as usize));
-                self.accept(&window, |i| wide.at(&values, at(i)), PRECISE)
+                self.accept(&window, |i| wide.at(&values, at(i)), PRECISE_SHARE)
             } else {
                 let solution = self.network(&window).solve();
-                self.accept(&window, |i| solution[i], SMALLEST)
+                self.accept(&window, |i| solution[i], MIN_VALUE_SHARE)
             };
             if 4 * accepted < window.cells.len() {
                 self.depth *= 1.5;
@@ -165,8 +167,8 @@ impl<'a> Peeling<'a> {
 
     /// Returns true if steepest ascent from a position to a goal reads only known values.
     fn leads_on(&self, from: usize) -> bool {
-        let way = if self.is_known(from) { self.potential.ascend(self.component, from) } else { None };
-        way.is_some_and(|way| way.iter().all(|&at| at < self.component.goals || !self.is_front(at)))
+        let path = if self.is_known(from) { self.potential.ascend(self.component, from) } else { None };
+        path.is_some_and(|path| path.iter().all(|&at| at < self.component.goals || !self.is_front(at)))
     }
 
     /// Solves all unknown cells as one window without cutting. If `last` is given, smaller values than at `last` only
@@ -188,7 +190,7 @@ impl<'a> Peeling<'a> {
         let Some(extent) = bounds.extent(component.shape) else { return };
         let rows = extent.first[0]..extent.first[0] + extent.cells[0];
         let row = |i: usize| &component.row(i)[extent.first[1]..extent.first[1] + extent.cells[1]];
-        let mut wide = Wide::new(extent, self.loss);
+        let mut wide = WideSystem::new(extent, self.loss);
         for i in rows.clone() {
             let flags = wide.row_mut(i).iter_mut().zip(row(i));
             flags.for_each(|(free, position)| *free = is_unknown(position));
@@ -199,13 +201,13 @@ impl<'a> Peeling<'a> {
             }
         }
         let last = last.map(|last| extent.at(component.place(last)));
-        let Some(values) = wide.solve(FLOOR, last) else { return };
+        let Some(values) = wide.solve(REFINEMENT_FLOOR, last) else { return };
         for i in rows {
             let first = extent.at([i, extent.first[1]]);
             for (&position, at) in row(i).iter().zip(first..).filter(|(position, _)| is_unknown(position)) {
                 let [u, _] = wide.at(&values, at);
-                if u >= PRECISE {
-                    self.potential.set(position as usize, Scaled { mantissa: u, exponent: 0 }.normalized());
+                if u >= PRECISE_SHARE {
+                    self.potential.set(position as usize, ScaledNumber { mantissa: u, exponent: 0 }.normalized());
                     self.unknown -= 1;
                 }
             }
@@ -267,7 +269,7 @@ impl<'a> Peeling<'a> {
                 at += 1;
                 let mut cut_here = false;
                 for next in self.around(from as usize) {
-                    if self.is_known(next) || self.number[next] != NONE {
+                    if self.is_known(next) || self.number[next] != NO_WINDOW {
                         continue;
                     }
                     let depth = depth + self.decay[self.room[next] as usize];
@@ -299,7 +301,7 @@ impl<'a> Peeling<'a> {
                     network.ground(i, 1.0, [0.0; 2]);
                 } else if self.is_known(n) {
                     network.ground(i, 1.0, [self.potential.at(n).mantissa_at(window.exponent), 0.0]);
-                } else if self.number[n] == NONE {
+                } else if self.number[n] == NO_WINDOW {
                     network.ground(i, 1.0, [0.0, 1.0]);
                 } else if n != position as usize {
                     network.join(i, self.number[n] as usize, 1.0);
@@ -310,24 +312,24 @@ impl<'a> Peeling<'a> {
     }
 
     /// Builds the same equations on the smallest box around the cells.
-    fn wide(&self, window: &Window) -> Option<Wide> {
+    fn wide(&self, window: &Window) -> Option<WideSystem> {
         let mut bounds = Bounds::new();
         for &position in &window.cells {
             let place = self.component.place(position as usize);
             bounds.include(place);
             for k in [0, 1].into_iter().filter(|&k| place[k] == 0) {
                 let before = self.component.neighbors(position as usize)[2 * k];
-                bounds.join(k, before != self.component.wall() && self.number[before] != NONE);
+                bounds.join(k, before != self.component.wall() && self.number[before] != NO_WINDOW);
             }
         }
         let extent = bounds.extent(self.component.shape)?;
-        let mut wide = Wide::new(extent, self.loss);
+        let mut wide = WideSystem::new(extent, self.loss);
         for &position in &window.cells {
-            let mut source = [0.0; SIDES];
+            let mut source = [0.0; RIGHT_SIDES];
             for n in self.around(position as usize) {
                 if self.is_known(n) {
                     source[0] += self.potential.at(n).mantissa_at(window.exponent);
-                } else if self.number[n] == NONE {
+                } else if self.number[n] == NO_WINDOW {
                     source[1] += 1.0;
                 }
             }
@@ -339,7 +341,7 @@ impl<'a> Peeling<'a> {
     }
 
     /// Accepts the values to which cut-off cells contribute nothing. Returns their number.
-    fn accept(&mut self, window: &Window, solution: impl Fn(usize) -> [f64; SIDES], least: f64) -> usize {
+    fn accept(&mut self, window: &Window, solution: impl Fn(usize) -> [f64; RIGHT_SIDES], least: f64) -> usize {
         // Values beyond are at most the greatest of those next to them. Those are known values, or values of the
         // window, which are at most their value here plus their share of the values beyond.
         let mut beyond = window.beside;
@@ -347,7 +349,7 @@ impl<'a> Peeling<'a> {
         let at_risk = if window.cut { &window.cells[..] } else { &[] };
         for (i, &position) in at_risk.iter().enumerate() {
             let [u, e] = solution(i);
-            if self.around(position as usize).any(|n| !self.is_known(n) && self.number[n] == NONE) {
+            if self.around(position as usize).any(|n| !self.is_known(n) && self.number[n] == NO_WINDOW) {
                 value = value.max(u);
                 share = share.max(e);
             }
@@ -358,9 +360,10 @@ impl<'a> Peeling<'a> {
         let mut taken = 0;
         for (i, &position) in window.cells.iter().enumerate() {
             let [u, e] = solution(i);
-            self.number[position as usize] = NONE;
-            if e * beyond <= NEGLIGIBLE * u && u >= least * window.greatest {
-                self.potential.set(position as usize, Scaled { mantissa: u, exponent: window.exponent }.normalized());
+            self.number[position as usize] = NO_WINDOW;
+            if e * beyond <= NEGLIGIBLE_SHARE * u && u >= least * window.greatest {
+                self.potential
+                    .set(position as usize, ScaledNumber { mantissa: u, exponent: window.exponent }.normalized());
                 taken += 1;
             }
         }

@@ -4,33 +4,33 @@ use super::Component;
 
 /// The exponent counts steps of this many binary orders. Neighbours mostly share an exponent and can be averaged as
 /// plain doubles.
-const STEP: i32 = 256;
-/// One scale step down, `2^-STEP`.
-const DOWN: f64 = f64::from_bits(((1023 - STEP) as u64) << 52);
-/// One scale step up, `2^STEP`.
-const UP: f64 = f64::from_bits(((1023 + STEP) as u64) << 52);
+const EXPONENT_STEP: i32 = 256;
+/// One scale step down, `2^-EXPONENT_STEP`.
+const STEP_DOWN: f64 = f64::from_bits(((1023 - EXPONENT_STEP) as u64) << 52);
+/// One scale step up, `2^EXPONENT_STEP`.
+const STEP_UP: f64 = f64::from_bits(((1023 + EXPONENT_STEP) as u64) << 52);
 /// A mantissa within `2^-192 ..= 2^192` keeps its exponent. This range is wider than a step, so values near a boundary
 /// do not alternate. Products and sums of a chunk of cells stay within the range of doubles.
-const LEAST: f64 = f64::from_bits((1023 - 192) << 52);
-const GREATEST: f64 = f64::from_bits((1023 + 192) << 52);
+const MIN_MANTISSA: f64 = f64::from_bits((1023 - 192) << 52);
+const MAX_MANTISSA: f64 = f64::from_bits((1023 + 192) << 52);
 
 /// A positive number `mantissa * 2^(256 exponent)`. A harmonic potential falls to about a quarter per cell in a narrow
 /// corridor, so doubles would underflow after 540 cells. These numbers do not within 10^9 cells.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Scaled {
+pub(super) struct ScaledNumber {
     pub mantissa: f64,
     pub exponent: i32,
 }
 
-impl Scaled {
+impl ScaledNumber {
     /// Returns the same number with a mantissa in `2^-192 ..= 2^192`, by the least change of exponent.
     pub fn normalized(mut self) -> Self {
-        while self.mantissa < LEAST {
-            self.mantissa *= UP;
+        while self.mantissa < MIN_MANTISSA {
+            self.mantissa *= STEP_UP;
             self.exponent -= 1;
         }
-        while self.mantissa > GREATEST {
-            self.mantissa *= DOWN;
+        while self.mantissa > MAX_MANTISSA {
+            self.mantissa *= STEP_DOWN;
             self.exponent += 1;
         }
         self
@@ -38,24 +38,24 @@ impl Scaled {
 
     /// Returns the binary logarithm of the number.
     pub fn log2(self) -> f64 {
-        self.mantissa.log2() + f64::from(self.exponent) * f64::from(STEP)
+        self.mantissa.log2() + f64::from(self.exponent) * f64::from(EXPONENT_STEP)
     }
 
     /// Returns the number with the given binary logarithm.
     pub fn exp2(log2: f64) -> Self {
-        let exponent = (log2 / f64::from(STEP)).round();
-        Self { mantissa: (log2 - exponent * f64::from(STEP)).exp2(), exponent: exponent as i32 }
+        let exponent = (log2 / f64::from(EXPONENT_STEP)).round();
+        Self { mantissa: (log2 - exponent * f64::from(EXPONENT_STEP)).exp2(), exponent: exponent as i32 }
     }
 
     /// Returns the mantissa for `exponent`. It is 0 or `2^704` if the number is too small or too great beside numbers
     /// of that exponent.
     pub fn mantissa_at(self, exponent: i32) -> f64 {
         match exponent.saturating_sub(self.exponent) {
-            ..=-2 => GREATEST * UP * UP,
-            -1 => self.mantissa * UP,
+            ..=-2 => MAX_MANTISSA * STEP_UP * STEP_UP,
+            -1 => self.mantissa * STEP_UP,
             0 => self.mantissa,
-            1 => self.mantissa * DOWN,
-            2 => self.mantissa * DOWN * DOWN,
+            1 => self.mantissa * STEP_DOWN,
+            2 => self.mantissa * STEP_DOWN * STEP_DOWN,
             _ => 0.0,
         }
     }
@@ -76,7 +76,7 @@ impl Potential {
     #[must_use]
     pub fn from_log2(log2: &[f64]) -> Self {
         let mut potential = Self::zero(log2.len());
-        log2.iter().enumerate().for_each(|(position, &log2)| potential.set(position, Scaled::exp2(log2)));
+        log2.iter().enumerate().for_each(|(position, &log2)| potential.set(position, ScaledNumber::exp2(log2)));
         potential
     }
 
@@ -86,7 +86,7 @@ impl Potential {
     }
 
     /// Sets the number at a position.
-    pub(super) fn set(&mut self, position: usize, value: Scaled) {
+    pub(super) fn set(&mut self, position: usize, value: ScaledNumber) {
         self.mantissa[position] = value.mantissa;
         if value.exponent != 0 && self.exponent.is_empty() {
             self.exponent.resize(self.mantissa.len(), 0);
@@ -97,15 +97,15 @@ impl Potential {
     }
 
     /// Returns the number at a position.
-    pub(super) fn at(&self, position: usize) -> Scaled {
-        Scaled { mantissa: self.mantissa[position], exponent: self.exponent.get(position).copied().unwrap_or(0) }
+    pub(super) fn at(&self, position: usize) -> ScaledNumber {
+        ScaledNumber { mantissa: self.mantissa[position], exponent: self.exponent.get(position).copied().unwrap_or(0) }
     }
 
     /// Returns the natural logarithm of the value at `position`; minus infinity for the wall.
     #[must_use]
     pub fn ln(&self, position: usize) -> f64 {
-        let Scaled { mantissa, exponent } = self.at(position);
-        mantissa.ln() + f64::from(exponent) * f64::from(STEP) * std::f64::consts::LN_2
+        let ScaledNumber { mantissa, exponent } = self.at(position);
+        mantissa.ln() + f64::from(exponent) * f64::from(EXPONENT_STEP) * std::f64::consts::LN_2
     }
 
     /// Returns true if the value at `a` is strictly greater than that at `b`. Exact.

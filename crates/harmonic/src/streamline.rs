@@ -3,7 +3,7 @@
 use super::{Component, Guide, Place, Potential};
 
 /// The potential as a [`Guide`]: the gradient of its logarithm, by central differences with 0 at walls.
-pub struct Uphill<'a, F> {
+pub struct PotentialGuide<'a, F> {
     component: &'a Component,
     potential: &'a Potential,
     /// The position at a place, or `None` for walls and beyond limits.
@@ -17,7 +17,7 @@ pub struct LocalMaximum {
     pub place: Place,
 }
 
-impl<'a, F: Fn(Place) -> Option<usize>> Uphill<'a, F> {
+impl<'a, F: Fn(Place) -> Option<usize>> PotentialGuide<'a, F> {
     /// Creates the guide. `at` returns the position at a place of the lattice.
     pub fn new(component: &'a Component, potential: &'a Potential, at: F) -> Self {
         Self { component, potential, at }
@@ -31,8 +31,8 @@ impl<'a, F: Fn(Place) -> Option<usize>> Uphill<'a, F> {
     }
 }
 
-impl<F: Fn(Place) -> Option<usize>> Guide for Uphill<'_, F> {
-    type Stuck = LocalMaximum;
+impl<F: Fn(Place) -> Option<usize>> Guide for PotentialGuide<'_, F> {
+    type DeadEnd = LocalMaximum;
 
     fn slope(&self, place: Place) -> Option<[f64; 2]> {
         let position = (self.at)(place).filter(|&position| position >= self.component.goals)?;

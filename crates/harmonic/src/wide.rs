@@ -6,44 +6,44 @@
 //! remaining residual, and with it the error, by several digits, down to a floor.
 
 use super::extent::Extent;
-use super::network::SIDES;
+use super::network::RIGHT_SIDES;
 use cplan_multigrid::{Ends, Multigrid, Workspace};
 
-/// Relative residual below which a value is precise: half of the loss of walks per step ([`LOSS`](super::laplace::LOSS)
+/// Relative residual below which a value is precise: half of the loss of walks per step ([`WALK_LOSS`](super::laplace::WALK_LOSS)
 /// over four neighbours), so that the loss outweighs it, and many roundings.
-const PRECISE: f64 = 64.0 * f64::EPSILON;
+const PRECISE_RESIDUAL: f64 = 64.0 * f64::EPSILON;
 
 /// Relative residual below which a cell needs no correction. A correction rounds by about 2 units in the last place,
-/// far less than the gap to [`PRECISE`]. Without the gap, each round would lift some of the many cells just below the
+/// far less than the gap to [`PRECISE_RESIDUAL`]. Without the gap, each round would lift some of the many cells just below the
 /// bound above it, and windows of 10^5 cells would never converge.
-const SETTLED: f64 = PRECISE / 4.0;
+const SETTLED_RESIDUAL: f64 = PRECISE_RESIDUAL / 4.0;
 
 /// Unknowns in a box of cells: `(4 + loss) u = source + sum of the neighbours' u`. Cells of the box that are not
 /// unknowns count as 0.
 #[derive(Debug, Clone)]
-pub(super) struct Wide {
+pub(super) struct WideSystem {
     pub extent: Extent,
     /// Additional weight beside the four neighbours.
     loss: f64,
     /// True at the places in the box that are unknowns.
     free: Vec<bool>,
     /// Sums of known values around each unknown that has any: the potential, and 1 at cut-off cells.
-    sources: [Vec<(u32, f64)>; SIDES],
+    sources: [Vec<(u32, f64)>; RIGHT_SIDES],
 }
 
 /// Both sides for each place in the box. A side that is 0 everywhere is empty.
-pub(super) struct Values([Vec<f64>; SIDES]);
+pub(super) struct Values([Vec<f64>; RIGHT_SIDES]);
 
 /// Error of a round, relative to the greatest correction: as much as single precision gains in a few steps.
-const DIGITS: f64 = 1e-8;
+const ROUND_ERROR: f64 = 1e-8;
 
 /// Largest number of rounds of refinement. Each gains several of at most 36 digits.
-const ROUNDS: usize = 24;
+const MAX_ROUNDS: usize = 24;
 
 /// Error of the second side, which is not refined. It exceeds the error of a round.
 const SHARE_ERROR: f64 = 1e-7;
 
-impl Wide {
+impl WideSystem {
     /// Creates a box without unknowns.
     pub fn new(extent: Extent, loss: f64) -> Self {
         let free = vec![false; extent.cells[0] * extent.cells[1]];
@@ -63,7 +63,7 @@ impl Wide {
     }
 
     /// Adds known values next to an unknown.
-    pub fn add(&mut self, at: usize, source: [f64; SIDES]) {
+    pub fn add(&mut self, at: usize, source: [f64; RIGHT_SIDES]) {
         for (of, source) in self.sources.iter_mut().zip(source) {
             if source != 0.0 {
                 of.push((at as u32, source));
@@ -77,13 +77,13 @@ impl Wide {
         let inner = Multigrid::new(self.extent.cells, self.extent.ends, &self.free, 0.0);
         let mut workspace = inner.workspace();
         let lowest = |x: &[f64]| above.map_or(floor, |at| x[at].max(floor));
-        let u = self.side(0, lowest, ROUNDS, (&inner, &mut workspace))?;
+        let u = self.side(0, lowest, MAX_ROUNDS, (&inner, &mut workspace))?;
         let e = self.side(1, |_| 1.0, 1, (&inner, &mut workspace))?;
         Some(Values([u, e]))
     }
 
     /// Returns both sides at a place in the box. The second is an upper bound.
-    pub fn at(&self, Values([u, e]): &Values, at: usize) -> [f64; SIDES] {
+    pub fn at(&self, Values([u, e]): &Values, at: usize) -> [f64; RIGHT_SIDES] {
         [u.get(at).copied().unwrap_or(0.0), e.get(at).copied().unwrap_or(0.0) + SHARE_ERROR]
     }
 
@@ -105,11 +105,11 @@ impl Wide {
         spread(sources, &mut right);
         for round in 1..=rounds {
             if round == 1 {
-                inner.solve(&right, &mut x, DIGITS, workspace);
+                inner.solve(&right, &mut x, ROUND_ERROR, workspace);
             } else {
                 correction.clear();
                 correction.resize(x.len(), 0.0);
-                inner.solve(&right, &mut correction, DIGITS, workspace);
+                inner.solve(&right, &mut correction, ROUND_ERROR, workspace);
                 x.iter_mut().zip(&correction).for_each(|(x, correction)| *x += correction);
             }
             right.fill(0.0);
@@ -146,8 +146,8 @@ impl Wide {
                 let around = (above - at) + (below - at) + (three[0] - at) + (three[2] - at);
                 let left = if free { around + (*to - self.loss * at) } else { 0.0 };
                 let scale = 4.0 * (at + floor);
-                precise &= left.abs() <= PRECISE * scale;
-                *to = if left.abs() <= SETTLED * scale { 0.0 } else { left };
+                precise &= left.abs() <= PRECISE_RESIDUAL * scale;
+                *to = if left.abs() <= SETTLED_RESIDUAL * scale { 0.0 } else { left };
             }
         }
         precise
@@ -176,7 +176,7 @@ mod tests {
     #[test]
     fn a_long_wide_corridor_is_precise_to_its_far_end() {
         let (w, n) = (50, 1500);
-        let mut wide = Wide::new(Extent { first: [0; 2], cells: [w, n], ends: [Ends::High; 2] }, 0.0);
+        let mut wide = WideSystem::new(Extent { first: [0; 2], cells: [w, n], ends: [Ends::High; 2] }, 0.0);
         (0..w * n).for_each(|at| wide.free(at));
         (0..w).for_each(|row| wide.add(row * n, [1.0, 0.0]));
         let values = wide.solve(1e-60, None).expect("precise within the rounds that there are");

@@ -2,7 +2,9 @@
 //! cells.
 
 use cplan_cases::mazes;
-use cplan_harmonic::{Component, Field, Lattice, Place, Potential, Uphill, follow, harmonic, harmonic_way, residual};
+use cplan_harmonic::{
+    Component, Field, Lattice, Place, Potential, PotentialGuide, follow, harmonic, harmonic_path, residual,
+};
 use num_rational::BigRational;
 use proptest::prelude::*;
 use std::f64::consts::PI;
@@ -112,7 +114,7 @@ proptest! {
             prop_assert!((field.potential.ln(i) - value).abs() < 1e-9, "{} is not {value}", field.potential.ln(i));
         }
         let last = component.len() - 1;
-        is_steepest(&component, &harmonic_way(&component, last).expect("a way"), |i| exact[i]);
+        is_steepest(&component, &harmonic_path(&component, last).expect("a way"), |i| exact[i]);
     }
 }
 
@@ -149,7 +151,7 @@ proptest! {
         let (component, field) = solved(&grid, &goals);
         is_sound(&component, &field);
         for from in [component.goals / 2, component.len() / 9, component.len() / 2, component.len() - 1] {
-            let way = harmonic_way(&component, from).expect("a way");
+            let way = harmonic_path(&component, from).expect("a way");
             assert_eq!(way[0], from);
             is_steepest(&component, &way, |i| field.potential.ln(i));
         }
@@ -230,7 +232,7 @@ fn paths_are_streamlines_of_a_known_function() {
     let inside = |[i, j]: Place| (0..rows as i64).contains(&i) && (0..columns as i64).contains(&j);
     let position = |p: Place| inside(p).then(|| component.position_of(p[0] as usize * columns + p[1] as usize))?;
     for start in [[1.3, 4.6], [3.0, 10.0], [20.2, 55.1], [0.0, 31.0]] {
-        let streamline = follow(&mut Uphill::new(&component, &potential, position), [1.0; 2], start).unwrap();
+        let streamline = follow(&mut PotentialGuide::new(&component, &potential, position), [1.0; 2], start).unwrap();
         assert_eq!(streamline.place[0], rows as i64 - 1);
         // (y, x) as in the lattice; gradient by the closed form, steps of 1/100 of a cell.
         let slope = |[i, j]: [f64; 2]| {

@@ -54,28 +54,28 @@ pub enum Interrupted {
 pub struct Interrupt {
     flag: Arc<AtomicBool>,
     deadline: Option<Instant>,
-    question: Option<Arc<Question>>,
+    question: Option<Arc<StopCallback>>,
 }
 
 /// A callback that returns true if work must stop.
-type Stops = Box<dyn Fn() -> bool + Send + Sync>;
+type StopCheck = Box<dyn Fn() -> bool + Send + Sync>;
 
 /// A callback with its schedule.
-struct Question {
+struct StopCallback {
     every: Duration,
     begun: Instant,
     /// Nanoseconds from the start to the next call.
     next: AtomicU64,
-    stops: AssertUnwindSafe<Stops>,
+    stops: AssertUnwindSafe<StopCheck>,
 }
 
-impl fmt::Debug for Question {
+impl fmt::Debug for StopCallback {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Question").field("every", &self.every).finish_non_exhaustive()
     }
 }
 
-impl Question {
+impl StopCallback {
     /// Returns true if the callback is due. Only one of several threads gets true.
     fn is_due(&self) -> bool {
         let (now, next) = (self.begun.elapsed().as_nanos() as u64, self.next.load(Ordering::Relaxed));
@@ -112,9 +112,9 @@ impl Interrupt {
     /// Adds a callback that checkpoints call at this interval, on the thread of the work, to ask whether to stop. For
     /// hosts whose signals only that thread sees. The callback itself may run work under interrupts.
     #[must_use]
-    pub fn asking(self, every: Duration, stops: impl Fn() -> bool + Send + Sync + 'static) -> Self {
+    pub fn with_callback(self, every: Duration, stops: impl Fn() -> bool + Send + Sync + 'static) -> Self {
         let next = AtomicU64::new(every.as_nanos() as u64);
-        let question = Question { every, begun: Instant::now(), next, stops: AssertUnwindSafe(Box::new(stops)) };
+        let question = StopCallback { every, begun: Instant::now(), next, stops: AssertUnwindSafe(Box::new(stops)) };
         Self { question: Some(Arc::new(question)), ..self }
     }
 
@@ -239,10 +239,10 @@ mod tests {
     }
 
     #[test]
-    fn who_asks_is_told_to_stop_and_may_work_meanwhile() {
+    fn callbacks_can_stop_the_work() {
         let asked = Arc::new(AtomicU64::new(0));
         let count = asked.clone();
-        let interrupt = Interrupt::new().asking(Duration::from_millis(1), move || {
+        let interrupt = Interrupt::new().with_callback(Duration::from_millis(1), move || {
             assert_eq!(Interrupt::new().run(|| counted_to(3, |_| ())), Ok(3));
             count.fetch_add(1, Ordering::Relaxed) == 4
         });
@@ -253,7 +253,7 @@ mod tests {
         };
         assert_eq!(interrupt.run(endless), Err::<(), _>(Interrupted::Set));
         assert_eq!(asked.load(Ordering::Relaxed), 5);
-        let patient = Interrupt::new().asking(Duration::from_secs(1000), || true);
+        let patient = Interrupt::new().with_callback(Duration::from_secs(1000), || true);
         assert_eq!(patient.run(|| counted_to(3, |_| ())), Ok(3));
     }
 

@@ -3,7 +3,7 @@
 use super::blocked;
 use super::contours::Contours;
 use super::pace::Pace;
-use super::protocol::{About, AnswerReply, Pair};
+use super::protocol::{AnswerReply, ErrorSubject, Pair};
 use super::result;
 use cplan_core::model::Goal;
 use cplan_core::space::{Configuration, Measure, Metric, Segment};
@@ -11,7 +11,7 @@ use cplan_engine::Problem;
 use cplan_handling::TimedScene;
 use cplan_interrupt::{Instant, Interrupt, Interrupted};
 use cplan_solver::Options;
-use cplan_world::{Loaded, LoadedScene, Overrides};
+use cplan_world::{LoadedProblem, LoadedScene, Overrides};
 use serde::Deserialize;
 use std::time::Duration;
 
@@ -27,7 +27,7 @@ const SHOW_TIME: [Duration; 2] = [Duration::from_secs(1), Duration::from_secs(5)
 /// with all that it remembers; then the next session does the rest of the request.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Spent {
+pub enum TimeSpent {
     /// No time is spent.
     #[default]
     Nothing,
@@ -51,12 +51,12 @@ pub struct Deadlines {
 
 impl Deadlines {
     /// Creates deadlines from now on, for a request that has spent part of its time.
-    pub fn new(interrupt: &Interrupt, spent: Spent, limit: Duration) -> Self {
+    pub fn new(interrupt: &Interrupt, spent: TimeSpent, limit: Duration) -> Self {
         let show = limit.clamp(SHOW_TIME[0], SHOW_TIME[1]);
         let (drag, plan, show) = match spent {
-            Spent::Nothing => (DRAG_TIME, limit, limit + show),
-            Spent::Plan => (Duration::ZERO, Duration::ZERO, show),
-            Spent::All => (Duration::ZERO, Duration::ZERO, Duration::ZERO),
+            TimeSpent::Nothing => (DRAG_TIME, limit, limit + show),
+            TimeSpent::Plan => (Duration::ZERO, Duration::ZERO, show),
+            TimeSpent::All => (Duration::ZERO, Duration::ZERO, Duration::ZERO),
         };
         let begun = Instant::now();
         let by = |time: Duration| interrupt.clone().by(begun + time);
@@ -67,7 +67,7 @@ impl Deadlines {
     ///
     /// # Errors
     /// If there is a newer request: then there is no answer.
-    pub fn late(&self, stopped: Interrupted) -> Result<AnswerReply, Interrupted> {
+    pub fn timed_out(&self, stopped: Interrupted) -> Result<AnswerReply, Interrupted> {
         match stopped {
             Interrupted::TimeUp => Ok(AnswerReply {
                 verdict: Some("unknown"),
@@ -85,7 +85,7 @@ pub fn time_up(limit: Duration) -> String {
 }
 
 /// Returns the answer to a request that cannot be planned, with the reason.
-pub fn refused(about: About, error: String) -> AnswerReply {
+pub fn refused(about: ErrorSubject, error: String) -> AnswerReply {
     AnswerReply { error: Some(error), about: Some(about), ..AnswerReply::default() }
 }
 
@@ -108,13 +108,13 @@ impl Answering<'_> {
     pub fn task(self, loaded: LoadedScene) -> Result<AnswerReply, Interrupted> {
         let problem = match Problem::of_scene(loaded, &Overrides::default()) {
             Ok(problem) => problem,
-            Err(error) => return Ok(refused(About::World, error.to_string())),
+            Err(error) => return Ok(refused(ErrorSubject::World, error.to_string())),
         };
         let Self { options, contours, deadlines, think, toml } = self;
-        match deadlines.plan.run(|| result::in_full(&problem, options, contours, think)) {
+        match deadlines.plan.run(|| result::full_answer(&problem, options, contours, think)) {
             Ok(Ok(answer)) => Ok(AnswerReply { toml, ..answer }),
-            Ok(Err(error)) => Ok(refused(About::Options, error)),
-            Err(stopped) => Ok(AnswerReply { toml, ..deadlines.late(stopped)? }),
+            Ok(Err(error)) => Ok(refused(ErrorSubject::Options, error)),
+            Err(stopped) => Ok(AnswerReply { toml, ..deadlines.timed_out(stopped)? }),
         }
     }
 
@@ -133,7 +133,7 @@ impl Answering<'_> {
             [_, Some(Goal::Joints(q))] => vec![Segment::point(q)],
             _ => Vec::new(),
         };
-        let shown = self.bare(loaded.timed(), (at, &goal), "not planned")?;
+        let shown = self.without_path(loaded.timed(), (at, &goal), "not planned")?;
         let refusal = blocked::refusal(loaded, error, at);
         Ok(AnswerReply { toml: self.toml, start, view: shown.view, ..refusal })
     }
@@ -142,17 +142,17 @@ impl Answering<'_> {
     ///
     /// # Errors
     /// If there is a newer request.
-    pub fn quick(self, loaded: Loaded, pace: &Pace) -> Result<AnswerReply, Interrupted> {
+    pub fn quick_answer(self, loaded: LoadedProblem, pace: &Pace) -> Result<AnswerReply, Interrupted> {
         let (ends, problem) = (Ends::of(&loaded), Problem::from(loaded));
-        let plan = || result::quick(&problem, self.options, self.contours);
+        let plan = || result::quick_answer(&problem, self.options, self.contours);
         match pace.tries(|| self.deadlines.drag.run(plan)) {
-            Some(Ok(Ok(answer))) => Ok(ends.put_into(answer)),
-            Some(Ok(Err(error))) => Ok(refused(About::Options, error)),
+            Some(Ok(Ok(answer))) => Ok(ends.insert_into(answer)),
+            Some(Ok(Err(error))) => Ok(refused(ErrorSubject::Options, error)),
             Some(Err(Interrupted::Set)) => Err(Interrupted::Set),
             None | Some(Err(Interrupted::TimeUp)) => {
                 let reason = Some("not decided among moving obstacles".into());
-                let shown = self.bare(problem.timed(), ends.both(), "planning")?;
-                Ok(ends.put_into(AnswerReply { reason, ..shown }))
+                let shown = self.without_path(problem.timed(), ends.both(), "planning")?;
+                Ok(ends.insert_into(AnswerReply { reason, ..shown }))
             }
         }
     }
@@ -162,33 +162,37 @@ impl Answering<'_> {
     ///
     /// # Errors
     /// If there is a newer request.
-    pub fn in_full(self, loaded: Loaded, tell: &mut dyn FnMut(AnswerReply)) -> Result<AnswerReply, Interrupted> {
+    pub fn full_answer(
+        self,
+        loaded: LoadedProblem,
+        send: &mut dyn FnMut(AnswerReply),
+    ) -> Result<AnswerReply, Interrupted> {
         let (ends, problem) = (Ends::of(&loaded), Problem::from(loaded));
         let Self { options, contours, deadlines, think, .. } = self;
-        match deadlines.plan.run(|| result::bare(problem.timed(), ends.both(), "planning", contours)) {
-            Ok(shown) => tell(ends.put_into(shown)),
+        match deadlines.plan.run(|| result::without_path(problem.timed(), ends.both(), "planning", contours)) {
+            Ok(shown) => send(ends.insert_into(shown)),
             Err(Interrupted::TimeUp) => {}
             Err(Interrupted::Set) => return Err(Interrupted::Set),
         }
-        match deadlines.plan.run(|| result::in_full(&problem, options, contours, think)) {
-            Ok(Ok(answer)) => Ok(AnswerReply { toml: self.toml, ..ends.put_into(answer) }),
-            Ok(Err(error)) => Ok(refused(About::Options, error)),
+        match deadlines.plan.run(|| result::full_answer(&problem, options, contours, think)) {
+            Ok(Ok(answer)) => Ok(AnswerReply { toml: self.toml, ..ends.insert_into(answer) }),
+            Ok(Err(error)) => Ok(refused(ErrorSubject::Options, error)),
             Err(stopped) => {
-                let AnswerReply { verdict, reason, .. } = deadlines.late(stopped)?;
-                let shown = self.bare(problem.timed(), ends.both(), "unknown")?;
-                Ok(ends.put_into(AnswerReply { verdict, reason, toml: self.toml, ..shown }))
+                let AnswerReply { verdict, reason, .. } = deadlines.timed_out(stopped)?;
+                let shown = self.without_path(problem.timed(), ends.both(), "unknown")?;
+                Ok(ends.insert_into(AnswerReply { verdict, reason, toml: self.toml, ..shown }))
             }
         }
     }
 
     /// Answers with the configuration space without a path, if there is time for it.
-    fn bare(
+    fn without_path(
         &self,
         scene: TimedScene,
         ends: (Configuration, &[Segment]),
         status: &str,
     ) -> Result<AnswerReply, Interrupted> {
-        match self.deadlines.show.run(|| result::bare(scene, ends, status, self.contours)) {
+        match self.deadlines.show.run(|| result::without_path(scene, ends, status, self.contours)) {
             Err(Interrupted::TimeUp) => Ok(AnswerReply::default()),
             shown => shown,
         }
@@ -202,7 +206,7 @@ struct Ends {
 }
 
 impl Ends {
-    fn of(loaded: &Loaded) -> Self {
+    fn of(loaded: &LoadedProblem) -> Self {
         Self { start: loaded.problem.start(), goals: loaded.problem.goals().pieces().to_vec() }
     }
 
@@ -211,7 +215,7 @@ impl Ends {
     }
 
     /// Returns the answer with these ends.
-    fn put_into(&self, answer: AnswerReply) -> AnswerReply {
+    fn insert_into(&self, answer: AnswerReply) -> AnswerReply {
         let nearest = |goal: &Segment| goal.nearest(Measure::from(Metric::Euclidean), self.start).into();
         AnswerReply { start: Some(self.start.into()), goals: self.goals.iter().map(nearest).collect(), ..answer }
     }

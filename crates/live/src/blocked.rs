@@ -1,25 +1,25 @@
 //! Blocked starts and goals, for a page: position, obstacles in contact, and a description without references to files.
 
-use super::protocol::{About, AnswerReply, BlockedReply, HitReply};
+use super::protocol::{AnswerReply, BlockedReply, ErrorSubject, HitReply};
 use cplan_core::model::{Goal, Obstruction, Scene, inverse};
 use cplan_core::space::{Configuration, Segment};
 use cplan_robot::{Diagnostic, DiagnosticKind, InputError};
 use cplan_world::LoadedScene;
 
 /// Greatest number of configurations that are drawn: more would hide each other.
-const MOST_SHOWN: usize = 4;
+const MAX_SHOWN: usize = 4;
 
 /// Depths below this, metres, are reported as touching.
-const SHALLOW: f64 = 1e-9;
+const TOUCHING_DEPTH: f64 = 1e-9;
 
 /// Returns the answer to an unusable world.
 pub fn refusal(loaded: &LoadedScene, error: &InputError, near: Configuration) -> AnswerReply {
     let [start, goal] = loaded.given();
     let kinds = error.diagnostics().iter().map(|diagnostic| diagnostic.kind);
     let (about, what, place) = match kinds.into_iter().find(|kind| *kind != DiagnosticKind::Input) {
-        Some(DiagnosticKind::Start) => (About::Start, "start", start),
-        Some(DiagnosticKind::Goal) => (About::Goal, "goal", goal),
-        _ => (About::World, "world", None),
+        Some(DiagnosticKind::Start) => (ErrorSubject::Start, "start", start),
+        Some(DiagnosticKind::Goal) => (ErrorSubject::Goal, "goal", goal),
+        _ => (ErrorSubject::World, "world", None),
     };
     let scene = &loaded.scene;
     let blocked: Vec<_> = place.map_or_else(Vec::new, |place| configurations(scene, place, near).collect());
@@ -29,13 +29,13 @@ pub fn refusal(loaded: &LoadedScene, error: &InputError, near: Configuration) ->
         at: (*q).into(),
         hits: hits.iter().map(reply).collect(),
     };
-    let blocked = blocked.iter().take(MOST_SHOWN).map(reply).collect();
+    let blocked = blocked.iter().take(MAX_SHOWN).map(reply).collect();
     AnswerReply { error: Some(error), about: Some(about), blocked, ..AnswerReply::default() }
 }
 
 /// Returns the answer to a text that cannot be read, although the page wrote it.
 pub fn unread(error: &InputError) -> AnswerReply {
-    AnswerReply { error: Some(without_places(error)), about: Some(About::World), ..AnswerReply::default() }
+    AnswerReply { error: Some(without_places(error)), about: Some(ErrorSubject::World), ..AnswerReply::default() }
 }
 
 /// Returns the configurations of a place with the obstacles in contact, deepest first.
@@ -98,7 +98,7 @@ fn in_words(scene: &Scene, hit: &Obstruction) -> String {
         );
     }
     match -distance {
-        depth if depth < SHALLOW => format!("{part} touches \"{obstacle}\""),
+        depth if depth < TOUCHING_DEPTH => format!("{part} touches \"{obstacle}\""),
         depth => format!("{part} is {} deep in \"{obstacle}\"", millimetres(depth)),
     }
 }

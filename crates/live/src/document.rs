@@ -1,6 +1,6 @@
 //! A world's text, edited as the page requests: comments, names, heights and all unknown keys stay.
 
-use super::protocol::{Begin, End, Form, MOST_CORNERS, MOST_OBSTACLES, Pair, Piece, State};
+use super::protocol::{Begin, End, Form, MAX_CORNERS, MAX_OBSTACLES, Pair, Piece, State};
 use std::collections::BTreeSet;
 use toml_edit::{Array, ArrayOfTables, DocumentMut, InlineTable, Item, Table, Value, value};
 
@@ -66,9 +66,9 @@ impl Document {
     /// The reason, if the state is too large or refers to obstacles that the text does not have.
     pub fn changed(&self, state: &State, start: Option<Pair>) -> Result<String, String> {
         let corners: usize = state.obstacles.iter().flat_map(|piece| &piece.shape).map(Form::corners).sum();
-        if state.obstacles.len() > MOST_OBSTACLES || corners > MOST_CORNERS {
+        if state.obstacles.len() > MAX_OBSTACLES || corners > MAX_CORNERS {
             return Err(format!(
-                "the live page takes at most {MOST_OBSTACLES} obstacles with {MOST_CORNERS} corners in all; there are {} \
+                "the live page takes at most {MAX_OBSTACLES} obstacles with {MAX_CORNERS} corners in all; there are {} \
                  with {corners}",
                 state.obstacles.len()
             ));
@@ -298,7 +298,7 @@ image = \"map.yaml\"
     }
 
     #[test]
-    fn what_has_a_frame_of_its_own_is_not_for_the_page_to_change() {
+    fn obstacles_with_their_own_frame_are_not_editable() {
         let forms = |text: &str| Document::parse(text).unwrap().forms();
         let disc = "[[obstacle]]\ncircle = { center = [1, 2], radius = 0.5 }\n";
         assert!(forms(disc)[0].is_some());
@@ -307,7 +307,7 @@ image = \"map.yaml\"
     }
 
     #[test]
-    fn what_says_the_same_changes_no_byte() {
+    fn equal_content_changes_no_byte() {
         let document = document();
         let forms = document.forms();
         let pieces = forms.into_iter().enumerate().map(|(i, shape)| Piece { shape, ..kept(i) }).collect();
@@ -365,7 +365,7 @@ image = \"map.yaml\"
 
     /// The page's numbers count only static obstacles. Moving ones stay unchanged.
     #[test]
-    fn what_moves_is_no_obstacle_of_the_page() {
+    fn moving_obstacles_are_not_editable() {
         let cart = "[[obstacle]]\ncircle = { center = [0, 0], radius = 0.1 }\nmotion = { velocity = [0.1, 0] }\n";
         let text = format!("{cart}[[obstacle]]\ncircle = {{ center = [1, 2], radius = 0.5 }}\n");
         let document = Document::parse(&text).unwrap();
@@ -386,10 +386,10 @@ image = \"map.yaml\"
     }
 
     #[test]
-    fn too_much_and_what_is_not_there_are_refused() {
+    fn too_large_changes_and_missing_files_are_refused() {
         let error = document().changed(&state(vec![kept(3)]), None).unwrap_err();
         assert_eq!(error, "the text has no obstacle 4");
-        let error = document().changed(&state(vec![kept(0); MOST_OBSTACLES + 1]), None).unwrap_err();
+        let error = document().changed(&state(vec![kept(0); MAX_OBSTACLES + 1]), None).unwrap_err();
         assert!(error.contains("at most"), "{error}");
     }
 

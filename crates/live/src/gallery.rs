@@ -111,14 +111,14 @@ const CHOICES: [Choice; 14] = [
         Puzzle {
             text: "Nothing moves: find the largest clearance that leaves a way, to a tenth of a millimetre.",
             free: Free::Clearance,
-            clearance: Some(CLEAREST),
+            clearance: Some(NARROW_SLOT_CLEARANCE),
             ..Puzzle::of("found")
         },
     ),
 ];
 
 /// Slightly less than the largest clearance with a path through the narrow slot, metres.
-const CLEAREST: f64 = 0.0341;
+const NARROW_SLOT_CLEARANCE: f64 = 0.0341;
 
 const fn world(name: &'static str, title: &'static str, robot: &'static str, world: &'static str) -> Choice {
     Choice { name, title, robot, world, puzzle: None }
@@ -219,7 +219,7 @@ mod tests {
     }
 
     #[test]
-    fn the_largest_clearance_leaves_a_way_and_a_tenth_of_a_millimetre_more_does_not() {
+    fn a_path_exists_at_the_stated_clearance_and_not_above() {
         let choice = CHOICES.iter().find(|choice| choice.name == "berth").unwrap();
         let wider = choice.world.replace("[start]", "clearance = 0.0342\n[start]");
         assert_eq!(planned(choice, &wider).status().name(), "infeasible");

@@ -7,10 +7,10 @@
 //!
 //! Each time, the page sends its whole state as a change of the text that it received. So any message may be dropped in
 //! favour of a newer one, and the planned world is always read from text by the same code as any file. This crate does
-//! not transport messages: `serve` does, over a socket; `Alone` is for a page with the program inside.
+//! not transport messages: `serve` does, over a socket; `StandalonePage` is for a page with the program inside.
 //!
 //! - The page handles undo. `document` changes the TOML, and keeps comments and unknown keys.
-//! - While the user drags, a desk answers without bound and motion (`result::quick`), if that takes at most 60 ms,
+//! - While the user drags, a desk answers without bound and motion (`result::quick_answer`), if that takes at most 60 ms,
 //!   otherwise with the C-space only (`Pace`); at the end with everything. Contours of unmoved obstacles are cached
 //!   (`contours`).
 //! - Menus come from the command line's grammar (`menus`). Unchosen options are not sent, so the page has no defaults
@@ -27,11 +27,11 @@
 //!   `link` (one request under way, the latest next), `gallery` (worlds to open, and links), `keep`, `notices`
 //!   (problems, shown in place), `scene` (state and history), `edit` (pointer and keys), `controls`, `live`.
 
-mod alone;
+mod standalone;
 mod answer;
 mod blocked;
 mod contours;
-mod desk;
+mod live_session;
 mod document;
 mod files;
 mod gallery;
@@ -44,12 +44,12 @@ mod result;
 #[cfg(feature = "serve")]
 pub mod serve;
 
-pub use alone::Alone;
-pub use answer::Spent;
-pub use desk::Desk;
+pub use answer::TimeSpent;
+pub use live_session::LiveSession;
 pub use options::Options;
-pub use page::{page, page_alone};
-pub use protocol::{Ask, Files, Message, Reply, Request};
+pub use page::{page, standalone_page};
+pub use protocol::{Files, Message, PlanRequest, Reply, Request};
+pub use standalone::StandalonePage;
 
 use cplan_robot::Source;
 use cplan_world::{LoadedScene, scene_from};

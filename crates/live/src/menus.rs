@@ -10,7 +10,7 @@ use cplan_core::planner::GridSearch;
 use cplan_core::waves::Neighborhood;
 use cplan_options::Named;
 use cplan_roadmaps::Prm;
-use cplan_solver::{FIRST_CELLS, GridSpace, Method, Planner, Setting};
+use cplan_solver::{DEFAULT_CELLS, GridSpace, Method, Planner, Setting};
 
 /// An option with its own menu. The user can type all others.
 struct Choice {
@@ -84,7 +84,7 @@ const CHOICES: [Choice; 8] = [
 fn cells(planner: Method) -> Option<String> {
     Some(match Planner::named(planner).cells() {
         Some(cells) => cells.to_string(),
-        None => format!("{FIRST_CELLS}, square"),
+        None => format!("{DEFAULT_CELLS}, square"),
     })
 }
 

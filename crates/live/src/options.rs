@@ -6,7 +6,7 @@ use cplan_options::{MotionArgs, PlannerArgs, word};
 use cplan_solver::Method;
 
 /// Shortest period of a trajectory that a page may request, in seconds, because it is drawn and sent to a browser.
-const SHORTEST_PERIOD: f64 = 1e-3;
+const MIN_PERIOD: f64 = 1e-3;
 
 /// A planner and its options.
 #[derive(Debug)]
@@ -43,8 +43,8 @@ impl Options {
             let line = lines.join(" ");
             line.strip_prefix("error: ").unwrap_or(&line).to_owned()
         })?;
-        if grammar.motion.period < SHORTEST_PERIOD {
-            return Err(format!("--period: the live page takes at least {SHORTEST_PERIOD} s"));
+        if grammar.motion.period < MIN_PERIOD {
+            return Err(format!("--period: the live page takes at least {MIN_PERIOD} s"));
         }
         let planner = grammar.options.planner(grammar.planner)?;
         grammar.options.missing().map_or(Ok(()), Err)?;
@@ -80,7 +80,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_wrong_is_said_in_a_line() {
+    fn errors_fit_one_line() {
         for (text, part) in [
             ("", "<PLANNER>"),
             ("fastest", "[possible values: shortest"),

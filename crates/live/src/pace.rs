@@ -4,7 +4,7 @@ use cplan_interrupt::Interrupted;
 use std::cell::Cell;
 
 /// Number of intermediate places without a plan, after a plan that was not finished in time.
-const UNTRIED: u32 = 7;
+const SKIPPED_PLANS: u32 = 7;
 
 /// A record of whether plans keep up with the object being dragged. Plans that do not would only delay the rest of the
 /// page.
@@ -22,7 +22,7 @@ impl Pace {
         }
         let result = plan();
         if matches!(result, Err(Interrupted::TimeUp)) {
-            self.untried.set(UNTRIED);
+            self.untried.set(SKIPPED_PLANS);
         }
         Some(result)
     }

@@ -7,7 +7,7 @@ use cplan_view::{drawing, shell};
 use std::time::Duration;
 
 /// The scripts of the page, in the order of their dependencies.
-const CODE: [&str; 9] = [
+const SCRIPTS: [&str; 9] = [
     include_str!("assets/alone.js"),
     include_str!("assets/link.js"),
     include_str!("assets/keep.js"),
@@ -20,7 +20,7 @@ const CODE: [&str; 9] = [
 ];
 
 /// Content policy of a page with the program inside: it may run the program in a worker, and load nothing.
-const POLICY: &str = "default-src 'none'; script-src 'unsafe-inline' 'wasm-unsafe-eval'; worker-src blob:; style-src 'unsafe-inline'; \
+const CONTENT_POLICY: &str = "default-src 'none'; script-src 'unsafe-inline' 'wasm-unsafe-eval'; worker-src blob:; style-src 'unsafe-inline'; \
                       img-src blob: data:; base-uri 'none'; form-action 'none'";
 
 /// Returns the page with its scripts and styles in one document, for a browser that connects to a server.
@@ -32,8 +32,8 @@ pub fn page() -> String {
 /// Returns the page with the program inside as WebAssembly packed by gzip: one file, which needs no server and loads
 /// nothing. `time` limits a plan.
 #[must_use]
-pub fn page_alone(files: Files, time: Duration, program: &[u8]) -> String {
-    let policy = format!("<meta http-equiv=\"Content-Security-Policy\" content=\"{POLICY}\">\n");
+pub fn standalone_page(files: Files, time: Duration, program: &[u8]) -> String {
+    let policy = format!("<meta http-equiv=\"Content-Security-Policy\" content=\"{CONTENT_POLICY}\">\n");
     let worker = element("worker", "text/plain", include_str!("assets/worker.js"));
     let program = element("program", "text/plain", &base64(program));
     live(&policy, &(data(&Gallery::new(Some((files, time)))) + &worker + &program))
@@ -50,5 +50,5 @@ fn element(id: &str, kind: &str, text: &str) -> String {
 }
 
 fn live(head: &str, before: &str) -> String {
-    shell("cplan", head, include_str!("assets/live.css"), before, &(drawing() + &CODE.concat()))
+    shell("cplan", head, include_str!("assets/live.css"), before, &(drawing() + &SCRIPTS.concat()))
 }

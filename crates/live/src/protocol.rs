@@ -4,10 +4,10 @@ use serde::{Deserialize, Serialize};
 use serde_json::value::RawValue;
 
 /// Most obstacles in the page's state.
-pub const MOST_OBSTACLES: usize = 1000;
+pub const MAX_OBSTACLES: usize = 1000;
 
 /// Most corners of all obstacles in the page's state.
-pub const MOST_CORNERS: usize = 20_000;
+pub const MAX_CORNERS: usize = 20_000;
 
 /// A point of the plane, metres, or joint values.
 pub type Pair = [f64; 2];
@@ -24,20 +24,20 @@ pub enum Request {
         files: Option<Files>,
     },
     /// Plan in the world that the page shows.
-    Plan(Ask),
+    Plan(PlanRequest),
     /// Take another text for the world, and plan in it.
     Load {
         /// Number of the request; answers name it.
         id: u64,
         /// The world file's text.
         text: String,
-        /// Options, as in [`Ask`].
+        /// Options, as in [`PlanRequest`].
         options: String,
     },
     /// Plan, and send the result as a file.
     Download {
         /// The plan.
-        ask: Ask,
+        ask: PlanRequest,
         /// The file format: `toml`, `json`, `csv`, `yaml`, `svg`, ...
         format: String,
     },
@@ -68,7 +68,7 @@ pub struct Files {
 /// A request for a plan.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Ask {
+pub struct PlanRequest {
     /// Number of the request; answers name it.
     pub id: u64,
     /// The text of the world that `state` is a change of; see [`Reply::World`].
@@ -303,7 +303,7 @@ pub struct AnswerReply {
     /// Description of the defect of the world, start or goal, without references to files; then there is no verdict.
     pub error: Option<String>,
     /// Subject of the error.
-    pub about: Option<About>,
+    pub about: Option<ErrorSubject>,
     /// Configurations of the start or the goal that are not free.
     pub blocked: Vec<BlockedReply>,
     /// `found`, `infeasible` or `unknown`; `None` with an error, and if the plan is not finished.
@@ -327,7 +327,7 @@ pub struct AnswerReply {
 /// Subject of an error.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
-pub enum About {
+pub enum ErrorSubject {
     /// Planner and options.
     Options,
     /// Obstacles and everything else in the world.

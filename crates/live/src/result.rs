@@ -14,7 +14,12 @@ use cplan_view::{Picture, View};
 use serde_json::value::RawValue;
 
 /// Returns a scene with its configuration space but without a path, and the reason in a word or two.
-pub fn bare(scene: TimedScene, ends: (Configuration, &[Segment]), status: &str, contours: &Contours) -> AnswerReply {
+pub fn without_path(
+    scene: TimedScene,
+    ends: (Configuration, &[Segment]),
+    status: &str,
+    contours: &Contours,
+) -> AnswerReply {
     let contours = contours.of(scene.scene);
     let (start, goals) = ends;
     let picture = Picture { status: status.into(), ..picture(scene, start, goals, &contours) };
@@ -25,7 +30,7 @@ pub fn bare(scene: TimedScene, ends: (Configuration, &[Segment]), status: &str, 
 ///
 /// # Errors
 /// The reason, if the requested trajectory cannot be made.
-pub fn quick(problem: &Problem, options: &Options, contours: &Contours) -> Result<AnswerReply, String> {
+pub fn quick_answer(problem: &Problem, options: &Options, contours: &Contours) -> Result<AnswerReply, String> {
     let plan = plan(problem, &Options { bounded: false, ..*options }).map_err(|error| error.to_string())?;
     let timed = problem.timed();
     let Some((problem, answer)) = plan.motion() else {
@@ -78,7 +83,12 @@ fn drawn(view: &View) -> Option<Box<RawValue>> {
 ///
 /// # Errors
 /// The reason, if the requested trajectory cannot be made.
-pub fn in_full(problem: &Problem, options: &Options, contours: &Contours, think: bool) -> Result<AnswerReply, String> {
+pub fn full_answer(
+    problem: &Problem,
+    options: &Options,
+    contours: &Contours,
+    think: bool,
+) -> Result<AnswerReply, String> {
     let plan = plan(problem, options).map_err(|error| error.to_string())?;
     let view = view_with(&plan, |scene| contours.of(scene));
     let view = if think { replayed(&plan, view) } else { view };

@@ -5,10 +5,10 @@ use cplan_handling::Piece;
 
 /// Greatest deviation of a motion from a blend's parabola, in each joint, as a share of the radius. Certificates hold
 /// for all of this tube, so they also cover readers that join a motion's samples by cubics.
-pub const HAIR: f64 = 1e-6;
+pub const BLEND_TOLERANCE: f64 = 1e-6;
 
 /// Number of points of a blend in pictures.
-const DRAWN: u8 = 12;
+const POINTS_PER_BLEND: u8 = 12;
 
 /// A parabola that leaves one straight piece at `from` and joins the next at `to`, tangent to both: the quadratic Bézier
 /// curve with the corner for its middle control point. Both ends are equally far from the corner.
@@ -150,7 +150,7 @@ impl BlendedPath {
             match stretch {
                 Stretch::Line { to, .. } => points.push(to),
                 Stretch::Blend(blend) => {
-                    points.extend((1..=DRAWN).map(|i| blend.at(f64::from(i) / f64::from(DRAWN))));
+                    points.extend((1..=POINTS_PER_BLEND).map(|i| blend.at(f64::from(i) / f64::from(POINTS_PER_BLEND))));
                 }
             }
         }

@@ -1,6 +1,6 @@
 //! Corners cut short as far as the clearance allows.
 
-use super::blend::{Blend, BlendedPath, HAIR};
+use super::blend::{BLEND_TOLERANCE, Blend, BlendedPath};
 use super::span::along;
 use cplan_core::check::{CertifiedPath, CurveSearch, Nearest, Rejection, Vicinity};
 use cplan_core::model::Scene;
@@ -9,27 +9,27 @@ use cplan_handling::Piece;
 
 /// Share of the excess clearance that remains when corners are cut: half, so that a motion on blends is proven to keep
 /// at least half the distance of the straight path.
-const KEPT: f64 = 0.5;
+const KEPT_CLEARANCE_SHARE: f64 = 0.5;
 
 /// Share of an inner leg that the blend at either end of it may take; the part between them stays straight.
-const SHARE: f64 = 0.45;
+const INNER_LEG_SHARE: f64 = 0.45;
 
 /// Share of the first and the last leg, which have a blend at one end only.
-const SHARE_OF_AN_END: f64 = 0.9;
+const END_LEG_SHARE: f64 = 0.9;
 
 /// Number of halvings of a radius before the corner stays a corner. The speed on a blend grows with the root of its
 /// radius, so the last one tried saves a hundredth of the time of the first.
-const HALVINGS: u32 = 13;
+const MAX_RADIUS_HALVINGS: u32 = 13;
 
 /// Number of tries between the first certified radius and the one before it.
-const REFINEMENTS: u32 = 2;
+const RADIUS_REFINEMENTS: u32 = 2;
 
 /// Number of checks per pair of shapes after which a blend counts as not certified. Blends at a clear distance need
 /// some ten, and a smaller blend costs little.
-const LOOKS: usize = 64;
+const MAX_CHECKS_PER_BLEND: usize = 64;
 
 /// A path with blended corners whose whole motion is proven to be within the joint limits and to keep its clearance.
-/// That holds on the straight legs up to their corners, on the blends, and anywhere within [`HAIR`] of these. If a
+/// That holds on the straight legs up to their corners, on the blends, and anywhere within [`BLEND_TOLERANCE`] of these. If a
 /// motion rounds the corners by another curve, it holds on that curve. Only [`blend`] and [`Rounding`] make either.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CertifiedCurve {
@@ -132,10 +132,10 @@ pub fn blend(scene: &Scene, path: &CertifiedPath, greatest: f64, clearance: f64)
         return blended;
     }
     let vicinity = Vicinity::new(scene);
-    let budget = LOOKS * scene.pairs().len();
+    let budget = MAX_CHECKS_PER_BLEND * scene.pairs().len();
     let last = q.len() - 1;
     for waypoint in 1..last {
-        let share = |end: usize| if end == 0 || end == last { SHARE_OF_AN_END } else { SHARE };
+        let share = |end: usize| if end == 0 || end == last { END_LEG_SHARE } else { INNER_LEG_SHARE };
         let room = |end: usize| share(end) * (q[end] - q[waypoint]).norm();
         let most = greatest.min(room(waypoint - 1)).min(room(waypoint + 1));
         // A leg with a length below the least double has no room.
@@ -144,9 +144,9 @@ pub fn blend(scene: &Scene, path: &CertifiedPath, greatest: f64, clearance: f64)
         }
         let judge = |radius: f64| {
             let blend = Blend::new([q[waypoint - 1], q[waypoint], q[waypoint + 1]], radius);
-            let mut search = CurveSearch::beside(&blended.straight, scene, required, budget);
-            follow(&mut search, &vicinity, &blend.piece(), HAIR * blend.radius()).ok()?;
-            Some((radius, search.found()))
+            let mut search = CurveSearch::continued_from(&blended.straight, scene, required, budget);
+            follow(&mut search, &vicinity, &blend.piece(), BLEND_TOLERANCE * blend.radius()).ok()?;
+            Some((radius, search.proven_clearance()))
         };
         if let Some((radius, (clearance, nearest))) = largest(most, judge) {
             let straight = blended.straight.within(clearance, nearest);
@@ -163,12 +163,12 @@ fn follow(search: &mut CurveSearch, vicinity: &Vicinity, piece: &Piece, beside: 
 
 /// Returns the distance that motions must keep if they leave a path at its corners.
 fn required(path: &CertifiedPath, clearance: f64) -> f64 {
-    clearance + KEPT * (path.clearance() - clearance)
+    clearance + KEPT_CLEARANCE_SHARE * (path.clearance() - clearance)
 }
 
 /// Number of checks per pair of shapes after which a piece of a motion counts as not certified. It is large, because a
 /// straight piece may slide along an obstacle at a tiny distance.
-const LOOKS_OF_A_PIECE: usize = 2048;
+const MAX_CHECKS_PER_PIECE: usize = 2048;
 
 /// A judge of motions that round the corners of a path by any curve.
 pub struct Rounding<'a> {
@@ -188,8 +188,8 @@ impl<'a> Rounding<'a> {
 
     /// Returns the pieces of a motion that are not shown to be free, by their numbers. Joint limits are not checked.
     #[must_use]
-    pub fn open(&self, pieces: &[Piece]) -> Vec<usize> {
-        let budget = LOOKS_OF_A_PIECE * self.scene.pairs().len();
+    pub fn uncertified_pieces(&self, pieces: &[Piece]) -> Vec<usize> {
+        let budget = MAX_CHECKS_PER_PIECE * self.scene.pairs().len();
         let is_open = |piece: &Piece| {
             let mut search = CurveSearch::deciding(self.scene, self.required, budget);
             follow(&mut search, &self.vicinity, piece, 0.0).is_err()
@@ -201,10 +201,10 @@ impl<'a> Rounding<'a> {
     /// `None` if the motion is not shown to be free. Joint limits are not checked.
     #[must_use]
     pub fn certified(&self, radii: Vec<f64>, pieces: &[Piece]) -> Option<CertifiedCurve> {
-        let budget = LOOKS_OF_A_PIECE * self.scene.pairs().len() * pieces.len();
-        let mut search = CurveSearch::beside(self.path, self.scene, self.required, budget);
+        let budget = MAX_CHECKS_PER_PIECE * self.scene.pairs().len() * pieces.len();
+        let mut search = CurveSearch::continued_from(self.path, self.scene, self.required, budget);
         pieces.iter().try_for_each(|piece| follow(&mut search, &self.vicinity, piece, 0.0)).ok()?;
-        let (clearance, nearest) = search.found();
+        let (clearance, nearest) = search.proven_clearance();
         let knots = pieces.iter().map(|piece| piece.at(0.0)).chain(pieces.last().map(|piece| piece.at(1.0)));
         let straight = self.path.clone().within(clearance, nearest);
         let curve = straight.path().clone().into();
@@ -217,7 +217,7 @@ fn largest<T>(most: f64, judge: impl Fn(f64) -> Option<T>) -> Option<T> {
     let mut refused = f64::INFINITY;
     let mut radius = most;
     let mut best = None;
-    for _ in 0..=HALVINGS {
+    for _ in 0..=MAX_RADIUS_HALVINGS {
         best = judge(radius);
         if best.is_some() {
             break;
@@ -226,7 +226,7 @@ fn largest<T>(most: f64, judge: impl Fn(f64) -> Option<T>) -> Option<T> {
         radius /= 2.0;
     }
     best.as_ref()?;
-    for _ in 0..REFINEMENTS {
+    for _ in 0..RADIUS_REFINEMENTS {
         if refused.is_infinite() {
             break;
         }

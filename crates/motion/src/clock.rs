@@ -7,28 +7,28 @@
 use cplan_geometry::Interval;
 
 /// Nanoseconds in a second.
-pub(super) const PER_SECOND: u64 = 1_000_000_000;
+pub(super) const NANOSECONDS_PER_SECOND: u64 = 1_000_000_000;
 
 /// Rounding error of a computed time, relative to it, which rounding up ignores.
-const SLACK: f64 = 8.0 * f64::EPSILON;
+const TIME_SLACK: f64 = 8.0 * f64::EPSILON;
 
-/// Returns seconds as nanoseconds, rounded to the nearest. Exact for all times below [`super::LONGEST_MOTION`], whose
+/// Returns seconds as nanoseconds, rounded to the nearest. Exact for all times below [`super::MAX_DURATION`], whose
 /// nanoseconds fit a double.
 pub fn nanoseconds(time: f64) -> u64 {
-    (time * PER_SECOND as f64).round() as u64
+    (time * NANOSECONDS_PER_SECOND as f64).round() as u64
 }
 
 /// Returns nanoseconds as seconds: the nearest double, so that it prints with at most nine decimals.
 pub fn seconds(nanoseconds: u64) -> f64 {
-    nanoseconds as f64 / PER_SECOND as f64
+    nanoseconds as f64 / NANOSECONDS_PER_SECOND as f64
 }
 
 /// Times from here on are not rounded, seconds: no motion lasts so long, and doubles cannot count their nanoseconds.
-const NEVER: f64 = 1e6;
+const MAX_ROUNDED_TIME: f64 = 1e6;
 
 /// Rounds a time up to a whole nanosecond, in seconds.
-pub fn not_before(time: f64) -> f64 {
-    if time >= NEVER {
+pub fn round_up(time: f64) -> f64 {
+    if time >= MAX_ROUNDED_TIME {
         return time;
     }
     let near = nanoseconds(time);
@@ -36,8 +36,8 @@ pub fn not_before(time: f64) -> f64 {
 }
 
 /// Rounds a non-negative time down to a whole nanosecond, in seconds.
-pub fn not_after(time: f64) -> f64 {
-    if time >= NEVER {
+pub fn round_down(time: f64) -> f64 {
+    if time >= MAX_ROUNDED_TIME {
         return time;
     }
     let near = nanoseconds(time);
@@ -47,14 +47,14 @@ pub fn not_after(time: f64) -> f64 {
 /// Returns the whole nanosecond nearest to a time within an interval, ends included, in seconds. Returns `None` if the
 /// interval contains none.
 pub fn nearest_within(time: f64, [from, to]: Interval) -> Option<f64> {
-    let (first, last) = (not_before(from), not_after(to));
+    let (first, last) = (round_up(from), round_down(to));
     (first <= last).then(|| seconds(nanoseconds(time)).clamp(first, last))
 }
 
 /// Rounds a duration up to whole nanoseconds. Excesses within rounding are ignored.
 #[must_use]
 pub fn whole_nanoseconds(duration: f64) -> f64 {
-    (duration * PER_SECOND as f64 * (1.0 - SLACK)).ceil() / PER_SECOND as f64
+    (duration * NANOSECONDS_PER_SECOND as f64 * (1.0 - TIME_SLACK)).ceil() / NANOSECONDS_PER_SECOND as f64
 }
 
 /// Returns the share of an acceleration limit that must stay unused next to a sample on the grid, if the acceleration
@@ -64,7 +64,7 @@ pub fn whole_nanoseconds(duration: f64) -> f64 {
 /// from that of the polynomial on its other side. Differences `e0` and `e1` at the ends change the acceleration of the
 /// cubic by `(4 e0 + 2 e1) / h`, and that of the polynomial of [`super::INTERPOLATION`] by `6 (e0 + e1) / h`.
 pub(super) fn reserve(interval: f64) -> f64 {
-    12.0 / PER_SECOND as f64 / interval
+    12.0 / NANOSECONDS_PER_SECOND as f64 / interval
 }
 
 #[cfg(test)]
@@ -85,13 +85,13 @@ mod tests {
     fn times_are_rounded_into_intervals() {
         let [from, to] = [0.720_956_725_469_559_8, 0.820_956_725_669_559_8];
         assert!(seconds(nanoseconds(from)) < from && to < seconds(nanoseconds(to)));
-        assert_eq!([not_before(from), not_after(to)], [0.720_956_726, 0.820_956_725]);
+        assert_eq!([round_up(from), round_down(to)], [0.720_956_726, 0.820_956_725]);
         assert_eq!(
             [from, 0.75, to].map(|time| nearest_within(time, [from, to])),
             [Some(0.720_956_726), Some(0.75), Some(0.820_956_725)]
         );
         assert_eq!(nearest_within(from, [from, from + 1e-10]), None);
-        assert_eq!([not_before(0.3), not_after(0.3), not_after(f64::INFINITY)], [0.3, 0.3, f64::INFINITY]);
+        assert_eq!([round_up(0.3), round_down(0.3), round_down(f64::INFINITY)], [0.3, 0.3, f64::INFINITY]);
         assert_eq!(nearest_within(2.0, [1.0, f64::INFINITY]), Some(2.0));
     }
 

@@ -15,40 +15,40 @@
 use super::clock::reserve;
 use super::limits::Limits;
 use super::profile::{Phase, State};
-use super::sample::{SHORTEST_INTERVAL, USUAL_INTERVAL};
-use super::tip::{Part, TIP_STEP};
-use crate::{Blend, HAIR};
+use super::sample::{MIN_INTERVAL, MIN_PERIODIC_INTERVAL};
+use super::tip::{Part, TIP_SPEED_STEP};
+use crate::{BLEND_TOLERANCE, Blend};
 use cplan_core::space::Configuration;
 
 /// Initial number of spans of a blend.
-const SPANS: usize = 8;
+const INITIAL_SPANS: usize = 8;
 
 /// Number of spans of a straight stretch that may begin or end at rest.
-const SPANS_OF_LINES: usize = 32;
+const INITIAL_LINE_SPANS: usize = 32;
 
 /// Largest number of spans of a blend.
-const MOST_SPANS: usize = 256;
+const MAX_SPANS: usize = 256;
 
 /// Number of parts into which each span is cut when more spans are tried.
-const PARTS: usize = 4;
+const PARTS_PER_SPAN: usize = 4;
 
 /// ... up to this number.
-const MOST_TRIED: usize = 1024;
+const MAX_TRIED_SPANS: usize = 1024;
 
 /// Greatest change of a joint's acceleration over a span, as a share of its limit, if more spans can reduce it. Half of
 /// the change is lost where the limit is reached at one end of the span.
-const ACCELERATION_STEP: f64 = 0.1;
+const MAX_ACCELERATION_STEP: f64 = 0.1;
 
 /// Greatest change of the speed over a span, as a share of it. Where acceleration and deceleration meet within a span,
 /// half of the change is lost.
-const SPEED_STEP: f64 = 0.1;
+const MAX_SPEED_STEP: f64 = 0.1;
 
 /// Share of the limits that stays unused on a blend, so that the cubic through positions and velocities of two samples,
 /// which many controllers use, also keeps them. [`reserve`] adds a little.
-const RESERVE: f64 = 1e-3;
+const LIMIT_RESERVE: f64 = 1e-3;
 
 /// Largest number of spans if torques are limited.
-const MOST_SPANS_OF_TORQUES: usize = 1024;
+const MAX_TORQUE_SPANS: usize = 1024;
 
 /// A blend with its timing; or a straight stretch, treated as a blend of two equal directions, if its limits on speed
 /// and acceleration vary along it.
@@ -67,7 +67,7 @@ pub(super) struct Corner {
 /// Returns the least duration, in seconds, of a blend with this many spans. Each span lasts at least the least interval
 /// between samples, although one may be passed several times as fast as the others.
 fn shortest(spans: usize) -> f64 {
-    8.0 * SHORTEST_INTERVAL * spans as f64
+    8.0 * MIN_INTERVAL * spans as f64
 }
 
 impl Corner {
@@ -76,11 +76,12 @@ impl Corner {
     pub(super) fn new(blend: Blend, limits: &Limits, share: f64) -> Option<Self> {
         let limits = &limits.scaled(share);
         let directions = [blend.corner - blend.from, blend.to - blend.corner].map(|leg| leg / leg[0].hypot(leg[1]));
-        let corner = Self { blend, radius: blend.radius(), directions, spans: SPANS, fastest: f64::INFINITY, share };
+        let corner =
+            Self { blend, radius: blend.radius(), directions, spans: INITIAL_SPANS, fastest: f64::INFINITY, share };
         let bend = corner.second_derivative();
         let turning = (0..2).map(|k| limits.acceleration[k] / bend[k].abs()).fold(f64::INFINITY, f64::min).sqrt();
         let fastest = directions.map(|d| limits.speed_along(d)).into_iter().fold(turning, f64::min);
-        (corner.length() / fastest >= shortest(SPANS)).then_some(Self { fastest, ..corner })
+        (corner.length() / fastest >= shortest(INITIAL_SPANS)).then_some(Self { fastest, ..corner })
     }
 
     /// Prepares a straight stretch. Returns `None` if it is too small.
@@ -90,14 +91,14 @@ impl Corner {
         let length = offset[0].hypot(offset[1]);
         let directions = [offset / length; 2];
         let fastest = limits.speed_along(directions[0]);
-        let corner = Self { blend, radius: length / 2.0, directions, spans: SPANS_OF_LINES, fastest, share: 1.0 };
-        (length / fastest >= shortest(SPANS_OF_LINES)).then_some(corner)
+        let corner = Self { blend, radius: length / 2.0, directions, spans: INITIAL_LINE_SPANS, fastest, share: 1.0 };
+        (length / fastest >= shortest(INITIAL_LINE_SPANS)).then_some(corner)
     }
 
     /// Returns the share of the limits that stays unused.
     fn reserve(&self) -> f64 {
         let span = self.length() / self.spans as f64 / self.fastest;
-        RESERVE + reserve(span.clamp(SHORTEST_INTERVAL, USUAL_INTERVAL))
+        LIMIT_RESERVE + reserve(span.clamp(MIN_INTERVAL, MIN_PERIODIC_INTERVAL))
     }
 
     /// Returns the corner with twice the spans, if they are too coarse for these squared speeds at their ends.
@@ -107,18 +108,20 @@ impl Corner {
             let step = (z[1] - z[0]).abs();
             // With a constant second derivative of the parameter, q'' z + q' z' / 2 changes by three halves of q'' times
             // the change of z.
-            (0..2).any(|k| 1.5 * bend[k].abs() * step > ACCELERATION_STEP * limits.acceleration[k])
-                || (!self.is_straight() && step > 2.0 * SPEED_STEP * z[0].max(z[1]))
-                || limits.tip.is_some_and(|tip| tip.slack(&self.part(i)) * z[0].max(z[1]).sqrt() > TIP_STEP * tip.speed)
+            (0..2).any(|k| 1.5 * bend[k].abs() * step > MAX_ACCELERATION_STEP * limits.acceleration[k])
+                || (!self.is_straight() && step > 2.0 * MAX_SPEED_STEP * z[0].max(z[1]))
+                || limits
+                    .tip
+                    .is_some_and(|tip| tip.slack(&self.part(i)) * z[0].max(z[1]).sqrt() > TIP_SPEED_STEP * tip.speed)
                 || limits.torque.is_some_and(|torque| torque.is_coarse(&self.part(i), [z[0], z[1]]))
         });
-        let most = if limits.torque.is_some() { MOST_SPANS_OF_TORQUES } else { MOST_SPANS };
+        let most = if limits.torque.is_some() { MAX_TORQUE_SPANS } else { MAX_SPANS };
         if coarse { self.cut(2, most, squared_speeds) } else { None }
     }
 
     /// Returns the corner with several times the spans, regardless of need.
     pub(super) fn much_finer(&self, squared_speeds: &[f64]) -> Option<Self> {
-        self.cut(PARTS, MOST_TRIED, squared_speeds)
+        self.cut(PARTS_PER_SPAN, MAX_TRIED_SPANS, squared_speeds)
     }
 
     /// Cuts each span into `parts`. Returns `None` if there would be too many, or too short ones.
@@ -184,7 +187,7 @@ impl Corner {
                 bounds.extend([[1.0 / squared, 0.0], [0.0, 1.0 / squared]]);
             }
             if let Some(torque) = limits.torque {
-                bounds.extend(torque.rows(&self.part(i), left - RESERVE));
+                bounds.extend(torque.rows(&self.part(i), left - LIMIT_RESERVE));
             }
             bounds
         };
@@ -193,13 +196,14 @@ impl Corner {
 
     /// Returns the phases for squared speeds at the ends of all spans.
     pub(super) fn phases(&self, squared_speeds: &[f64]) -> Vec<Phase> {
-        let way = |i: usize| self.length() * (i as f64 / self.spans as f64);
-        let phase = |(i, z): (usize, &[f64])| Phase::between([way(i), way(i + 1)], [z[0].sqrt(), z[1].sqrt()]);
+        let position = |i: usize| self.length() * (i as f64 / self.spans as f64);
+        let phase =
+            |(i, z): (usize, &[f64])| Phase::between([position(i), position(i + 1)], [z[0].sqrt(), z[1].sqrt()]);
         squared_speeds.windows(2).enumerate().map(phase).collect()
     }
 
     /// Returns the longest interval between samples within a phase for which the cubic through positions and velocities
-    /// keeps the limits and stays within [`HAIR`] of the blend.
+    /// keeps the limits and stays within [`BLEND_TOLERANCE`] of the blend.
     ///
     /// For a motion with a constant fourth derivative `d`, the error of the cubic is at most `d h^4 / 384` in position,
     /// `d h^3 / (72 sqrt 3)` in velocity and `d h^2 / 12` in acceleration. If `a` is the second derivative of the
@@ -209,12 +213,12 @@ impl Corner {
         let torque = limits.torque.map_or([f64::INFINITY; 2], |torque| torque.accelerations());
         let longest = |k: usize| {
             let fourth = 3.0 * bend[k].abs() * phase.acceleration * phase.acceleration;
-            let acceleration = (12.0 * RESERVE * limits.acceleration[k].min(torque[k]) / fourth).sqrt();
-            let velocity = (72.0 * 3f64.sqrt() * RESERVE * limits.velocity[k] / fourth).cbrt();
-            let position = (384.0 * HAIR * self.radius / fourth).sqrt().sqrt();
+            let acceleration = (12.0 * LIMIT_RESERVE * limits.acceleration[k].min(torque[k]) / fourth).sqrt();
+            let velocity = (72.0 * 3f64.sqrt() * LIMIT_RESERVE * limits.velocity[k] / fourth).cbrt();
+            let position = (384.0 * BLEND_TOLERANCE * self.radius / fourth).sqrt().sqrt();
             acceleration.min(velocity).min(position)
         };
-        longest(0).min(longest(1)).max(2.0 * SHORTEST_INTERVAL)
+        longest(0).min(longest(1)).max(2.0 * MIN_INTERVAL)
     }
 
     /// Returns position, velocity and acceleration of the joints.
@@ -246,7 +250,7 @@ pub(super) struct Bounds {
 }
 
 /// Rounding of a coefficient or of a squared speed, relative to the others: far above the one of doubles, far below
-/// [`RESERVE`].
+/// [`LIMIT_RESERVE`].
 const ROUNDING: f64 = 1e-12;
 
 impl Default for Bounds {

@@ -1,9 +1,9 @@
 //! From a certified path to a motion: corners and time.
 
-use super::schedule::rough_duration;
-use super::shape::Shaping;
+use super::schedule::duration_bound;
+use super::shape::ShapeSearch;
 use super::smooth::smoothed;
-use super::{Limits, Timed, TimingError, TipSpeed, TorqueLimit, time};
+use super::{Limits, TimedMotion, TimingError, TipSpeed, TorqueLimit, time};
 use crate::{CertifiedCurve, blend};
 use cplan_core::check::CertifiedPath;
 use cplan_core::model::Scene;
@@ -66,11 +66,11 @@ impl Drive {
     /// # Errors
     /// A motion that is too long or has too many samples; joints whose efforts cannot hold the arm somewhere on the
     /// path.
-    pub fn along(&self, scene: &Scene, path: &CertifiedPath, speed: f64) -> Result<Timed, TimingError> {
+    pub fn along(&self, scene: &Scene, path: &CertifiedPath, speed: f64) -> Result<TimedMotion, TimingError> {
         let tip = self.tip_speed.map(|speed| TipSpeed { arm: scene.arm(), speed });
         let torque = TorqueLimit::of(scene);
         if let Some(torque) = &torque {
-            torque.held_along(path.path())?;
+            torque.check_holding_along(path.path())?;
         }
         let limits = Limits { tip, torque, ..Limits::from(&scene.arm().joints) }.scaled(speed);
         let (is_smooth, has_corners) = (limits.stops_at_corners(), path.path().waypoints().len() > 2);
@@ -84,18 +84,18 @@ impl Drive {
         let mut best = time(blended(path), &limits, self.period)?;
         let is_shaped = has_corners || (is_smooth && torque.is_some());
         if is_shaped && self.blend > 0.0 && (is_smooth || self.optimize == Objective::Time) {
-            let least = Cell::new(rough_duration(best.curve.curve(), &limits));
+            let least = Cell::new(duration_bound(best.curve.curve(), &limits));
             let drive = |path: &CertifiedPath, below: f64| {
                 if is_smooth {
                     return smoothed(scene, path, self.blend, limits, self.period, below, false);
                 }
                 let curve = blended(path);
-                let rough = rough_duration(curve.curve(), &limits);
+                let rough = duration_bound(curve.curve(), &limits);
                 let timed = (rough < least.get()).then(|| time(curve, &limits, self.period).ok()).flatten();
                 let faster = timed.filter(|timed| timed.trajectory.duration() < below);
                 faster.inspect(|_| least.set(rough))
             };
-            let shaping = Shaping::new(scene, drive);
+            let shaping = ShapeSearch::new(scene, drive);
             let mut found = Vec::new();
             if is_smooth {
                 let mut lifted = best.clone();
@@ -110,20 +110,20 @@ impl Drive {
             }
             if is_smooth {
                 // An initially slower path may become faster once it is driven along its own curve in the least time.
-                let retimed = |timed: &Timed| {
+                let retimed = |timed: &TimedMotion| {
                     let path = timed.curve.straight();
                     smoothed(scene, path, self.blend, limits, self.period, f64::INFINITY, true)
                 };
-                let retimed: Vec<Timed> = found.iter().filter_map(retimed).collect();
+                let retimed: Vec<TimedMotion> = found.iter().filter_map(retimed).collect();
                 found.extend(retimed);
             }
-            let faster = |best: Timed, other: Timed| {
+            let faster = |best: TimedMotion, other: TimedMotion| {
                 if other.trajectory.duration() < best.trajectory.duration() { other } else { best }
             };
             best = found.into_iter().fold(best, faster);
         }
         if let Some(torque) = torque {
-            torque.kept(&best.trajectory.pieces())?;
+            torque.check(&best.trajectory.pieces())?;
             best.trajectory.torque = torque.along(&best.trajectory);
         }
         Ok(best)

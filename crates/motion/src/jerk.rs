@@ -16,7 +16,7 @@ use rsruckig::prelude::{InputParameter, Ruckig, RuckigError, ThrowErrorHandler, 
 
 /// For a jerk of 1 and a length of 1, from rest to rest, the greatest acceleration and speed are 0.79 and 0.63. Larger
 /// limits, even infinite ones, have no effect.
-const OUT_OF_REACH: f64 = 1.0;
+const NO_LIMIT: f64 = 1.0;
 
 /// The times of a symmetric motion from rest to rest, seconds.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -45,7 +45,7 @@ pub(super) fn rest_to_rest(length: f64, speed: f64, acceleration: f64, jerk: f64
     let jerk = jerk.min(acceleration.min(speed / shortest).min(length / shortest / shortest) / shortest);
     let unit = (length / jerk).cbrt();
     let limits = [speed * unit / length, acceleration * unit * unit / length];
-    let times = match fastest(limits.map(|limit| limit.min(OUT_OF_REACH))) {
+    let times = match fastest(limits.map(|limit| limit.min(NO_LIMIT))) {
         Ok(times) => Times { grow: times.grow * unit, hold: times.hold * unit, cruise: times.cruise * unit },
         Err(_) => {
             let grow = (length / jerk / 2.0).cbrt().max((length / acceleration / 2.0).sqrt()).max(length / speed / 2.0);
@@ -189,7 +189,7 @@ mod tests {
     }
 
     #[test]
-    fn limits_too_far_apart_for_ruckig_are_kept_all_the_same() {
+    fn limits_of_very_different_size_are_satisfied() {
         assert!(fastest([1e-13, 1.0]).is_err());
         let (length, speed) = (1e6, 1e-9);
         let phases = rest_to_rest(length, speed, 1.0, 1e6, SHORTEST);

@@ -9,9 +9,9 @@ use std::io::{self, Write};
 ///
 /// # Panics
 /// If a value has no form in JSON: maps whose keys are not strings.
-pub fn line_a_field(object: &impl Serialize) -> String {
+pub fn field_per_line(object: &impl Serialize) -> String {
     let mut text = Vec::new();
-    let mut serializer = serde_json::Serializer::with_formatter(&mut text, LineAField::default());
+    let mut serializer = serde_json::Serializer::with_formatter(&mut text, FieldPerLine::default());
     object.serialize(&mut serializer).expect("string keys and a buffer that takes all");
     text.push(b'\n');
     String::from_utf8(text).expect("JSON is UTF-8")
@@ -20,11 +20,11 @@ pub fn line_a_field(object: &impl Serialize) -> String {
 /// A writer that puts each field of the outermost object on its own line, compact with a blank after each comma and
 /// colon.
 #[derive(Default)]
-struct LineAField {
+struct FieldPerLine {
     depth: usize,
 }
 
-impl Formatter for LineAField {
+impl Formatter for FieldPerLine {
     fn begin_object<W: ?Sized + Write>(&mut self, writer: &mut W) -> io::Result<()> {
         self.depth += 1;
         CompactFormatter.begin_object(writer)

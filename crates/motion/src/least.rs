@@ -3,7 +3,7 @@
 use super::Limits;
 
 /// Number of halvings of an interval of times.
-const HALVINGS: usize = 64;
+const TIME_HALVINGS: usize = 64;
 
 /// Relative rounding error of such a time.
 const ROUNDING: f64 = 1e-9;
@@ -25,7 +25,7 @@ pub fn least_duration(length: f64, limits: &Limits) -> f64 {
     let lost = if jerk.is_finite() { jerk * grown * grown / 2.0 } else { 0.0 };
     let top = if lost < 1.0 && acceleration.is_finite() { grown + (1.0 - lost) / acceleration } else { grown };
     // The distance from rest in this many seconds.
-    let way = |time: f64| {
+    let distance = |time: f64| {
         let first = time.min(grown);
         let second = (time.min(top) - grown).max(0.0);
         let growing = if first > 0.0 { jerk * first * first * first / 6.0 } else { 0.0 };
@@ -33,9 +33,9 @@ pub fn least_duration(length: f64, limits: &Limits) -> f64 {
         growing + rising + (time - top).max(0.0)
     };
     let (mut too_short, mut enough) = (length, length + 2.0 * top);
-    for _ in 0..HALVINGS {
+    for _ in 0..TIME_HALVINGS {
         let middle = (too_short + enough) / 2.0;
-        if 2.0 * way(middle / 2.0) < length {
+        if 2.0 * distance(middle / 2.0) < length {
             too_short = middle;
         } else {
             enough = middle;
@@ -69,16 +69,20 @@ mod tests {
         for (length, jerk) in [(0.1, 5.0), (0.1, 500.0), (1.0, 20.0), (3.0, 1.0), (1e-4, 3.0)] {
             let [velocity, acceleration] = [2.0, 4.0];
             let found = least_duration(length, &limits(velocity, acceleration, Some(jerk)));
-            let (n, mut way, mut speed) = (200_000, 0.0, 0.0_f64);
+            let (n, mut distance, mut speed) = (200_000, 0.0, 0.0_f64);
             let h = found / 2.0 / f64::from(n);
             for i in 0..n {
                 let pull = (jerk * (f64::from(i) + 0.5) * h).min(acceleration);
                 let next = (speed + pull * h).min(velocity);
-                way += (speed + next) / 2.0 * h;
+                distance += (speed + next) / 2.0 * h;
                 speed = next;
             }
             let expected = length * velocity;
-            assert!((2.0 * way - expected).abs() < 1e-4 * expected, "{length} {jerk}: {} {expected}", 2.0 * way);
+            assert!(
+                (2.0 * distance - expected).abs() < 1e-4 * expected,
+                "{length} {jerk}: {} {expected}",
+                2.0 * distance
+            );
         }
     }
 }

@@ -14,7 +14,7 @@
 //! | MCAP `/tf`, `/scene`, `/outlines` | RViz, Foxglove, Rerun | nothing: a frame stays where it is until it moves |
 //! | MCAP `/joint_states` | `robot_state_publisher`, Foxglove | each state for itself; displays hold it or draw lines to the next |
 //!
-//! The cubics are the certified motion: on straight pieces exactly, on blends within [`HAIR`], which the certificate
+//! The cubics are the certified motion: on straight pieces exactly, on blends within [`BLEND_TOLERANCE`], which the certificate
 //! covers. They keep the limits, and while the arm is at rest the samples are equal and have no velocity. Quintics
 //! equal that motion only where the acceleration does not jump. So accelerations are written only on request, and
 //! refused where they jump. States lie on the motion; lines between them deviate from it by at most `a h^2 / 8` for
@@ -98,24 +98,24 @@ mod tests;
 
 #[cfg(feature = "mcap")]
 pub use self::mcap::{Body, Solid, Stage, mcap};
-pub use blend::{Blend, BlendedPath, HAIR, Stretch};
+pub use blend::{BLEND_TOLERANCE, Blend, BlendedPath, Stretch};
 pub use certified::{CertifiedCurve, Rounding, blend};
 pub use clock::whole_nanoseconds;
-pub use clock::{nanoseconds, nearest_within, not_after, not_before, seconds};
+pub use clock::{nanoseconds, nearest_within, round_down, round_up, seconds};
 pub use cplan_handling::{INTERPOLATION, SMOOTH_INTERPOLATION};
 pub use csv::csv;
 pub use drive::{Drive, Objective};
 pub use field::FieldReport;
 pub use format::{Format, FormatError};
-pub use json::line_a_field;
+pub use json::field_per_line;
 pub use least::least_duration;
 pub use limits::Limits;
 pub use message::{AccelerationJump, JointMotion};
 pub use result::interpolation;
-pub use result::{Blends, Fastest, Optimum, SearchUsed};
+pub use result::{BlendReport, DurationOptimality, LengthOptimality, SearchReport};
 pub use ros::ros_yaml;
 pub use sample::after_pause;
-pub use sample::{LONGEST_MOTION, MOST_SAMPLES, SHORTEST_INTERVAL, Timed, TimingError, Trajectory, time};
+pub use sample::{MAX_DURATION, MAX_SAMPLES, MIN_INTERVAL, TimedMotion, TimingError, Trajectory, time};
 pub use single::single;
 pub use span::{Place, Span};
 pub use tip::TipSpeed;

@@ -33,7 +33,7 @@ pub struct AccelerationJump {
 
 /// Largest difference of the acceleration on both sides of a sample, relative to the greatest: far above rounding to
 /// nanoseconds, far below a visible effect on a quintic.
-const SAME: f64 = 1e-6;
+const ACCELERATION_TOLERANCE: f64 = 1e-6;
 
 /// Units in the last place of the greatest position that make the acceleration of a piece uncertain, over its squared duration.
 const ULPS: f64 = 256.0;
@@ -95,7 +95,7 @@ impl Trajectory {
                 let faster = self.velocity[k + 1][joint] - v - a * h;
                 // The acceleration at the end of the interval, by INTERPOLATION.
                 let end = a + 6.0 * (faster * h - 2.0 * beyond) / h / h;
-                let may = SAME * pull + ULPS * f64::EPSILON * size / h / h;
+                let may = ACCELERATION_TOLERANCE * pull + ULPS * f64::EPSILON * size / h / h;
                 (end - self.acceleration[k + 1][joint]).abs() <= may
             })
         };

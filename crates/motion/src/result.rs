@@ -12,7 +12,7 @@ pub fn interpolation(joints: &[Joint; 2]) -> &'static str {
 
 /// A path's place between a proven lower bound on the length of every free motion and its own length.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Optimum {
+pub struct LengthOptimality {
     /// Measure of lengths: `euclidean`, `weighted` or `time` (seconds at the joints' top speeds).
     pub metric: &'static str,
     /// Weights of the joints, if any.
@@ -28,7 +28,7 @@ pub struct Optimum {
 
 /// A motion's place between a time that no motion undercuts and its own.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Fastest {
+pub struct DurationOptimality {
     /// Duration of the motion, seconds.
     pub duration: f64,
     /// Proven lower bound on the duration of every motion to any of the goals that keeps the joints' limits.
@@ -37,7 +37,7 @@ pub struct Fastest {
     pub gap: Option<f64>,
 }
 
-impl Fastest {
+impl DurationOptimality {
     /// Creates the record with its gap.
     #[must_use]
     pub fn new(duration: f64, lower_bound: f64) -> Self {
@@ -47,14 +47,14 @@ impl Fastest {
 
 /// The corners at which a motion does not stop.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Blends {
+pub struct BlendReport {
     /// Number of blends. The motion stops at the path's other corners.
     pub count: usize,
     /// Greatest distance between a blend's ends and its corner, in joint space (mixing radians and metres).
     pub largest_radius: f64,
 }
 
-impl Blends {
+impl BlendReport {
     /// Summarises the blends of a curve.
     #[must_use]
     pub fn of(curve: &CertifiedCurve) -> Self {
@@ -65,7 +65,7 @@ impl Blends {
 
 /// Settings of a search of a grid or a roadmap.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub struct SearchUsed {
+pub struct SearchReport {
     /// `wave` or `deepening` (only for grids), `bfs`, `dfs`, `dijkstra`, `astar` or `greedy`.
     pub search: &'static str,
     /// Rule by which A\* breaks ties between equally promising cells, if not the default.
@@ -82,7 +82,7 @@ pub struct SearchUsed {
     pub graph: Option<&'static str>,
 }
 
-impl std::fmt::Display for SearchUsed {
+impl std::fmt::Display for SearchReport {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(self.search)?;
         if let Some(neighbors) = self.neighbors {

@@ -3,7 +3,7 @@
 //!
 //! A curve `q(s)` is passed at the rate `ds/dt = z(s)^(1/2)`. With derivatives by `s`, velocities are `q' z^(1/2)`,
 //! accelerations `q'' z + q' z' / 2`, and jerks `(q''' z + 3 q'' z' / 2 + q' z'' / 2) z^(1/2)`; the time is the
-//! integral of `z^(-1/2)`. `z` is a uniform quadratic B-spline, which must satisfy the limits at [`PLACES`] of each
+//! integral of `z^(-1/2)`. `z` is a uniform quadratic B-spline, which must satisfy the limits at [`CONDITION_POSITIONS`] of each
 //! interval as [`Condition`]s.
 //!
 //! A barrier method finds its coefficients: Newton steps minimise the time minus the logarithms of the slacks, with
@@ -13,36 +13,36 @@
 //! approach*, 2009.)
 
 /// Positions in each interval at which conditions are imposed.
-pub(super) const PLACES: [f64; 3] = [0.0, 0.5, 1.0];
+pub(super) const CONDITION_POSITIONS: [f64; 3] = [0.0, 0.5, 1.0];
 
 /// Weights of these positions in an integral (Simpson's rule).
-const WEIGHTS: [f64; 3] = [1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0];
+const SIMPSON_WEIGHTS: [f64; 3] = [1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0];
 
 /// Initial weight of the barriers together, as a share of the time, ...
-const FIRST_HEIGHT: f64 = 0.1;
+const FIRST_BARRIER_WEIGHT: f64 = 0.1;
 
 /// ... and final weight; ...
-const LAST_HEIGHT: f64 = 1e-3;
+const LAST_BARRIER_WEIGHT: f64 = 1e-3;
 
 /// ... divided by this in each round.
-const LOWER: f64 = 6.0;
+const BARRIER_REDUCTION: f64 = 6.0;
 
 /// Greatest number of Newton steps for one weight.
-const MOST_STEPS: usize = 40;
+const MAX_NEWTON_STEPS: usize = 40;
 
 /// A round ends when a step promises less than this share of the time.
-const NEAR: f64 = 1e-5;
+const MIN_ROUND_GAIN: f64 = 1e-5;
 
 /// A full step is taken if it achieves this fraction of its predicted decrease. Otherwise it is halved, up to a maximum
 /// number of times.
-const ENOUGH: f64 = 0.05;
-const HALVINGS: u32 = 20;
+const MIN_STEP_GAIN: f64 = 0.05;
+const MAX_STEP_HALVINGS: u32 = 20;
 
 /// Range within which a product stays a product; beyond it its logarithm is accumulated.
-const WITHIN: std::ops::Range<f64> = 1e-150..1e150;
+const PRODUCT_RANGE: std::ops::Range<f64> = 1e-150..1e150;
 
 /// Places and weights of Gauss's quadrature with five points on the interval from 0 to 1.
-const GAUSS: [[f64; 2]; 5] = [
+const GAUSS_POINTS: [[f64; 2]; 5] = [
     [0.046_910_077_030_668_0, 0.118_463_442_528_094_5],
     [0.230_765_344_947_158_5, 0.239_314_335_249_683_2],
     [0.5, 0.284_444_444_444_444_4],
@@ -51,7 +51,7 @@ const GAUSS: [[f64; 2]; 5] = [
 ];
 
 /// Newton's steps for the place that is passed at some time.
-const TO_PLACE: usize = 4;
+const NEWTON_STEPS_TO_PLACE: usize = 4;
 
 /// A condition on `z` at a position: `a z + b z' + c z'' < 1`, or the same with the sum times the root of `z`.
 #[derive(Debug, Clone, Copy)]
@@ -114,18 +114,18 @@ struct Place<'a> {
 struct Problem<'a> {
     conditions: &'a [Vec<Condition>],
     step: f64,
-    basis: [[[f64; 3]; 3]; PLACES.len()],
+    basis: [[[f64; 3]; 3]; CONDITION_POSITIONS.len()],
 }
 
 impl Problem<'_> {
     /// Iterates over all positions, in order, for the given coefficients.
     fn places(&self, coefficients: &[f64]) -> impl Iterator<Item = Place<'_>> {
         self.conditions.iter().enumerate().map(move |(place, conditions)| {
-            let (first, place) = (place / PLACES.len(), place % PLACES.len());
+            let (first, place) = (place / CONDITION_POSITIONS.len(), place % CONDITION_POSITIONS.len());
             let basis = &self.basis[place];
             let own = [0, 1, 2].map(|k| coefficients[first + k]);
             let values = basis.map(|row| dot(row, own));
-            Place { first, basis, values, time: self.step * WEIGHTS[place] / values[0].sqrt(), conditions }
+            Place { first, basis, values, time: self.step * SIMPSON_WEIGHTS[place] / values[0].sqrt(), conditions }
         })
     }
 
@@ -138,7 +138,7 @@ impl Problem<'_> {
                 return f64::INFINITY;
             }
             merit += time;
-            if !WITHIN.contains(&product) {
+            if !PRODUCT_RANGE.contains(&product) {
                 (merit, product) = (merit - height * product.ln(), 1.0);
             }
             for condition in conditions {
@@ -219,26 +219,26 @@ impl Rate {
     /// conditions at all positions. `begin` is a constant squared rate that satisfies them with some slack. Returns
     /// `None` if it does not.
     pub fn fastest(conditions: &[Vec<Condition>], step: f64, begin: f64) -> Option<Self> {
-        let problem = Problem { conditions, step, basis: PLACES.map(|u| basis(u, step)) };
-        let mut coefficients = vec![begin; conditions.len() / PLACES.len() + 2];
+        let problem = Problem { conditions, step, basis: CONDITION_POSITIONS.map(|u| basis(u, step)) };
+        let mut coefficients = vec![begin; conditions.len() / CONDITION_POSITIONS.len() + 2];
         let time: f64 = problem.places(&coefficients).map(|place| place.time).sum();
         let count: usize = conditions.iter().map(Vec::len).sum();
-        let [mut height, last] = [FIRST_HEIGHT, LAST_HEIGHT].map(|share| share * time / count as f64);
+        let [mut height, last] = [FIRST_BARRIER_WEIGHT, LAST_BARRIER_WEIGHT].map(|share| share * time / count as f64);
         if !problem.merit(&coefficients, height).is_finite() {
             return None;
         }
         loop {
             let mut now = problem.merit(&coefficients, height);
-            for _ in 0..MOST_STEPS {
+            for _ in 0..MAX_NEWTON_STEPS {
                 let Some((step, promised)) = problem.newton(&coefficients, height) else { break };
-                if promised < NEAR * time {
+                if promised < MIN_ROUND_GAIN * time {
                     break;
                 }
-                let mut shares = (0..HALVINGS).map(|n| 0.5_f64.powi(n as i32));
+                let mut shares = (0..MAX_STEP_HALVINGS).map(|n| 0.5_f64.powi(n as i32));
                 let better = shares.find_map(|share| {
                     let moved: Vec<f64> = coefficients.iter().zip(&step).map(|(c, step)| c + share * step).collect();
                     let merit = problem.merit(&moved, height);
-                    (merit <= now - ENOUGH * share * promised).then_some((moved, merit))
+                    (merit <= now - MIN_STEP_GAIN * share * promised).then_some((moved, merit))
                 });
                 let Some(better) = better else { break };
                 (coefficients, now) = better;
@@ -246,7 +246,7 @@ impl Rate {
             if height <= last {
                 break;
             }
-            height = (height / LOWER).max(last);
+            height = (height / BARRIER_REDUCTION).max(last);
         }
         let mut rate = Self { step, coefficients, times: vec![0.0] };
         for interval in 0..rate.coefficients.len() - 2 {
@@ -267,7 +267,7 @@ impl Rate {
 
     /// Returns the time from the beginning of an interval to a position in it.
     fn takes(&self, interval: usize, u: f64) -> f64 {
-        let inverse = GAUSS.map(|[place, weight]| weight / self.squared(interval, u * place).sqrt());
+        let inverse = GAUSS_POINTS.map(|[place, weight]| weight / self.squared(interval, u * place).sqrt());
         self.step * u * inverse.iter().sum::<f64>()
     }
 
@@ -284,7 +284,7 @@ impl Rate {
         let interval = self.times.partition_point(|begin| *begin <= time).saturating_sub(1).min(last);
         let since = time - self.times[interval];
         let mut u = since / (self.times[interval + 1] - self.times[interval]);
-        for _ in 0..TO_PLACE {
+        for _ in 0..NEWTON_STEPS_TO_PLACE {
             u -= (self.takes(interval, u) - since) * self.squared(interval, u).sqrt() / self.step;
         }
         (interval as f64 + u.clamp(0.0, 1.0)) * self.step
@@ -300,7 +300,7 @@ mod tests {
     #[test]
     fn what_is_left_may_be_much() {
         let conditions = [[0.25, 0.0, 0.0], [-10.0, 0.0, 0.0]].map(|factors| Condition { factors, has_root: false });
-        let all = vec![conditions.to_vec(); 1000 * PLACES.len()];
+        let all = vec![conditions.to_vec(); 1000 * CONDITION_POSITIONS.len()];
         // The squared rate is below 4, so that a parameter of 10 takes 5 s at the least.
         let rate = Rate::fastest(&all, 0.01, 0.5).unwrap();
         assert!((5.0..5.05).contains(&rate.duration()), "{}", rate.duration());

@@ -1,7 +1,7 @@
 //! Trajectories as ROS 2 messages.
 
 use super::JointMotion;
-use super::clock::{PER_SECOND, nanoseconds};
+use super::clock::{NANOSECONDS_PER_SECOND, nanoseconds};
 use std::fmt::Write;
 
 /// Writes the trajectory as a `trajectory_msgs/msg/JointTrajectory` in the YAML of `ros2 topic pub`.
@@ -34,7 +34,7 @@ pub fn ros_yaml(motion: &JointMotion) -> String {
 /// Splits a time into whole seconds and nanoseconds.
 fn split(time: f64) -> (u64, u64) {
     let nanoseconds = nanoseconds(time);
-    (nanoseconds / PER_SECOND, nanoseconds % PER_SECOND)
+    (nanoseconds / NANOSECONDS_PER_SECOND, nanoseconds % NANOSECONDS_PER_SECOND)
 }
 
 fn list(values: &[f64]) -> String {

@@ -1,6 +1,6 @@
 //! A path with its timing.
 
-use super::clock::{self, PER_SECOND, nanoseconds, not_before, whole_nanoseconds};
+use super::clock::{self, NANOSECONDS_PER_SECOND, nanoseconds, round_up, whole_nanoseconds};
 use super::limits::Limits;
 use super::profile::Phase;
 use super::schedule::{TimedTrack, Track, schedule};
@@ -12,21 +12,21 @@ use serde::Serialize;
 use thiserror::Error;
 
 /// Least time between two samples (approximately), seconds. It is a thousandth of the fastest servo cycle in use (1
-/// ms), so nothing useful is lost. It is a thousand times the nanosecond of ROS and, at the end of [`LONGEST_MOTION`],
+/// ms), so nothing useful is lost. It is a thousand times the nanosecond of ROS and, at the end of [`MAX_DURATION`],
 /// ten thousand times the spacing of doubles, so times stay distinct after rounding.
-pub const SHORTEST_INTERVAL: f64 = 1e-6;
+pub const MIN_INTERVAL: f64 = 1e-6;
 
 /// Least distance, in seconds, between other samples and those that only the period requires, if the period is longer
 /// than twice this. At this distance, rounding to doubles changes the acceleration of a cubic by less than a millionth
 /// of a radian per squared second.
-pub(super) const USUAL_INTERVAL: f64 = 1e-4;
+pub(super) const MIN_PERIODIC_INTERVAL: f64 = 1e-4;
 
 /// The longest motion that is timed, seconds: eleven days. For longer ones the limits are a mistake rather than a wish,
-/// and doubles no longer resolve [`SHORTEST_INTERVAL`] well.
-pub const LONGEST_MOTION: f64 = 1e6;
+/// and doubles no longer resolve [`MIN_INTERVAL`] well.
+pub const MAX_DURATION: f64 = 1e6;
 
 /// Greatest number of samples of a trajectory: some 300 MB.
-pub const MOST_SAMPLES: usize = 5_000_000;
+pub const MAX_SAMPLES: usize = 5_000_000;
 
 /// A motion of both joints, sampled.
 ///
@@ -37,7 +37,7 @@ pub const MOST_SAMPLES: usize = 5_000_000;
 ///
 /// The acceleration may jump at a sample, unless a joint's jerk has a limit; the stated one is that of the interval
 /// that begins there. The cubic through positions and velocities of two samples keeps the limits, too, and is the same
-/// motion on straight pieces. Times begin at 0 and increase strictly, by at least [`SHORTEST_INTERVAL`]; they are whole
+/// motion on straight pieces. Times begin at 0 and increase strictly, by at least [`MIN_INTERVAL`]; they are whole
 /// nanoseconds. Radians or metres, and seconds; joints in the order base to tip.
 #[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct Trajectory {
@@ -59,11 +59,11 @@ pub struct Trajectory {
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum TimingError {
     /// The period is not a number, not finite, or too small.
-    #[error("the sampling period is {0} s; it must be a finite number of at least {SHORTEST_INTERVAL} s")]
+    #[error("the sampling period is {0} s; it must be a finite number of at least {MIN_INTERVAL} s")]
     Period(f64),
     /// Too many samples.
     #[error(
-        "sampling {duration:.3} s of motion every {period} s gives more than {MOST_SAMPLES} samples; \
+        "sampling {duration:.3} s of motion every {period} s gives more than {MAX_SAMPLES} samples; \
          choose a longer period"
     )]
     TooManySamples {
@@ -74,7 +74,7 @@ pub enum TimingError {
     },
     /// The limits hardly let the joints move.
     #[error(
-        "the motion would last {0:.3e} s, more than {LONGEST_MOTION:.0e} s; \
+        "the motion would last {0:.3e} s, more than {MAX_DURATION:.0e} s; \
          raise the limits of the joints, and of the tip's speed if it has one"
     )]
     TooLong(f64),
@@ -110,7 +110,7 @@ impl Trajectory {
     }
 
     /// Appends a motion that begins where this one ends, after a rest of `pause` seconds, rounded up to whole
-    /// nanoseconds. Without samples it becomes that motion. Pauses below [`SHORTEST_INTERVAL`] count as none.
+    /// nanoseconds. Without samples it becomes that motion. Pauses below [`MIN_INTERVAL`] count as none.
     pub fn then(&mut self, pause: f64, next: &Trajectory) {
         let begin = self.time.last().map_or(0, |end| nanoseconds(after_pause(*end, pause)));
         if rest(pause) == 0.0 {
@@ -128,24 +128,24 @@ impl Trajectory {
         self.torque.extend(&next.torque);
     }
 
-    /// Appends a rest of `pause` seconds, rounded up to whole nanoseconds; less than [`SHORTEST_INTERVAL`] counts as
+    /// Appends a rest of `pause` seconds, rounded up to whole nanoseconds; less than [`MIN_INTERVAL`] counts as
     /// nothing.
-    pub fn stand(&mut self, pause: f64) {
+    pub fn append_rest(&mut self, pause: f64) {
         if rest(pause) > 0.0 {
-            self.stand_to(nanoseconds(self.duration() + rest(pause)));
+            self.append_rest_to(nanoseconds(self.duration() + rest(pause)));
         }
     }
 
-    /// Appends a rest until the first whole nanosecond from a time on, of at least [`SHORTEST_INTERVAL`]. Does nothing
+    /// Appends a rest until the first whole nanosecond from a time on, of at least [`MIN_INTERVAL`]. Does nothing
     /// if the motion does not end before that time.
-    pub fn stand_until(&mut self, time: f64) {
-        let (end, until) = (nanoseconds(self.duration()), nanoseconds(not_before(time)));
+    pub fn append_rest_until(&mut self, time: f64) {
+        let (end, until) = (nanoseconds(self.duration()), nanoseconds(round_up(time)));
         if end < until {
-            self.stand_to(until.max(end + nanoseconds(SHORTEST_INTERVAL)));
+            self.append_rest_to(until.max(end + nanoseconds(MIN_INTERVAL)));
         }
     }
 
-    fn stand_to(&mut self, end: u64) {
+    fn append_rest_to(&mut self, end: u64) {
         if let Some(&position) = self.position.last() {
             self.push(end, [position.into(), Configuration::zeros(), Configuration::zeros()]);
             // These are the torques that hold the arm there.
@@ -186,12 +186,12 @@ pub fn after_pause(end: f64, pause: f64) -> f64 {
 
 /// Returns the length of a pause.
 fn rest(pause: f64) -> f64 {
-    if pause < SHORTEST_INTERVAL { 0.0 } else { whole_nanoseconds(pause) }
+    if pause < MIN_INTERVAL { 0.0 } else { whole_nanoseconds(pause) }
 }
 
 /// A motion in time, and the curve that it follows.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Timed {
+pub struct TimedMotion {
     /// The path, with the blends in use: those that would not make the motion faster are removed.
     pub curve: CertifiedCurve,
     /// The motion as samples in time.
@@ -207,7 +207,7 @@ pub struct Timed {
 /// where that one is faster between two stops, it is used.
 ///
 /// Samples lie at the multiples of `period`, and wherever that second derivative changes. On blends they are dense
-/// enough for the cubic through positions and velocities to keep the limits, too, and to stay within [`crate::HAIR`] of
+/// enough for the cubic through positions and velocities to keep the limits, too, and to stay within [`crate::BLEND_TOLERANCE`] of
 /// the blend. All lie at whole nanoseconds. Multiples of the period closer than a tenth of a millisecond (or half the
 /// period) to another sample are left out. A path that does not move gives one sample.
 ///
@@ -218,16 +218,16 @@ pub struct Timed {
 /// If the jerk of any joint is limited, the motion stops at every corner, blended or not ([`super::Drive::along`]
 /// passes corners). Each straight piece on which such a joint moves takes the least time that speed, acceleration and
 /// jerk along it allow from rest to rest, with one bound on the tip's speed for the whole piece; up to `12`
-/// [`SHORTEST_INTERVAL`] longer if a phase would be shorter than that.
+/// [`MIN_INTERVAL`] longer if a phase would be shorter than that.
 ///
 /// # Errors
-/// [`TimingError`]: an unusable period, a motion beyond [`LONGEST_MOTION`], or more than [`MOST_SAMPLES`] samples.
-pub fn time(curve: impl Into<CertifiedCurve>, limits: &Limits, period: f64) -> Result<Timed, TimingError> {
+/// [`TimingError`]: an unusable period, a motion beyond [`MAX_DURATION`], or more than [`MAX_SAMPLES`] samples.
+pub fn time(curve: impl Into<CertifiedCurve>, limits: &Limits, period: f64) -> Result<TimedMotion, TimingError> {
     let curve = curve.into();
     let (used, trajectory) = time_curve(curve.curve(), limits, period)?;
     let gone = (0..used.radii().len()).filter(|&w| used.radii()[w] == 0.0 && curve.curve().radii()[w] > 0.0);
     let curve = gone.collect::<Vec<_>>().into_iter().fold(curve, CertifiedCurve::without);
-    Ok(Timed { curve, trajectory })
+    Ok(TimedMotion { curve, trajectory })
 }
 
 /// Does the same as [`time`] for a curve without certificate, and returns the blends in use.
@@ -236,7 +236,7 @@ pub(super) fn time_curve(
     limits: &Limits,
     period: f64,
 ) -> Result<(BlendedPath, Trajectory), TimingError> {
-    if !(period.is_finite() && period >= SHORTEST_INTERVAL) {
+    if !(period.is_finite() && period >= MIN_INTERVAL) {
         return Err(TimingError::Period(period));
     }
     let (used, runs) = schedule(curve, limits, &vec![1.0; curve.radii().len()], 0.0);
@@ -245,12 +245,12 @@ pub(super) fn time_curve(
         timed_tracks.flat_map(|(track, phases)| phases.iter().map(move |phase| (track, phase)))
     };
     let duration = phases().map(|(_, phase)| phase.duration).fold(0.0, |sum, duration| sum + duration);
-    if duration.is_nan() || duration > LONGEST_MOTION {
+    if duration.is_nan() || duration > MAX_DURATION {
         return Err(TimingError::TooLong(duration));
     }
     let within = phases().map(|(track, phase)| 1.0 + (phase.duration / track.interval(phase, limits)).ceil());
     let samples = duration / period + within.sum::<f64>() + 1.0;
-    if samples > MOST_SAMPLES as f64 {
+    if samples > MAX_SAMPLES as f64 {
         return Err(TimingError::TooManySamples { duration, period });
     }
 
@@ -265,7 +265,7 @@ pub(super) fn time_curve(
 /// Phases start and end between nanoseconds. The sample of each is at the nearest nanosecond, with the motion's state
 /// there and the acceleration of the interval that starts there.
 pub(super) fn sample(run: &[TimedTrack], begin: u64, limits: &Limits, period: f64, trajectory: &mut Trajectory) -> u64 {
-    let near = nanoseconds((period / 2.0).clamp(SHORTEST_INTERVAL, USUAL_INTERVAL));
+    let near = nanoseconds((period / 2.0).clamp(MIN_INTERVAL, MIN_PERIODIC_INTERVAL));
     let mut since = 0.0;
     let mut before: Option<(&Track, &Phase)> = None;
     for (track, phase) in run.iter().flat_map(|(track, phases)| phases.iter().map(move |phase| (track, phase))) {
@@ -285,7 +285,7 @@ pub(super) fn sample(run: &[TimedTrack], begin: u64, limits: &Limits, period: f6
         let multiples = (count..).map(|k| nanoseconds(k as f64 * period)).skip_while(|&at| at < first + near);
         for next in multiples.take_while(|&at| at + near <= last).chain([last]) {
             let gap = (next - left) as f64;
-            let parts = (gap / PER_SECOND as f64 / interval).ceil().max(1.0);
+            let parts = (gap / NANOSECONDS_PER_SECOND as f64 / interval).ceil().max(1.0);
             for part in 1..parts as u64 {
                 let at = left + (gap * (part as f64 / parts)) as u64;
                 trajectory.push(at, state(at));

@@ -5,23 +5,23 @@ use super::corner::{Bounds, Corner};
 use super::jerk;
 use super::limits::Limits;
 use super::profile::{Phase, State, passing, rest_to_rest};
-use super::sample::{SHORTEST_INTERVAL, Trajectory, USUAL_INTERVAL, sample};
-use super::tip::{Part, TIP_STEP};
+use super::sample::{MIN_INTERVAL, MIN_PERIODIC_INTERVAL, Trajectory, sample};
+use super::tip::{Part, TIP_SPEED_STEP};
 use crate::{Blend, BlendedPath};
 use cplan_core::space::Configuration;
 use std::ops::Range;
 
 /// Greatest number of parts of a straight stretch.
-const MOST_PARTS: f64 = 1024.0;
+const MAX_LINE_PARTS: f64 = 1024.0;
 
 /// Least duration of a phase of a straight stretch that is passed, as a fraction of its least time. A shorter phase
 /// would gain less than the limits that [`reserve`] withholds for it.
-const SHORTEST_SHARE: f64 = 1.0 / 32.0;
+const MIN_PHASE_SHARE: f64 = 1.0 / 32.0;
 
 /// Blends are cut into more spans as long as that shortens the motion by this share. Where a joint of little
 /// acceleration turns back within a blend, the other joints may accelerate more near that place, which coarse spans do
 /// not show.
-const WORTH: f64 = 0.005;
+const MIN_GAIN: f64 = 0.005;
 
 /// A stretch of a path with the distance along it.
 #[derive(Debug, Clone, PartialEq)]
@@ -77,15 +77,15 @@ impl Line {
             half: whole.length / 2.0,
         };
         // Tolerance of the derivative of the tip's path where it matters, that is, where it is more than speed / own.
-        let off = TIP_STEP * tip.speed / own;
-        let count = (tip.slack(&part) / off).ceil().clamp(1.0, MOST_PARTS);
+        let off = TIP_SPEED_STEP * tip.speed / own;
+        let count = (tip.slack(&part) / off).ceil().clamp(1.0, MAX_LINE_PARTS);
         let end = |i: f64| if i == count { to } else { from + (to - from) * (i / count) };
         (0..count as u32).map(|i| Self::new(end(f64::from(i)), end(f64::from(i) + 1.0), limits)).collect()
     }
 
     /// Returns the least duration of a phase on it, seconds.
     fn shortest(&self) -> f64 {
-        (self.length / self.speed * SHORTEST_SHARE).clamp(SHORTEST_INTERVAL, USUAL_INTERVAL)
+        (self.length / self.speed * MIN_PHASE_SHARE).clamp(MIN_INTERVAL, MIN_PERIODIC_INTERVAL)
     }
 
     /// Adapts it to a motion that does not start and end at rest, so that its phases end between two nanoseconds.
@@ -159,7 +159,7 @@ pub(super) fn schedule(
 
 /// Returns an upper bound on the duration along a curve, seconds, by the speeds that few spans allow. It compares
 /// similar curves at a fraction of the cost of [`schedule`].
-pub(super) fn rough_duration(curve: &BlendedPath, limits: &Limits) -> f64 {
+pub(super) fn duration_bound(curve: &BlendedPath, limits: &Limits) -> f64 {
     let (_, runs) = scheduled(curve, limits, &vec![1.0; curve.radii().len()], 0.0, Spans::Few);
     runs.iter().map(|run| duration(run)).sum()
 }
@@ -250,7 +250,7 @@ fn stopping(curve: &BlendedPath, waypoints: Range<usize>, limits: &Limits, spans
     let timed_tracks = |leg: &[Configuration]| {
         let whole = || {
             let line = Line::new(leg[0], leg[1], limits).safe(limits);
-            let phases = rest_to_rest(line.length, line.speed, line.acceleration, SHORTEST_INTERVAL);
+            let phases = rest_to_rest(line.length, line.speed, line.acceleration, MIN_INTERVAL);
             vec![(Track::Line(line), phases)]
         };
         if Line::new(leg[0], leg[1], limits).jerk.is_finite() {
@@ -258,7 +258,7 @@ fn stopping(curve: &BlendedPath, waypoints: Range<usize>, limits: &Limits, spans
             let parts = Line::parts(leg[0], leg[1], limits);
             let speed = parts.iter().map(|part| part.speed).fold(f64::INFINITY, f64::min);
             let line = Line { speed, ..Line::new(leg[0], leg[1], limits) }.safe(limits);
-            let phases = jerk::rest_to_rest(line.length, line.speed, line.acceleration, line.jerk, SHORTEST_INTERVAL);
+            let phases = jerk::rest_to_rest(line.length, line.speed, line.acceleration, line.jerk, MIN_INTERVAL);
             return vec![(Track::Line(line), phases)];
         }
         let tracks = Track::straight(leg[0], leg[1], limits);
@@ -322,7 +322,7 @@ fn driven(tracks: Vec<Track>, limits: &Limits, coast: f64, spans: Spans) -> Opti
     while let Some(finer) = much_finer(&tracks, &best.1) {
         let squared = squared_speeds(&finer, limits);
         let Some(timed_tracks) = timed_tracks(&finer, &squared, coast) else { break };
-        if duration(&timed_tracks) > (1.0 - WORTH) * duration(&best.0) {
+        if duration(&timed_tracks) > (1.0 - MIN_GAIN) * duration(&best.0) {
             break;
         }
         (tracks, best) = (finer, (timed_tracks, squared));
@@ -357,7 +357,7 @@ fn timed_tracks(tracks: &[Track], squared: &[Vec<f64>], coast: f64) -> Option<Ve
             }
             Track::Corner(corner) => corner.phases(squared),
         };
-        let lasts = |phase: &Phase| phase.duration.is_finite() && phase.duration >= SHORTEST_INTERVAL;
+        let lasts = |phase: &Phase| phase.duration.is_finite() && phase.duration >= MIN_INTERVAL;
         phases.iter().all(lasts).then(|| (track.clone(), phases))
     };
     tracks.iter().zip(squared).map(timed_track).collect()

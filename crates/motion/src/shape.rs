@@ -3,53 +3,53 @@
 //! The shortest path touches the obstacles that it goes around, so its corners can hardly be cut. Corners moved away
 //! slightly are passed several times as fast, on a path that is longer only by about the square of that distance.
 
-use super::sample::Timed;
+use super::sample::TimedMotion;
 use cplan_core::check::{CertifiedPath, StraightMotions, certify};
 use cplan_core::model::Scene;
 use cplan_core::space::{Configuration, Path};
 
 /// Initial distances by which all corners are moved off the obstacles, as fractions of the greatest.
-const LIFTS: [f64; 8] = [1.0 / 128.0, 1.0 / 64.0, 1.0 / 32.0, 1.0 / 16.0, 1.0 / 8.0, 1.0 / 4.0, 1.0 / 2.0, 1.0];
+const LIFT_SHARES: [f64; 8] = [1.0 / 128.0, 1.0 / 64.0, 1.0 / 32.0, 1.0 / 16.0, 1.0 / 8.0, 1.0 / 4.0, 1.0 / 2.0, 1.0];
 
 /// First and last distance by which single corners are moved, as fractions of the greatest.
-const STEPS: [f64; 2] = [1.0 / 8.0, 1.0 / 512.0];
+const CORNER_STEPS: [f64; 2] = [1.0 / 8.0, 1.0 / 512.0];
 
 /// Number of paths with single corners moved that are tried.
-const TRIES: usize = 240;
+const MAX_TRIES: usize = 240;
 
 /// Number of times that the lift of a corner with blocked legs is halved before the corner stays in place.
-const HALVINGS: u32 = 6;
+const MAX_LIFT_HALVINGS: u32 = 6;
 
 /// The settings of the shape search.
-pub(super) struct Shaping<'a, F> {
+pub(super) struct ShapeSearch<'a, F> {
     scene: &'a Scene,
     motions: StraightMotions<'a>,
     /// Returns the fastest motion along a path, if it takes less than this many seconds.
     drive: F,
 }
 
-impl<'a, F: Fn(&CertifiedPath, f64) -> Option<Timed>> Shaping<'a, F> {
+impl<'a, F: Fn(&CertifiedPath, f64) -> Option<TimedMotion>> ShapeSearch<'a, F> {
     pub fn new(scene: &'a Scene, drive: F) -> Self {
         Self { scene, motions: StraightMotions::new(scene, scene.workspace().clearance), drive }
     }
 
     /// Looks for a faster motion than `best`, on a path and on those whose corners are moved off the obstacles by up to
     /// `most`.
-    pub fn lifted(&self, path: &CertifiedPath, most: f64, best: &mut Timed) {
+    pub fn lifted(&self, path: &CertifiedPath, most: f64, best: &mut TimedMotion) {
         self.try_out(path, best);
         if path.path().waypoints().len() < 3 {
             return;
         }
-        for path in LIFTS.iter().filter_map(|lift| self.off(path, lift * most)) {
+        for path in LIFT_SHARES.iter().filter_map(|lift| self.off(path, lift * most)) {
             self.try_out(&path, best);
         }
     }
 
     /// Looks for a faster motion than `best` with single corners moved or removed: a pattern search, starting with
     /// `most`.
-    pub fn refined(&self, most: f64, best: &mut Timed) {
-        let [mut step, last] = STEPS.map(|share| share * most);
-        let mut left = TRIES;
+    pub fn refined(&self, most: f64, best: &mut TimedMotion) {
+        let [mut step, last] = CORNER_STEPS.map(|share| share * most);
+        let mut left = MAX_TRIES;
         while step >= last {
             let mut improved = false;
             let mut w = 1;
@@ -93,7 +93,7 @@ impl<'a, F: Fn(&CertifiedPath, f64) -> Option<Timed>> Shaping<'a, F> {
     }
 
     /// Takes the motion about a path if it is faster.
-    fn try_out(&self, path: &CertifiedPath, best: &mut Timed) -> bool {
+    fn try_out(&self, path: &CertifiedPath, best: &mut TimedMotion) -> bool {
         let faster = (self.drive)(path, best.trajectory.duration());
         let is_faster = faster.is_some();
         if let Some(faster) = faster {
@@ -106,7 +106,7 @@ impl<'a, F: Fn(&CertifiedPath, f64) -> Option<Timed>> Shaping<'a, F> {
     fn off(&self, path: &CertifiedPath, by: f64) -> Option<CertifiedPath> {
         let q = path.path().waypoints();
         let mut lifts: Vec<f64> = (0..q.len()).map(|w| if w == 0 || w + 1 == q.len() { 0.0 } else { by }).collect();
-        for round in 0..=HALVINGS {
+        for round in 0..=MAX_LIFT_HALVINGS {
             let at = |w: usize| if lifts[w] > 0.0 { q[w] + outward(q, w) * lifts[w] } else { q[w] };
             let moved: Vec<Configuration> = (0..q.len()).map(at).collect();
             let is_moved = |w: usize| lifts[w - 1] > 0.0 || lifts[w] > 0.0;
@@ -115,7 +115,7 @@ impl<'a, F: Fn(&CertifiedPath, f64) -> Option<Timed>> Shaping<'a, F> {
             if barred.is_empty() {
                 return certify(self.scene, Path::new(moved), self.scene.workspace().clearance).ok();
             }
-            let share = if round + 1 < HALVINGS { 0.5 } else { 0.0 };
+            let share = if round + 1 < MAX_LIFT_HALVINGS { 0.5 } else { 0.0 };
             barred.iter().for_each(|&w| (lifts[w - 1], lifts[w]) = (share * lifts[w - 1], share * lifts[w]));
         }
         None

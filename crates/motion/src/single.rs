@@ -1,7 +1,7 @@
 //! The motion of one joint while all others rest.
 
 use super::profile::rest_to_rest;
-use super::sample::SHORTEST_INTERVAL;
+use super::sample::MIN_INTERVAL;
 
 /// Returns the fastest motion of a joint over a distance from rest to rest, at the ends of its phases: seconds from the
 /// beginning in whole nanoseconds, the distance so far, and the speed. Cubics between these are exact. A distance of 0
@@ -11,7 +11,7 @@ pub fn single(distance: f64, velocity: f64, acceleration: f64) -> Vec<[f64; 3]> 
     let mut samples = vec![[0.0; 3]];
     if distance > 0.0 {
         let mut time = 0.0;
-        for phase in rest_to_rest(distance, velocity, acceleration, SHORTEST_INTERVAL) {
+        for phase in rest_to_rest(distance, velocity, acceleration, MIN_INTERVAL) {
             time += phase.duration;
             samples.push([time, phase.to, phase.leave]);
         }

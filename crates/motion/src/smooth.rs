@@ -7,7 +7,7 @@
 
 use super::clock::{nanoseconds, seconds};
 use super::limits::Limits;
-use super::sample::{Timed, Trajectory};
+use super::sample::{TimedMotion, Trajectory};
 use super::schedule::{TimedTrack, schedule, stopping_at};
 use super::spline::Spline;
 use crate::BlendedPath;
@@ -19,28 +19,28 @@ use cplan_handling::Piece;
 use std::collections::BTreeSet;
 
 /// Factor for the speed at a corner near which the motion is not shown to be free.
-const SLOWER: f64 = 0.7;
+const SLOWDOWN_FACTOR: f64 = 0.7;
 
 /// Share of the speed below which the arm stops at the corner instead.
-const SLOWEST: f64 = 1.0 / 128.0;
+const MIN_SPEED_SHARE: f64 = 1.0 / 128.0;
 
 /// Number of rounds of slower corners, after which the arm stops at all of them.
-const ROUNDS: usize = 24;
+const MAX_ROUNDS: usize = 24;
 
 /// Factor for gentler accelerations. The gentler they are, the shorter the time in which the jerk reverses them.
-const GENTLER: f64 = 0.8;
+const ACCELERATION_FACTOR: f64 = 0.8;
 
 /// Least share of the accelerations that is tried.
-const GENTLEST: f64 = 1e-3;
+const MIN_ACCELERATION_SHARE: f64 = 1e-3;
 
 /// Positions at which the distance of a piece of a motion from the path is measured.
-const LOOKS: [f64; 4] = [0.0, 0.25, 0.5, 0.75];
+const DISTANCE_POSITIONS: [f64; 4] = [0.0, 0.25, 0.5, 0.75];
 
 /// ... share by which the distance may be greater between these positions, ...
-const BETWEEN: f64 = 0.01;
+const DISTANCE_MARGIN: f64 = 0.01;
 
 /// ... and greatest number of legs that it may be ahead of the last one.
-const AHEAD: usize = 8;
+const MAX_LEGS_AHEAD: usize = 8;
 
 /// A path that is timed within limits.
 struct Smoothing<'a> {
@@ -55,7 +55,7 @@ struct Smoothing<'a> {
 }
 
 /// A motion, with the times at which it passes the corners of its path.
-struct Smooth {
+struct SmoothMotion {
     trajectory: Trajectory,
     /// Waypoints with the nanoseconds between which their blends were passed.
     passed: Vec<(usize, [u64; 2])>,
@@ -72,7 +72,7 @@ pub(super) fn smoothed(
     period: f64,
     below: f64,
     retimes: bool,
-) -> Option<Timed> {
+) -> Option<TimedMotion> {
     let clearance = scene.workspace().clearance;
     let mut curve = blend(scene, path, greatest, clearance).curve().clone();
     let rounding = Rounding::new(scene, path, clearance);
@@ -81,8 +81,8 @@ pub(super) fn smoothed(
     let mut smoothing = Smoothing::new(&curve, limits, period)?;
     let mut shares = vec![1.0; curve.radii().len()];
     let mut plain = None;
-    for _ in 0..ROUNDS {
-        let fastest = plain.as_ref().map_or(below, |plain: &Timed| plain.trajectory.duration());
+    for _ in 0..MAX_ROUNDS {
+        let fastest = plain.as_ref().map_or(below, |plain: &TimedMotion| plain.trajectory.duration());
         // Slower corners do not make the motion faster.
         let smooth = smoothing.along(&curve, &shares).filter(|smooth| smooth.trajectory.duration() < fastest);
         let Some(smooth) = smooth else { return plain };
@@ -101,19 +101,19 @@ pub(super) fn smoothed(
         }
         let radii = reaches(&curve, &smooth, &pieces);
         let far = (0..radii.len()).filter(|&w| radii[w] > most);
-        let open = rounding.open(&pieces);
+        let open = rounding.uncertified_pieces(&pieces);
         let slower: BTreeSet<usize> = open.iter().filter_map(|&i| smooth.corner(&pieces[i])).chain(far).collect();
         if slower.is_empty() {
             let certified = rounding.certified(radii, &pieces);
-            let timed = certified.map(|curve| Timed { curve, trajectory: smooth.trajectory });
+            let timed = certified.map(|curve| TimedMotion { curve, trajectory: smooth.trajectory });
             if smoothing.retimes == retimes || timed.is_none() {
                 return timed.or(plain);
             }
             (plain, smoothing.retimes) = (timed, true);
         }
         for waypoint in slower {
-            shares[waypoint] *= SLOWER;
-            if shares[waypoint] < SLOWEST {
+            shares[waypoint] *= SLOWDOWN_FACTOR;
+            if shares[waypoint] < MIN_SPEED_SHARE {
                 curve = curve.with(waypoint, 0.0);
             }
         }
@@ -123,14 +123,14 @@ pub(super) fn smoothed(
 
 /// Returns the extent of the motion at each waypoint, as the radius of a parabola that leaves the path at the same
 /// distance and passes the corner at the same distance.
-fn reaches(curve: &BlendedPath, smooth: &Smooth, pieces: &[Piece]) -> Vec<f64> {
+fn reaches(curve: &BlendedPath, smooth: &SmoothMotion, pieces: &[Piece]) -> Vec<f64> {
     let q = curve.path().waypoints();
     let (mut radii, mut nearest) = (vec![0.0_f64; q.len()], vec![f64::INFINITY; q.len()]);
     let mut leg = 0;
     for piece in pieces {
         let corner = smooth.corner(piece);
-        for at in LOOKS.map(|u| piece.at(u)) {
-            let legs = leg..(leg + AHEAD).min(q.len() - 1);
+        for at in DISTANCE_POSITIONS.map(|u| piece.at(u)) {
+            let legs = leg..(leg + MAX_LEGS_AHEAD).min(q.len() - 1);
             for w in legs.clone() {
                 nearest[w] = nearest[w].min((q[w] - at).norm());
             }
@@ -143,7 +143,7 @@ fn reaches(curve: &BlendedPath, smooth: &Smooth, pieces: &[Piece]) -> Vec<f64> {
     }
     for (w, _) in &smooth.passed {
         let off = radii[*w].max(if nearest[*w].is_finite() { nearest[*w] } else { 0.0 });
-        radii[*w] = curve.radii()[*w].max(2.0 * off * (1.0 + BETWEEN));
+        radii[*w] = curve.radii()[*w].max(2.0 * off * (1.0 + DISTANCE_MARGIN));
     }
     radii
 }
@@ -171,12 +171,12 @@ impl<'a> Smoothing<'a> {
         let mut best: Option<(f64, Self)> = None;
         for coasts in [false, true] {
             let mut share = 1.0;
-            while share > GENTLEST {
+            while share > MIN_ACCELERATION_SHARE {
                 let next = with(share, coasts);
                 let Some(duration) = takes(&next).filter(|time| best.as_ref().is_none_or(|best| *time < best.0)) else {
                     break;
                 };
-                (best, share) = (Some((duration, next)), GENTLER * share);
+                (best, share) = (Some((duration, next)), ACCELERATION_FACTOR * share);
             }
         }
         best.map(|(_, smoothing)| smoothing)
@@ -184,9 +184,9 @@ impl<'a> Smoothing<'a> {
 
     /// Returns the motion along a curve whose corners are passed at shares of their speed, from rest to rest. Does not
     /// check obstacles.
-    fn along(&self, curve: &BlendedPath, shares: &[f64]) -> Option<Smooth> {
+    fn along(&self, curve: &BlendedPath, shares: &[f64]) -> Option<SmoothMotion> {
         let (used, runs) = schedule(curve, &self.base, shares, self.coast);
-        let mut smooth = Smooth { trajectory: Trajectory::default(), passed: Vec::new() };
+        let mut smooth = SmoothMotion { trajectory: Trajectory::default(), passed: Vec::new() };
         let stops: Vec<usize> = (0..shares.len()).filter(|&w| used.radii()[w] == 0.0).collect();
         let mut begin = 0;
         for (ends, run) in stops.windows(2).zip(&runs) {
@@ -203,7 +203,7 @@ impl<'a> Smoothing<'a> {
     }
 
     /// Appends a run that passes the blends after a waypoint; returns its end.
-    fn run(&self, run: &[TimedTrack], after: usize, begin: u64, smooth: &mut Smooth) -> u64 {
+    fn run(&self, run: &[TimedTrack], after: usize, begin: u64, smooth: &mut SmoothMotion) -> u64 {
         let mut spline = Spline::smoothed(run, self.base.acceleration, &self.limits, self.period);
         let delay = spline.delay();
         let limits = Limits { tip: self.base.tip, torque: self.base.torque, ..self.limits };
@@ -227,7 +227,7 @@ impl<'a> Smoothing<'a> {
     }
 }
 
-impl Smooth {
+impl SmoothMotion {
     /// Returns the corner that is passed on a piece, or the nearest one in time.
     fn corner(&self, piece: &Piece) -> Option<usize> {
         let middle = piece.time(0.5);

@@ -5,7 +5,7 @@ use cplan_core::space::Configuration;
 use cplan_handling::Piece;
 
 /// Least span of a piece, as a share of it: a nanosecond of a long piece, and still far above the rounding of a share.
-const FINEST: f64 = 1.0 / (1u64 << 40) as f64;
+const MIN_SPAN: f64 = 1.0 / (1u64 << 40) as f64;
 
 /// A place on the motion: a piece, and a share of it.
 pub type Place = (usize, f64);
@@ -70,7 +70,7 @@ impl Span {
                 let middle = from + (to - from) / 2;
                 Some([whole(from, middle), whole(middle, to)])
             }
-            Span::Part(_, from, to) if to - from <= FINEST => None,
+            Span::Part(_, from, to) if to - from <= MIN_SPAN => None,
             Span::Part(piece, from, to) => {
                 let middle = (from + to) / 2.0;
                 Some([Span::Part(piece, from, middle), Span::Part(piece, middle, to)])

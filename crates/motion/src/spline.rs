@@ -15,39 +15,39 @@
 
 use super::clock::{nanoseconds, seconds};
 use super::limits::Limits;
-use super::retime::{Condition, PLACES, Rate};
-use super::sample::{SHORTEST_INTERVAL, Trajectory, USUAL_INTERVAL};
+use super::retime::{CONDITION_POSITIONS, Condition, Rate};
+use super::sample::{MIN_INTERVAL, MIN_PERIODIC_INTERVAL, Trajectory};
 use super::schedule::{TimedTrack, duration, places};
 use super::torque::TorqueLimit;
 use cplan_core::space::Configuration;
 
 /// Number of steps of a window. With more steps, the last one costs less.
-const STEPS: f64 = 32.0;
+const STEPS_PER_WINDOW: f64 = 32.0;
 
 /// Least step, as a share of the period of the samples.
-const SHORTEST_STEP: f64 = 1.0 / 8.0;
+const MIN_STEP_SHARE: f64 = 1.0 / 8.0;
 
 /// Greatest number of steps of a motion.
-const MOST_STEPS: f64 = 1e5;
+const MAX_STEPS: f64 = 1e5;
 
 /// Least number of intervals of a retimed motion. It has one per step of the motion, or a multiple if that is fewer.
-const FEWEST: usize = 800;
+const MIN_INTERVALS: usize = 800;
 
 /// ... and greatest number, since longer motions gain less and less.
-const MOST: usize = 20_000;
+const MAX_INTERVALS: usize = 20_000;
 
 /// Initial share of the speed, which satisfies all limits.
-const BEGIN: f64 = 0.97;
+const INITIAL_SPEED_SHARE: f64 = 0.97;
 
 /// Number of steps of a retimed motion, unless other reasons require shorter or longer ones. It takes two steps longer.
-const NEW_STEPS: f64 = 800.0;
+const RETIMED_STEPS: f64 = 800.0;
 
 /// Share of the limits on torques and on the tip's speed that is used, because they may be exceeded between the
 /// positions at which they are imposed.
-const USED: f64 = 0.995;
+const USED_LIMIT_SHARE: f64 = 0.995;
 
 /// Knots at which the jerk changes by at most this fraction of the greatest are not sampled.
-const SAME: f64 = 1e-7;
+const JERK_TOLERANCE: f64 = 1e-7;
 
 /// A motion from rest to rest.
 #[derive(Debug, Clone, PartialEq)]
@@ -65,8 +65,8 @@ impl Spline {
     /// run keeps.
     pub fn smoothed(run: &[TimedTrack], acceleration: [f64; 2], limits: &Limits, period: f64) -> Self {
         let longest = |k: usize| limits.jerk[k].map_or(0.0, |jerk| 2.0 * acceleration[k] / jerk);
-        let fine = (longest(0).max(longest(1)) / STEPS).max(SHORTEST_STEP * period).max(SHORTEST_INTERVAL);
-        let step = nanoseconds(fine.max(duration(run) / MOST_STEPS));
+        let fine = (longest(0).max(longest(1)) / STEPS_PER_WINDOW).max(MIN_STEP_SHARE * period).max(MIN_INTERVAL);
+        let step = nanoseconds(fine.max(duration(run) / MAX_STEPS));
         let places = places(run, seconds(step));
         let window = window(&places, seconds(step), limits.jerk);
         let [start, goal] = [places[0], places[places.len() - 1]];
@@ -85,17 +85,17 @@ impl Spline {
     /// one. Returns `None` if it is not known to be faster.
     pub fn retimed(&self, limits: &Limits, period: f64) -> Option<(Self, impl Fn(f64) -> u64 + use<>)> {
         let pieces = self.last() + 1;
-        let parts = ((FEWEST + pieces / 2) / pieces).max(1);
-        if parts * pieces > MOST {
+        let parts = ((MIN_INTERVALS + pieces / 2) / pieces).max(1);
+        if parts * pieces > MAX_INTERVALS {
             return None;
         }
         let interval = seconds(self.step) / parts as f64;
-        let intervals =
-            (0..parts * pieces).flat_map(|i| PLACES.map(|u| (i / parts, ((i % parts) as f64 + u) / parts as f64)));
+        let intervals = (0..parts * pieces)
+            .flat_map(|i| CONDITION_POSITIONS.map(|u| (i / parts, ((i % parts) as f64 + u) / parts as f64)));
         let asked: Vec<Vec<Condition>> = intervals.map(|(piece, u)| asked(self.within(piece, u), limits)).collect();
-        let rate = Rate::fastest(&asked, interval, BEGIN * BEGIN)?;
-        let shortest = (SHORTEST_STEP * period).max(SHORTEST_INTERVAL);
-        let step = nanoseconds((rate.duration() / NEW_STEPS).min(seconds(self.step)).max(shortest));
+        let rate = Rate::fastest(&asked, interval, INITIAL_SPEED_SHARE * INITIAL_SPEED_SHARE)?;
+        let shortest = (MIN_STEP_SHARE * period).max(MIN_INTERVAL);
+        let step = nanoseconds((rate.duration() / RETIMED_STEPS).min(seconds(self.step)).max(shortest));
         let [start, goal] = [self.control[0], self.control[self.control.len() - 1]];
         let times = (1..).map(|k| seconds(k * step)).take_while(|time| *time < rate.duration());
         let places = times.map(|time| self.at_seconds(rate.at(time))[0]);
@@ -181,7 +181,7 @@ impl Spline {
             (d - c) - (c - b) * 2.0 + (b - a)
         };
         let thirds: Vec<Configuration> = (0..self.control.len() - 3).map(third).collect();
-        let least = thirds.iter().fold(Configuration::zeros(), |most, third| most.sup(&third.abs())) * SAME;
+        let least = thirds.iter().fold(Configuration::zeros(), |most, third| most.sup(&third.abs())) * JERK_TOLERANCE;
         let mut last = Configuration::repeat(f64::INFINITY);
         let mut knots = Vec::new();
         for (piece, third) in thirds.into_iter().enumerate() {
@@ -197,7 +197,7 @@ impl Spline {
     /// Appends its samples, except the last one, to a motion that ends at its beginning: where its jerk changes, and at
     /// the multiples of the period that are not close to those.
     pub fn sample(&self, begin: u64, period: f64, trajectory: &mut Trajectory) {
-        let near = nanoseconds((period / 2.0).clamp(SHORTEST_INTERVAL, USUAL_INTERVAL));
+        let near = nanoseconds((period / 2.0).clamp(MIN_INTERVAL, MIN_PERIODIC_INTERVAL));
         let mut knots = self.knots();
         knots.push(self.duration());
         for pair in knots.windows(2) {
@@ -233,14 +233,14 @@ fn asked([position, velocity, acceleration, jerk]: [Configuration; 4], limits: &
     if let Some(tip) = limits.tip {
         let [first, second] = tip.arm.jacobian(1, tip.arm.tip, position);
         let speed = (first * velocity[0] + second * velocity[1]).norm();
-        ask([(speed / (USED * tip.speed)).powi(2), 0.0, 0.0], false);
+        ask([(speed / (USED_LIMIT_SHARE * tip.speed)).powi(2), 0.0, 0.0], false);
     }
     if let Some(TorqueLimit { torques, share }) = limits.torque {
         let here = torques.at(position);
         let (inertial, bent) = (here.inertial(velocity), here.inertial(acceleration) + here.centrifugal(velocity));
         let holding = here.holding();
         for (k, sign) in [(0, 1.0), (0, -1.0), (1, 1.0), (1, -1.0)] {
-            let room = share * (USED * torques.dynamics.effort[k] - sign * holding[k]);
+            let room = share * (USED_LIMIT_SHARE * torques.dynamics.effort[k] - sign * holding[k]);
             ask([bent[k], inertial[k] / 2.0, 0.0].map(|factor| sign * factor / room), false);
         }
     }
@@ -319,7 +319,7 @@ mod tests {
 
         /// Checks by differences of its own samples: limits, rest at both ends, and joints that must not move.
         #[test]
-        fn keeps_limits_from_rest_to_rest(
+        fn motions_from_rest_to_rest_satisfy_the_limits(
             turns in prop::collection::vec((0.4..1.5_f64, -2.5..2.5_f64), 2..6), velocity in 0.3..3.0_f64, acceleration in 1.0..20.0_f64,
             jerk in (20.0..2000.0_f64, prop::option::of(20.0..2000.0_f64)), second in any::<bool>(),
         ) {

@@ -1,7 +1,7 @@
 //! Motions that stop at every corner, against integration, closed forms and the path itself.
 
 use super::sample::time_curve;
-use super::{Limits, MOST_SAMPLES, SHORTEST_INTERVAL, TimingError, Trajectory};
+use super::{Limits, MAX_SAMPLES, MIN_INTERVAL, TimingError, Trajectory};
 use cplan_core::model::{Joint, JointType};
 use cplan_core::space::{Configuration, JointRange, Path};
 use cplan_geometry::Vector;
@@ -47,7 +47,7 @@ fn check(path: &Path, joints: &[Joint; 2], trajectory: &Trajectory, tolerance: f
     let (mut position, mut velocity) = (path.start(), Configuration::zeros());
     for k in 0..n - 1 {
         let dt = trajectory.time[k + 1] - trajectory.time[k];
-        assert!(dt >= 0.998 * SHORTEST_INTERVAL, "sample {k} lasts {dt} s");
+        assert!(dt >= 0.998 * MIN_INTERVAL, "sample {k} lasts {dt} s");
         let acceleration = as_vector(trajectory.acceleration[k]);
         position += velocity * dt + acceleration * (0.5 * dt * dt);
         velocity += acceleration * dt;
@@ -137,12 +137,12 @@ fn useless_periods_and_endless_motions_are_errors() {
     for period in [0.0, -0.01, f64::NAN, f64::INFINITY, 1e-9] {
         assert!(matches!(time_path(&path, &joints, period), Err(TimingError::Period(_))), "{period}");
     }
-    let many = time_path(&path, &joints, SHORTEST_INTERVAL).map(|t| t.time.len());
+    let many = time_path(&path, &joints, MIN_INTERVAL).map(|t| t.time.len());
     assert!(many.is_ok_and(|n| (3_999_000..=4_000_001).contains(&n)));
     let slow = [joint(true, 1.0, 1.0), joint(true, 1e-2, 1.0)];
-    let error = time_path(&path, &slow, SHORTEST_INTERVAL).unwrap_err();
+    let error = time_path(&path, &slow, MIN_INTERVAL).unwrap_err();
     assert!(matches!(error, TimingError::TooManySamples { .. }));
-    assert!(error.to_string().contains(&MOST_SAMPLES.to_string()), "{error}");
+    assert!(error.to_string().contains(&MAX_SAMPLES.to_string()), "{error}");
     let stuck = [joint(true, 1.0, 1.0), joint(true, 1e-9, 1.0)];
     assert!(matches!(time_path(&path, &stuck, 0.01), Err(TimingError::TooLong(_))));
 }

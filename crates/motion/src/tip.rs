@@ -6,10 +6,10 @@ use cplan_handling::{Derivative, Piece};
 
 /// Share of its limit that the tip's speed may lose, because it is bounded part by part. It decides how finely curves
 /// are cut.
-pub(super) const TIP_STEP: f64 = 0.01;
+pub(super) const TIP_SPEED_STEP: f64 = 0.01;
 
 /// Greatest number of parts of a piece in which the tip's speed is bounded.
-const MOST_PARTS: f64 = 64.0;
+const MAX_TIP_PARTS: f64 = 64.0;
 
 /// Greatest speed of an arm's tip in the plane.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -43,8 +43,8 @@ impl TipSpeed<'_> {
     /// parameter is `J q'`, and changes at most at the rate [`TipSpeed::change`].
     pub(super) fn allowed(&self, part: &Part) -> f64 {
         let [first, second] = self.arm.jacobian(1, self.arm.tip, part.middle);
-        let way = (first * part.slope[0] + second * part.slope[1]).norm();
-        self.speed / (way + self.slack(part))
+        let rate = (first * part.slope[0] + second * part.slope[1]).norm();
+        self.speed / (rate + self.slack(part))
     }
 
     /// Returns the factor by which the tip may exceed its limit on pieces of a motion, if it may at all.
@@ -67,7 +67,7 @@ impl TipSpeed<'_> {
             (0..count).flat_map(move |i| ends.map(|end| part((f64::from(i) + 0.5) / f64::from(count), end)))
         };
         let slack = parts(1).map(|part| self.slack(&part)).fold(0.0, f64::max);
-        let count = (slack / (TIP_STEP * self.speed)).ceil().clamp(1.0, MOST_PARTS) as u32;
+        let count = (slack / (TIP_SPEED_STEP * self.speed)).ceil().clamp(1.0, MAX_TIP_PARTS) as u32;
         parts(count).map(|part| 1.0 / self.allowed(&part)).fold(0.0, f64::max)
     }
 

@@ -2,7 +2,7 @@
 
 use super::sample::{TimingError, Trajectory};
 use super::tip::Part;
-use crate::recorded::torque_looks;
+use crate::recorded::torque_samples;
 use cplan_core::model::Scene;
 use cplan_core::space::{Configuration, Path};
 use cplan_dynamics::{Curvature, Rates, Torques};
@@ -10,29 +10,29 @@ use cplan_handling::Piece;
 
 /// Share of an effort by which the torque may be overestimated on a part of a curve. It decides how finely curves are
 /// cut.
-const STEP: f64 = 0.01;
+const TORQUE_STEP: f64 = 0.01;
 
 /// Rows for two joints in both directions: three coefficients, each with the error of the inertial factor to either
 /// side.
-const ROWS: usize = 24;
+const TORQUE_ROWS: usize = 24;
 
 /// Number of parts of a straight stretch for which one acceleration and one speed must be safe.
-const SAFE_PARTS: u32 = 64;
+const PARTS_PER_STRETCH: u32 = 64;
 
 /// On such a part, the share of the remaining effort for acceleration; the rest is for speed.
-const FOR_ACCELERATION: f64 = 0.5;
+const ACCELERATION_SHARE: f64 = 0.5;
 
 /// Least share of an effort that counts as remaining.
-const NOTHING_LEFT: f64 = 1e-12;
+const MIN_REMAINING_EFFORT: f64 = 1e-12;
 
 /// Share of an effort by which a torque may be greater between two samples of a motion.
-const FINE: f64 = 2e-4;
+const SAMPLED_TORQUE_TOLERANCE: f64 = 2e-4;
 
 /// The same tolerance during the search for a motion.
-const ROUGH: f64 = 2e-3;
+const SEARCHED_TORQUE_TOLERANCE: f64 = 2e-3;
 
 /// Greatest number of parts of a leg on which the code checks that the arm can be held.
-const MOST_PARTS: f64 = 1e5;
+const MAX_LEG_PARTS: f64 = 1e5;
 
 /// A limit on the torques of an arm's joints: their efforts.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -45,13 +45,13 @@ pub struct TorqueLimit<'a> {
 
 /// Torques along a part of a curve with the squared speed `z` of its parameter: `inertial z' / 2 + bent z + holding`
 /// for each joint, where each factor is linear between its values at both ends, up to an error.
-struct OnPart {
-    ends: [Factors; 2],
+struct TorquesOnPart {
+    ends: [TorqueFactors; 2],
     off: Curvature,
 }
 
 /// The factors at a place.
-struct Factors {
+struct TorqueFactors {
     inertial: Configuration,
     bent: Configuration,
     holding: Configuration,
@@ -64,7 +64,7 @@ impl<'a> TorqueLimit<'a> {
         Some(Self { torques: Torques::limited(scene)?, share: 1.0 })
     }
 
-    fn on(&self, part: &Part) -> OnPart {
+    fn on(&self, part: &Part) -> TorquesOnPart {
         let rates = Rates {
             first: [0, 1].map(|k| part.slope[k].abs() + part.bend[k].abs() * part.half),
             second: [0, 1].map(|k| part.bend[k].abs()),
@@ -78,9 +78,13 @@ impl<'a> TorqueLimit<'a> {
             let slope = part.slope + part.bend * by;
             let here = self.torques.at(q);
             let bent = here.inertial(part.bend) + here.centrifugal(slope);
-            Factors { inertial: here.inertial(slope) / self.share, bent: bent / self.share, holding: here.holding() }
+            TorqueFactors {
+                inertial: here.inertial(slope) / self.share,
+                bent: bent / self.share,
+                holding: here.holding(),
+            }
         };
-        OnPart {
+        TorquesOnPart {
             ends: [at(-part.half), at(part.half)],
             off: Curvature {
                 inertial: off(curvature.inertial, self.share),
@@ -96,8 +100,8 @@ impl<'a> TorqueLimit<'a> {
     /// With linear factors a torque is a quadratic polynomial along the part. It keeps its limit if its Bernstein
     /// coefficients do.
     pub(super) fn rows(&self, part: &Part, used: f64) -> Vec<[f64; 2]> {
-        let OnPart { ends: [first, last], off } = self.on(part);
-        let mut rows = Vec::with_capacity(ROWS);
+        let TorquesOnPart { ends: [first, last], off } = self.on(part);
+        let mut rows = Vec::with_capacity(TORQUE_ROWS);
         for k in 0..2 {
             let effort = self.torques.dynamics.effort[k];
             for sign in [1.0, -1.0] {
@@ -109,7 +113,7 @@ impl<'a> TorqueLimit<'a> {
                     (i1, [0.0, b1], h1),
                 ];
                 for (inertial, bent, holding) in coefficients {
-                    let room = (used * effort - holding - off.holding[k]).max(NOTHING_LEFT * effort);
+                    let room = (used * effort - holding - off.holding[k]).max(MIN_REMAINING_EFFORT * effort);
                     // The inertial factor deviates to the side that is worse.
                     for inertial in [inertial + off.inertial[k], inertial - off.inertial[k]] {
                         // z' over the part's length, halved.
@@ -128,16 +132,16 @@ impl<'a> TorqueLimit<'a> {
         let off = self.on(part).off;
         let rising = (z1 - z0).abs() / (4.0 * part.half);
         let unknown = |k: usize| off.inertial[k] * rising + off.bent[k] * z0.max(z1) + off.holding[k];
-        (0..2).any(|k| unknown(k) > STEP * self.torques.dynamics.effort[k])
+        (0..2).any(|k| unknown(k) > TORQUE_STEP * self.torques.dynamics.effort[k])
     }
 
     /// Returns a speed and an acceleration along a straight stretch that are safe together everywhere on it.
     pub(super) fn safe(&self, from: Configuration, to: Configuration) -> [f64; 2] {
-        let (offset, count) = (to - from, f64::from(SAFE_PARTS));
+        let (offset, count) = (to - from, f64::from(PARTS_PER_STRETCH));
         let length = offset[0].hypot(offset[1]);
         let mut safe = [f64::INFINITY; 2];
-        for i in 0..SAFE_PARTS {
-            let OnPart { ends, off } = self.on(&Part {
+        for i in 0..PARTS_PER_STRETCH {
+            let TorquesOnPart { ends, off } = self.on(&Part {
                 middle: from + offset * ((f64::from(i) + 0.5) / count),
                 slope: offset / length,
                 bend: Configuration::zeros(),
@@ -145,9 +149,9 @@ impl<'a> TorqueLimit<'a> {
             });
             for (k, end) in (0..2).flat_map(|k| ends.iter().map(move |end| (k, end))) {
                 let effort = self.torques.dynamics.effort[k];
-                let room = (effort - end.holding[k].abs() - off.holding[k]).max(NOTHING_LEFT * effort);
-                let squared = (1.0 - FOR_ACCELERATION) * room / (end.bent[k].abs() + off.bent[k]);
-                let pull = FOR_ACCELERATION * room / (end.inertial[k].abs() + off.inertial[k]);
+                let room = (effort - end.holding[k].abs() - off.holding[k]).max(MIN_REMAINING_EFFORT * effort);
+                let squared = (1.0 - ACCELERATION_SHARE) * room / (end.bent[k].abs() + off.bent[k]);
+                let pull = ACCELERATION_SHARE * room / (end.inertial[k].abs() + off.inertial[k]);
                 safe = [safe[0].min(squared.sqrt()), safe[1].min(pull)];
             }
         }
@@ -166,13 +170,13 @@ impl<'a> TorqueLimit<'a> {
     pub(super) fn excess(&self, pieces: &[Piece]) -> Option<f64> {
         let effort = self.torques.dynamics.effort;
         let mut excess = 1.0_f64;
-        for look in pieces.iter().flat_map(|piece| torque_looks(&self.torques, piece, ROUGH)) {
+        for look in pieces.iter().flat_map(|piece| torque_samples(&self.torques, piece, SEARCHED_TORQUE_TOLERANCE)) {
             for (k, effort) in effort.into_iter().enumerate() {
                 let greatest = look.torque[k].abs() + look.off[k];
                 if greatest > effort {
                     let left = effort - look.holding[k].abs() - look.off[k];
                     let moves = (look.torque[k] - look.holding[k]).abs();
-                    excess = excess.max(moves / left.max(NOTHING_LEFT * effort));
+                    excess = excess.max(moves / left.max(MIN_REMAINING_EFFORT * effort));
                 }
             }
         }
@@ -189,9 +193,9 @@ impl<'a> TorqueLimit<'a> {
     ///
     /// # Errors
     /// The first place where it may exceed them.
-    pub(super) fn kept(&self, pieces: &[Piece]) -> Result<(), TimingError> {
+    pub(super) fn check(&self, pieces: &[Piece]) -> Result<(), TimingError> {
         for piece in pieces {
-            for look in torque_looks(&self.torques, piece, FINE) {
+            for look in torque_samples(&self.torques, piece, SAMPLED_TORQUE_TOLERANCE) {
                 if let Some(k) = (0..2).find(|&k| look.torque[k].abs() + look.off[k] > self.torques.dynamics.effort[k])
                 {
                     return Err(self.too_heavy(k, piece.at(look.u), look.torque[k]));
@@ -217,7 +221,7 @@ impl<'a> TorqueLimit<'a> {
     ///
     /// # Errors
     /// The joint whose effort is too small.
-    pub fn held_at(scene: &'a Scene, q: Configuration) -> Result<(), TimingError> {
+    pub fn check_holding_at(scene: &'a Scene, q: Configuration) -> Result<(), TimingError> {
         Self::of(scene).map_or(Ok(()), |own| own.holds(q))
     }
 
@@ -233,15 +237,15 @@ impl<'a> TorqueLimit<'a> {
     ///
     /// # Errors
     /// The place where it needs more than a joint's effort.
-    pub(super) fn held_along(&self, path: &Path) -> Result<(), TimingError> {
+    pub(super) fn check_holding_along(&self, path: &Path) -> Result<(), TimingError> {
         let effort = self.torques.dynamics.effort;
         for (from, to) in path.segments() {
             let (offset, half) = ((to - from) / 2.0, 1.0);
             let whole = Part { middle: from + offset, slope: offset, bend: Configuration::zeros(), half };
             let off = self.on(&whole).off.holding;
             // The error of chords falls with the square of their length.
-            let share = (0..2).map(|k| off[k] / (STEP * effort[k])).fold(1.0, f64::max);
-            let count = share.sqrt().ceil().min(MOST_PARTS);
+            let share = (0..2).map(|k| off[k] / (TORQUE_STEP * effort[k])).fold(1.0, f64::max);
+            let count = share.sqrt().ceil().min(MAX_LEG_PARTS);
             for i in 0..=count as u32 {
                 self.holds(from + offset * (2.0 * f64::from(i) / count))?;
             }

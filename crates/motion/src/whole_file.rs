@@ -43,7 +43,7 @@ pub enum WriteError {
 /// # Errors
 /// [`WriteError`]; nothing is left behind.
 pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
-    Prepared::new(path, bytes)?.put()
+    TemporaryFile::new(path, bytes)?.put()
 }
 
 /// Writes several files like [`write_whole`]. All temporary files are written before the first rename, so lack of space
@@ -53,12 +53,12 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
 /// # Errors
 /// [`WriteError`] for the first file that fails; no temporary file is left behind.
 pub fn write_whole_set<B: AsRef<[u8]>>(files: &[(PathBuf, B)]) -> Result<(), WriteError> {
-    let prepared = files.iter().map(|(path, bytes)| Prepared::new(path, bytes.as_ref()));
-    prepared.collect::<Result<Vec<_>, _>>()?.into_iter().try_for_each(Prepared::put)
+    let prepared = files.iter().map(|(path, bytes)| TemporaryFile::new(path, bytes.as_ref()));
+    prepared.collect::<Result<Vec<_>, _>>()?.into_iter().try_for_each(TemporaryFile::put)
 }
 
 /// A temporary file with the new content; removed unless it is renamed.
-struct Prepared {
+struct TemporaryFile {
     /// The path of the file to write, as given.
     path: PathBuf,
     target: PathBuf,
@@ -66,7 +66,7 @@ struct Prepared {
     temporary: tempfile::TempPath,
 }
 
-impl Prepared {
+impl TemporaryFile {
     fn new(path: &Path, bytes: &[u8]) -> Result<Self, WriteError> {
         let refused = |source: io::Error| WriteError::Refused { path: path.to_owned(), source };
         let Target { file: target, folder, kept } = target(path)?;
@@ -167,7 +167,7 @@ mod tests {
     }
 
     #[test]
-    fn failures_name_the_file_and_leave_nothing() {
+    fn failures_name_the_file_and_leave_no_temporary_file() {
         let folder = tempfile::tempdir().unwrap();
         let inner = folder.path().join("inner.csv");
         fs::create_dir(&inner).unwrap();
@@ -197,7 +197,7 @@ mod tests {
 
     #[cfg(unix)]
     #[test]
-    fn permissions_are_the_usual_ones_and_kept() {
+    fn permissions_are_default_and_preserved() {
         use std::os::unix::fs::PermissionsExt;
         let mode = |file: &Path| fs::metadata(file).unwrap().permissions().mode() & 0o777;
         let folder = tempfile::tempdir().unwrap();

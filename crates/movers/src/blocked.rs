@@ -11,17 +11,17 @@ use cplan_interrupt::checkpoint;
 use std::cell::OnceCell;
 
 /// Shapes are enlarged by this share of the lengths involved: far more than rounding, but too little to matter.
-const ROOM: f64 = 1e-9;
+const SHAPE_ENLARGEMENT: f64 = 1e-9;
 
 /// Step of following obstacles that turn. In one step they move by at most this share of the lengths involved, or a
 /// quarter of the motion of the arm's part. Contact may seem to begin too early and to end too late by that much.
-const STEP: f64 = 1e-3;
+const TURN_STEP: f64 = 1e-3;
 
 /// A posture without deviation.
-pub const STILL: Deviation = Deviation::Box([0.0; 2]);
+pub const NO_DEVIATION: Deviation = Deviation::Box([0.0; 2]);
 
 /// The moving obstacles of a scene, prepared for computing times of contact.
-pub struct Movers<'a> {
+pub struct MovingObstacles<'a> {
     scene: &'a Scene,
     clearance: f64,
     /// One entry for each mover, each of its pieces, and each of its legs.
@@ -48,7 +48,7 @@ impl Meeting {
 }
 
 /// A part of the arm at a posture, and its possible deviation from there. All pairs with this part share it.
-pub struct Around<'a> {
+pub struct PartDeviation<'a> {
     pair: Pair,
     /// The part in its own frame, ...
     part: &'a Convex,
@@ -62,11 +62,11 @@ pub struct Around<'a> {
     moves: f64,
 }
 
-impl<'a> Around<'a> {
+impl<'a> PartDeviation<'a> {
     /// Returns the entry for a meeting's part. Reuses the `known` one if it is for the same part.
     pub fn of<'k>(
         known: &'k mut Option<Self>,
-        movers: &Movers<'a>,
+        movers: &MovingObstacles<'a>,
         posture: &Posture,
         deviation: Deviation,
         Meeting { pair, .. }: Meeting,
@@ -80,7 +80,7 @@ impl<'a> Around<'a> {
     }
 
     /// Returns the largest motion of a point of the part, metres.
-    pub fn moves(&self) -> f64 {
+    pub fn max_motion(&self) -> f64 {
         self.moves
     }
 
@@ -128,7 +128,8 @@ impl Stretch {
 
     /// Returns true if the piece stays farther from a disc than a distance during an interval of time.
     fn is_beyond(&self, (point, radius): (Point, f64), distance: f64, [from, to]: Interval) -> bool {
-        let far = |between: f64, own: f64| distance + radius + own + ROOM * (distance + radius + own + between);
+        let far =
+            |between: f64, own: f64| distance + radius + own + SHAPE_ENLARGEMENT * (distance + radius + own + between);
         match self.slide {
             Some((direction, speed)) => {
                 let between = self.disc.0 - point;
@@ -149,18 +150,18 @@ impl Stretch {
     }
 
     /// Returns the distance from a part of the arm at a time, or `None` if it exceeds `most`.
-    fn distance(&self, around: &Around, time: f64, most: f64) -> Option<f64> {
+    fn distance(&self, around: &PartDeviation, time: f64, most: f64) -> Option<f64> {
         let pose = self.leg.pose(time);
         let ((at, extent), (center, radius)) = (around.disc, self.own_disc);
         let between = (pose.point(center) - at).norm();
-        let is_far = between - extent - radius > most + ROOM * (between + extent + radius);
+        let is_far = between - extent - radius > most + SHAPE_ENLARGEMENT * (between + extent + radius);
         let distance = (!is_far).then(|| separation_at(&self.own, &pose, &around.placed().0, |_, here| here.distance));
         distance.filter(|distance| *distance <= most)
     }
 
     /// Finds times at which a turning piece is, or may be, no farther from a part than `grow`. The result is a
     /// superset, in steps in which the piece moves by at most `step`.
-    fn turning(&self, around: &Around, within: Interval, [grow, step]: [f64; 2], out: &mut Vec<Interval>) {
+    fn turning(&self, around: &PartDeviation, within: Interval, [grow, step]: [f64; 2], out: &mut Vec<Interval>) {
         let mut open = vec![within];
         while let Some([from, to]) = open.pop() {
             checkpoint();
@@ -177,7 +178,7 @@ impl Stretch {
 
     /// Finds times at which both overlap by more than `deeper`. The result is a subset, whose ends are accurate to
     /// `shortest` seconds.
-    fn deep(&self, around: &Around, within: Interval, [deeper, shortest]: [f64; 2], out: &mut Vec<Interval>) {
+    fn deep(&self, around: &PartDeviation, within: Interval, [deeper, shortest]: [f64; 2], out: &mut Vec<Interval>) {
         let mut open = vec![within];
         while let Some([from, to]) = open.pop() {
             checkpoint();
@@ -196,7 +197,7 @@ impl Stretch {
     /// the chord from an end to a deeper time is deep enough, the depth is as well.
     fn deep_in_passing(
         &self,
-        around: &Around,
+        around: &PartDeviation,
         ends: Interval,
         round: f64,
         [deeper, shortest]: [f64; 2],
@@ -219,7 +220,7 @@ impl Stretch {
     }
 }
 
-impl<'a> Movers<'a> {
+impl<'a> MovingObstacles<'a> {
     /// Prepares the movers of a scene, from which this clearance must be kept, metres.
     #[must_use]
     pub fn new(timed: TimedScene<'a>, clearance: f64) -> Self {
@@ -264,7 +265,7 @@ impl<'a> Movers<'a> {
     ///
     /// A shape that slides past another one, grown by how far the arm's part moves, meets it for one interval of time, in closed form
     /// ([`sliding`]); where it turns, time is halved.
-    pub(crate) fn near(&self, around: &Around, meeting: Meeting, out: &mut Vec<Interval>) -> bool {
+    pub(crate) fn near(&self, around: &PartDeviation, meeting: Meeting, out: &mut Vec<Interval>) -> bool {
         let (stretch, before) = (&self.stretches[meeting.stretch], out.len());
         let Stretch { leg, piece, slide, .. } = stretch;
         let [earliest, latest] = meeting.within;
@@ -273,19 +274,21 @@ impl<'a> Movers<'a> {
         }
         let (part, reach) = around.placed();
         let scale = reach + stretch.reach;
-        let grow = around.moves + self.clearance + ROOM * scale;
+        let grow = around.moves + self.clearance + SHAPE_ENLARGEMENT * scale;
         match slide {
             // Relative to the obstacle, the part slides backwards.
             Some((direction, speed)) => {
                 let met = sliding(part, -direction, piece, grow);
-                let met = met.map(|[first, last]| [leg.from + first / speed - ROOM, leg.from + last / speed + ROOM]);
+                let met = met.map(|[first, last]| {
+                    [leg.from + first / speed - SHAPE_ENLARGEMENT, leg.from + last / speed + SHAPE_ENLARGEMENT]
+                });
                 out.extend(met.and_then(|met| common(met, meeting.within)));
             }
             None if leg.turn == 0.0 => {
                 let is_near = separation(part, piece).distance <= grow;
                 out.extend(is_near.then_some([earliest, latest]));
             }
-            None => stretch.turning(around, meeting.within, [grow, (around.moves / 4.0).max(STEP * scale)], out),
+            None => stretch.turning(around, meeting.within, [grow, (around.moves / 4.0).max(TURN_STEP * scale)], out),
         }
         out.len() > before
     }
@@ -294,14 +297,14 @@ impl<'a> Movers<'a> {
     /// The result is a subset, in no order, whose ends are accurate to `shortest` seconds.
     ///
     /// The part is to be deeper than it moves.
-    pub(crate) fn met(&self, around: &Around, meeting: Meeting, shortest: f64, out: &mut Vec<Interval>) {
+    pub(crate) fn met(&self, around: &PartDeviation, meeting: Meeting, shortest: f64, out: &mut Vec<Interval>) {
         let stretch = &self.stretches[meeting.stretch];
         let Stretch { leg, piece, slide, .. } = stretch;
         if stretch.is_beyond(around.disc, self.clearance, meeting.within) {
             return;
         }
         let (part, reach) = around.placed();
-        let deeper = around.moves - self.clearance + ROOM * (reach + stretch.reach);
+        let deeper = around.moves - self.clearance + SHAPE_ENLARGEMENT * (reach + stretch.reach);
         match slide {
             Some((direction, speed)) => {
                 let round = part.radius() + piece.radius();
@@ -327,17 +330,19 @@ impl<'a> Movers<'a> {
     pub fn safe_intervals(&self, posture: &Posture) -> Vec<Interval> {
         let (mut near, mut known) = (Vec::new(), None);
         for &meeting in &self.meetings {
-            self.near(Around::of(&mut known, self, posture, STILL, meeting), meeting, &mut near);
+            self.near(PartDeviation::of(&mut known, self, posture, NO_DEVIATION, meeting), meeting, &mut near);
         }
         merge_in_place(&mut near);
         complement(&near)
     }
 
     /// Whether nothing that moves is ever nearer to the arm at a posture than the clearance.
-    pub(crate) fn is_calm(&self, posture: &Posture) -> bool {
+    pub(crate) fn is_always_safe(&self, posture: &Posture) -> bool {
         let (mut near, mut known) = (Vec::new(), None);
         let mut meetings = self.meetings.iter();
-        meetings.all(|&meeting| !self.near(Around::of(&mut known, self, posture, STILL, meeting), meeting, &mut near))
+        meetings.all(|&meeting| {
+            !self.near(PartDeviation::of(&mut known, self, posture, NO_DEVIATION, meeting), meeting, &mut near)
+        })
     }
 }
 
@@ -373,7 +378,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_left_of_the_times() {
+    fn complement_of_intervals() {
         let inf = f64::INFINITY;
         assert_eq!(complement(&[]), [[0.0, inf]]);
         assert_eq!(complement(&[[-1.0, 2.0], [3.0, 4.0]]), [[2.0, 3.0], [4.0, inf]]);

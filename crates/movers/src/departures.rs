@@ -1,6 +1,6 @@
 //! Times at which a motion may depart without meeting a moving obstacle.
 
-use super::blocked::{Around, Movers, STILL};
+use super::blocked::{MovingObstacles, NO_DEVIATION, PartDeviation};
 use cplan_core::check::Posture;
 use cplan_geometry::{Interval, merge_in_place};
 use cplan_handling::Piece;
@@ -9,22 +9,22 @@ use cplan_motion::{Place, Span};
 
 /// Stretches of a motion are halved until no point of the arm moves farther within half a stretch than this share of
 /// the arm's reach, ...
-const MOTION: f64 = 4e-3;
+const MAX_STRETCH_MOTION: f64 = 4e-3;
 
 /// ... or until they are as short as this, seconds.
-const TIME: f64 = 2e-3;
+const MIN_STRETCH_TIME: f64 = 2e-3;
 
 /// Returns the times within a window at which a motion must not begin, because a moving obstacle would, or might, come
 /// nearer to the arm than the clearance. The result is a superset, in order and disjoint.
 ///
 /// Consider a stretch of the motion from `a` to `b` seconds after departure. If obstacles block it at times `[c, d]`
-/// ([`Movers::near`]), the motion must not begin in `[c - b, d - a]`. For long stretches that is far too much; for a
+/// ([`MovingObstacles::near`]), the motion must not begin in `[c - b, d - a]`. For long stretches that is far too much; for a
 /// single moment it is exact. So stretches are halved, the longest first. A stretch needs no further halving once the
 /// departures that are blocked at the middles of stretches cover its own. Fine stretches are therefore needed only near
 /// the ends of the blocked intervals.
-pub fn blocked_departures(movers: &Movers, pieces: &[Piece], window: Interval) -> Vec<Interval> {
+pub fn blocked_departures(movers: &MovingObstacles, pieces: &[Piece], window: Interval) -> Vec<Interval> {
     let scene = movers.scene();
-    let finest = MOTION * scene.arm().reach();
+    let finest = MAX_STRETCH_MOTION * scene.arm().reach();
     let (mut blocked, mut times) = (Vec::new(), Vec::new());
     let mut open = vec![(Span::all(pieces.len()), movers.meetings().to_vec())];
     while !open.is_empty() {
@@ -38,8 +38,8 @@ pub fn blocked_departures(movers: &Movers, pieces: &[Piece], window: Interval) -
             // Departures that are not known to be blocked, and the meetings that may block them.
             let (mut departures, mut open) = (Vec::new(), Vec::new());
             for meeting in meetings {
-                let around = Around::of(&mut known, movers, &posture, deviation, meeting);
-                moves = moves.max(around.moves());
+                let around = PartDeviation::of(&mut known, movers, &posture, deviation, meeting);
+                moves = moves.max(around.max_motion());
                 times.clear();
                 movers.near(around, meeting, &mut times);
                 merge_in_place(&mut times);
@@ -52,7 +52,7 @@ pub fn blocked_departures(movers: &Movers, pieces: &[Piece], window: Interval) -
                     }
                 }
             }
-            match span.halves().filter(|_| moves > finest && ends - begins > TIME) {
+            match span.halves().filter(|_| moves > finest && ends - begins > MIN_STRETCH_TIME) {
                 _ if open.is_empty() => (),
                 Some([before, after]) => {
                     let place = span.middle();
@@ -60,7 +60,7 @@ pub fn blocked_departures(movers: &Movers, pieces: &[Piece], window: Interval) -
                     let (time, mut known) = (since(pieces, place), None);
                     times.clear();
                     for &meeting in &open {
-                        let around = Around::of(&mut known, movers, &posture, STILL, meeting);
+                        let around = PartDeviation::of(&mut known, movers, &posture, NO_DEVIATION, meeting);
                         movers.met(around, meeting, (ends - begins) / 2.0, &mut times);
                     }
                     found.extend(times.iter().map(|[from, to]| [from - time, to - time]));

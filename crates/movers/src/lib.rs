@@ -14,36 +14,36 @@ mod departures;
 mod refutation;
 mod schedule;
 
-pub use blocked::Movers;
-pub use schedule::{Demand, Wait};
+pub use blocked::MovingObstacles;
+pub use schedule::{TimingRequirements, Wait};
 
 use cplan_core::check::{CertifiedPath, Nearest, certify};
 use cplan_core::model::{MotionProblem, Outcome};
 use cplan_core::space::{Configuration, GoalSet, Segment};
-use cplan_handling::{Course, Interpolation, Recording, TimedScene};
-use cplan_motion::recorded::{CollisionCheck, certify_in_time, met_in_time};
-use cplan_motion::{Limits, Timed, TimingError, Trajectory};
+use cplan_handling::{Interpolation, ObstacleTrajectory, Recording, TimedScene};
+use cplan_motion::recorded::{CollisionCheck, certify_in_time, first_moving_contact};
+use cplan_motion::{Limits, TimedMotion, TimingError, Trajectory};
 use cplan_solver::{Options, solve};
 use cplan_text::counted;
-use refutation::no_timing;
-use schedule::{Effort, Scheduled, schedule};
+use refutation::has_no_timing;
+use schedule::{Effort, ScheduledMotion, schedule};
 use serde::Serialize;
 
 /// Largest number of paths tried: the planner's path, and others around the obstacles met on earlier ones.
-const WAYS: usize = 3;
+const MAX_PATHS: usize = 3;
 
 /// Allowed excess of other paths over the shortest, as a share, unless a gap is requested. Such paths are found in a
 /// fraction of the time. They have fewer corners, which makes most of them faster to drive.
-const GAP: f64 = 0.03;
+const PATH_GAP: f64 = 0.03;
 
 /// Times that differ by no more than this, seconds, count as equal: clocks count nanoseconds.
-const ROUNDING: f64 = 1e-8;
+const TIME_ROUNDING: f64 = 1e-8;
 
 /// A motion that is certified in time.
 #[derive(Debug, Clone)]
-pub struct InTime {
+pub struct TimedPath {
     /// The curve and the motion along it. Its clearance includes moving obstacles.
-    pub timed: Timed,
+    pub timed: TimedMotion,
     /// Figures for the result.
     pub figures: Timing,
 }
@@ -71,27 +71,27 @@ pub struct Timing {
 /// Fails if a path cannot be timed.
 pub fn in_time(
     problem: &MotionProblem,
-    courses: &[Course],
+    courses: &[ObstacleTrajectory],
     certified: &CertifiedPath,
-    first: Timed,
+    first: TimedMotion,
     options: &Options,
-    demand: &Demand,
-) -> Result<Result<InTime, String>, TimingError> {
+    demand: &TimingRequirements,
+) -> Result<Result<TimedPath, String>, TimingError> {
     let scene = problem.scene();
     let timed = TimedScene { scene, courses };
-    let movers = Movers::new(timed, scene.workspace().clearance);
+    let movers = MovingObstacles::new(timed, scene.workspace().clearance);
     let mut around = problem.clone();
-    let mut way = Some((certified.clone(), first));
+    let mut alternative = Some((certified.clone(), first));
     // Motions in the order in which they were found, each better than the one before.
-    let mut found: Vec<Scheduled> = Vec::new();
+    let mut found: Vec<ScheduledMotion> = Vec::new();
     let (mut refuted, mut ways) = (0, 0);
-    while let Some((path, whole)) = way.take() {
+    while let Some((path, whole)) = alternative.take() {
         ways += 1;
         let best = found.last();
-        let for_good = best.filter(|best| best.is_for_good()).map(Scheduled::duration);
+        let for_good = best.filter(|best| best.may_stay_forever()).map(ScheduledMotion::duration);
         // Once the best motion ends where the arm can stay, only earlier motions count. So a path that takes longer
         // even without a wait is skipped.
-        let latest = demand.arrival.map_or(f64::INFINITY, |[_, ends]| ends + ROUNDING);
+        let latest = demand.arrival.map_or(f64::INFINITY, |[_, ends]| ends + TIME_ROUNDING);
         let before = for_good.unwrap_or(f64::INFINITY).min(latest);
         if whole.trajectory.duration() < before {
             let along = |effort: Effort| {
@@ -104,7 +104,7 @@ pub fn in_time(
             };
             let mut better = along(Effort::QUICK)?;
             if better.is_none() && for_good.is_none() {
-                let is_closed = no_timing(&movers, path.path());
+                let is_closed = has_no_timing(&movers, path.path());
                 refuted += usize::from(is_closed);
                 if !is_closed {
                     better = along(Effort::THOROUGH)?;
@@ -114,19 +114,20 @@ pub fn in_time(
         }
         // A motion that ends as early as allowed cannot be improved along another path.
         let soonest = demand.until.or(demand.arrival.map(|[begins, _]| begins)).unwrap_or(0.0);
-        let is_best =
-            |best: &Scheduled| best.is_for_good() && (best.waits.is_empty() || best.duration() <= soonest + ROUNDING);
-        if ways == WAYS || found.last().is_some_and(is_best) {
+        let is_best = |best: &ScheduledMotion| {
+            best.may_stay_forever() && (best.waits.is_empty() || best.duration() <= soonest + TIME_ROUNDING)
+        };
+        if ways == MAX_PATHS || found.last().is_some_and(is_best) {
             break;
         }
         let Some(next) = around_what_is_met(&around, courses, &whole.trajectory) else { break };
         around = next;
-        let planner = options.planner.with_gap(options.planner.gap().unwrap_or(GAP));
+        let planner = options.planner.with_gap(options.planner.gap().unwrap_or(PATH_GAP));
         let looser = Options { bounded: false, planner, ..*options };
         let Outcome::Found(other) = solve(&around, &looser, &mut |_| ()).outcome else { break };
         let Ok(other) = certify(scene, other.path().clone(), scene.workspace().clearance) else { break };
         let whole = options.drive.along(scene, &other, demand.speed)?;
-        way = Some((other, whole));
+        alternative = Some((other, whole));
     }
     let certified = found.into_iter().rev().find_map(|found| certified_in_time(timed, found, ways));
     Ok(certified.ok_or_else(|| reason(ways, refuted, courses.len())))
@@ -147,8 +148,8 @@ fn reason(ways: usize, refuted: usize, movers: usize) -> String {
 }
 
 /// Certifies a motion in both forms in which consumers join its samples.
-fn certified_in_time(timed: TimedScene, found: Scheduled, ways: usize) -> Option<InTime> {
-    let Scheduled { timed: Timed { curve, trajectory }, waits, free_until } = found;
+fn certified_in_time(timed: TimedScene, found: ScheduledMotion, ways: usize) -> Option<TimedPath> {
+    let ScheduledMotion { timed: TimedMotion { curve, trajectory }, waits, free_until } = found;
     let (mut clearance, mut nearest) = (f64::INFINITY, None);
     // Without blends, both forms are the same motion.
     let is_curved = curve.radii().iter().any(|radius| *radius > 0.0);
@@ -165,12 +166,12 @@ fn certified_in_time(timed: TimedScene, found: Scheduled, ways: usize) -> Option
     let obstacles = timed.courses.len();
     let [clearance, free_until] = [clearance, free_until].map(|value| Some(value).filter(|value| value.is_finite()));
     let figures = Timing { obstacles, ways, waits, clearance, free_until };
-    Some(InTime { timed: Timed { curve, trajectory }, figures })
+    Some(TimedPath { timed: TimedMotion { curve, trajectory }, figures })
 }
 
 /// Returns the distance that the arm provably keeps from moving obstacles while it stands at `q` for some seconds, from
 /// the beginning of the scene's clock. `None` if that is not more than the clearance.
-pub fn stands(timed: TimedScene, q: Configuration, seconds: f64) -> Option<f64> {
+pub fn clearance_at_rest(timed: TimedScene, q: Configuration, seconds: f64) -> Option<f64> {
     let times = if seconds > 0.0 { vec![0.0, seconds] } else { vec![0.0] };
     let (positions, velocities) = (vec![q; times.len()], vec![Configuration::zeros(); times.len()]);
     let standing = Recording::new(positions, Some(times), Some(velocities)).ok()?;
@@ -191,12 +192,16 @@ fn recordings(trajectory: &Trajectory) -> Option<[Recording; 2]> {
 
 /// Returns the same problem, in which the first mover that the motion meets becomes a static obstacle at the place of
 /// contact. `None` if the motion meets nothing, or if the start or all goals are blocked then.
-fn around_what_is_met(problem: &MotionProblem, courses: &[Course], trajectory: &Trajectory) -> Option<MotionProblem> {
+fn around_what_is_met(
+    problem: &MotionProblem,
+    courses: &[ObstacleTrajectory],
+    trajectory: &Trajectory,
+) -> Option<MotionProblem> {
     let scene = problem.scene();
     let [cubic, _] = recordings(trajectory)?;
     let timed = TimedScene { scene, courses };
-    let met = met_in_time(timed, &cubic, scene.workspace().clearance)?;
-    let scene = scene.with_standing(timed.obstacle(met.contact.pair, met.moment.time)?);
+    let met = first_moving_contact(timed, &cubic, scene.workspace().clearance)?;
+    let scene = scene.with_static_obstacle(timed.obstacle(met.contact.pair, met.moment.time)?);
     let is_open = |goal: &&Segment| !goal.is_point() || scene.obstructions(goal.ends()[0]).is_empty();
     let goals: GoalSet = problem.goals().pieces().iter().filter(is_open).copied().collect();
     let is_clear = TimedScene { scene: &scene, courses }.obstructions(problem.start(), 0.0).is_empty();

@@ -1,20 +1,20 @@
 //! Proofs that no timing along a path avoids the moving obstacles.
 
-use super::blocked::{Around, Movers, complement};
+use super::blocked::{MovingObstacles, PartDeviation, complement};
 use cplan_core::check::{Deviation, Posture};
 use cplan_core::model::Arm;
 use cplan_core::space::{Configuration, Path};
-use cplan_geometry::{Interval, Ordered, merge_in_place};
+use cplan_geometry::{Interval, OrderedF64, merge_in_place};
 use cplan_interrupt::checkpoint;
 use std::cell::OnceCell;
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BinaryHeap};
 
 /// Least number of stretches into which a path is cut.
-const STRETCHES: usize = 64;
+const MIN_STRETCHES: usize = 64;
 
 /// Accuracy of times of overlap, seconds.
-const STEP: f64 = 1e-3;
+const OVERLAP_TIME_STEP: f64 = 1e-3;
 
 /// Share by which the least duration of a stretch is lowered: far more than rounding.
 const ROUNDING: f64 = 1e-9;
@@ -32,13 +32,13 @@ struct Stretch {
 }
 
 impl Stretch {
-    fn left(&self, movers: &Movers) -> &[Interval] {
+    fn left(&self, movers: &MovingObstacles) -> &[Interval] {
         self.left.get_or_init(|| {
             let posture = Posture::new(movers.scene(), self.middle);
             let (mut met, mut known) = (Vec::new(), None);
             for &meeting in movers.meetings() {
-                let around = Around::of(&mut known, movers, &posture, Deviation::Along(self.half), meeting);
-                movers.met(around, meeting, STEP, &mut met);
+                let around = PartDeviation::of(&mut known, movers, &posture, Deviation::Along(self.half), meeting);
+                movers.met(around, meeting, OVERLAP_TIME_STEP, &mut met);
             }
             merge_in_place(&mut met);
             complement(&met)
@@ -53,7 +53,7 @@ impl Stretch {
 /// postures overlap a moving obstacle, deeper than the arm moves within the stretch. From the start at time 0, the
 /// search then extends to neighbouring stretches at times that are open in both, at no more than the joints' top
 /// speeds. Only stretches and times that it reaches count.
-pub fn no_timing(movers: &Movers, path: &Path) -> bool {
+pub fn has_no_timing(movers: &MovingObstacles, path: &Path) -> bool {
     let stretches = stretches(path, movers.scene().arm());
     let Some(first) = stretches.first() else { return false };
     if first.left(movers).first().is_none_or(|left| left[0] > 0.0) {
@@ -62,9 +62,9 @@ pub fn no_timing(movers: &Movers, path: &Path) -> bool {
     // Earliest times at which the first (0) or second (1) end of a stretch can be reached, within one of its open
     // intervals.
     let mut known: BTreeMap<(usize, usize, usize), f64> = BTreeMap::new();
-    let mut open = BinaryHeap::from([Reverse((Ordered(0.0), 0, 0, 0))]);
+    let mut open = BinaryHeap::from([Reverse((OrderedF64(0.0), 0, 0, 0))]);
     known.insert((0, 0, 0), 0.0);
-    while let Some(Reverse((Ordered(time), stretch, gap, end))) = open.pop() {
+    while let Some(Reverse((OrderedF64(time), stretch, gap, end))) = open.pop() {
         checkpoint();
         if known[&(stretch, gap, end)] < time {
             continue;
@@ -77,7 +77,7 @@ pub fn no_timing(movers: &Movers, path: &Path) -> bool {
         let mut reach = |stretch: usize, gap: usize, end: usize, time: f64| {
             if known.get(&(stretch, gap, end)).is_none_or(|known| time < *known) {
                 known.insert((stretch, gap, end), time);
-                open.push(Reverse((Ordered(time), stretch, gap, end)));
+                open.push(Reverse((OrderedF64(time), stretch, gap, end)));
             }
         };
         if time + takes <= until {
@@ -101,7 +101,7 @@ fn stretches(path: &Path, arm: &Arm) -> Vec<Stretch> {
     let speeds = arm.joints.each_ref().map(|joint| joint.velocity);
     let mut stretches = Vec::new();
     for (a, b) in path.segments() {
-        let parts = ((b - a).norm() / length * STRETCHES as f64).ceil().max(1.0) as usize;
+        let parts = ((b - a).norm() / length * MIN_STRETCHES as f64).ceil().max(1.0) as usize;
         for part in 0..parts {
             let at = |k: usize| a + (b - a) * (k as f64 / parts as f64);
             let half: Configuration = (at(part + 1) - at(part)) / 2.0;

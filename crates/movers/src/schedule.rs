@@ -1,19 +1,19 @@
 //! Departures and waits of a motion along a certified path.
 
-use super::blocked::Movers;
+use super::blocked::MovingObstacles;
 use super::departures::{blocked_departures, first_departure};
 use cplan_core::check::{CertifiedPath, Posture};
 use cplan_core::space::{Metric, Path};
-use cplan_geometry::{Interval, Ordered};
+use cplan_geometry::{Interval, OrderedF64};
 use cplan_interrupt::checkpoint;
 use cplan_motion::CertifiedCurve;
-use cplan_motion::{Drive, Limits, Timed, TimingError, Trajectory, least_duration};
+use cplan_motion::{Drive, Limits, TimedMotion, TimingError, Trajectory, least_duration};
 use serde::Serialize;
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BinaryHeap};
 
 /// Number of places on a path for which safe times are computed.
-const LOOKS: usize = 64;
+const PLACES_PER_PATH: usize = 64;
 
 /// Effort of the search for a motion along a path.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -36,7 +36,7 @@ impl Effort {
 
 /// Requirements on a motion other than its path.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Demand {
+pub struct TimingRequirements {
     /// Share of the joints' top speeds at which it moves.
     pub speed: f64,
     /// Times at which the motion may arrive, seconds after it may begin. The time after arrival is not considered. If
@@ -46,9 +46,9 @@ pub struct Demand {
     pub until: Option<f64>,
 }
 
-impl Demand {
+impl TimingRequirements {
     /// Requirements on a single motion.
-    pub const ALONE: Self = Self { speed: 1.0, arrival: None, until: None };
+    pub const UNCONSTRAINED: Self = Self { speed: 1.0, arrival: None, until: None };
 }
 
 /// A wait of the arm during a motion.
@@ -64,41 +64,41 @@ pub struct Wait {
 
 /// A motion along a path, with waits.
 #[derive(Debug, Clone)]
-pub struct Scheduled {
+pub struct ScheduledMotion {
     /// The curve, with corners where the arm waits, and the whole motion.
-    pub timed: Timed,
+    pub timed: TimedMotion,
     /// Waits in order.
     pub waits: Vec<Wait>,
     /// Time until which no moving obstacle comes too near to the goal; infinite if none ever does.
     pub free_until: f64,
 }
 
-impl Scheduled {
+impl ScheduledMotion {
     /// Returns the duration in seconds, waits included.
     pub fn duration(&self) -> f64 {
         self.timed.trajectory.duration()
     }
 
     /// Returns true if the arm may stay for ever where the motion ends.
-    pub fn is_for_good(&self) -> bool {
+    pub fn may_stay_forever(&self) -> bool {
         self.free_until == f64::INFINITY
     }
 
     /// Returns true if this motion is better than another. Motions after which the arm can stay come first, then
     /// earlier ones.
     pub fn is_better_than(&self, other: &Self) -> bool {
-        let rank = |it: &Self| (!it.is_for_good(), it.duration());
+        let rank = |it: &Self| (!it.may_stay_forever(), it.duration());
         rank(self) < rank(other)
     }
 }
 
 /// Stops along a path, and the departures between them.
 struct Stops<'a> {
-    movers: &'a Movers<'a>,
+    movers: &'a MovingObstacles<'a>,
     path: &'a CertifiedPath,
     drive: &'a Drive,
     effort: Effort,
-    demand: &'a Demand,
+    demand: &'a TimingRequirements,
     /// Distances along the path, ascending; the first and the last are its ends.
     at: Vec<f64>,
     /// Seconds to each stop at the joints' top speeds.
@@ -106,7 +106,7 @@ struct Stops<'a> {
     /// Intervals of time in which the arm may stay there.
     safe: Vec<Vec<Interval>>,
     /// Motions from one stop to another.
-    legs: BTreeMap<(usize, usize), Timed>,
+    legs: BTreeMap<(usize, usize), TimedMotion>,
 }
 
 /// A stop and one of its safe intervals, by number.
@@ -120,7 +120,7 @@ struct Arrival {
 }
 
 /// A sequence of stops from the first to the last.
-struct Way {
+struct StopSequence {
     /// Each stop with the departure from it; for the last, with the arrival.
     stops: Vec<(usize, f64)>,
     /// Time until which the arm may stay at the last stop.
@@ -128,16 +128,16 @@ struct Way {
 }
 
 /// Earliest known arrivals, and those from which the search must continue.
-struct Reached {
+struct EarliestArrivals {
     known: BTreeMap<SafeStop, Arrival>,
-    open: BinaryHeap<Reverse<(Ordered, usize, usize)>>,
+    open: BinaryHeap<Reverse<(OrderedF64, usize, usize)>>,
     /// Time by which the goal must be reached for good. Later arrivals are useless.
-    soonest_for_good: f64,
+    earliest_permanent_arrival: f64,
 }
 
-impl Reached {
-    fn from_the_start(soonest_for_good: f64) -> Self {
-        let mut reached = Self { known: BTreeMap::new(), open: BinaryHeap::new(), soonest_for_good };
+impl EarliestArrivals {
+    fn from_the_start(earliest_permanent_arrival: f64) -> Self {
+        let mut reached = Self { known: BTreeMap::new(), open: BinaryHeap::new(), earliest_permanent_arrival };
         reached.arrive((0, 0), Arrival { time: 0.0, from: None }, false);
         reached
     }
@@ -145,7 +145,7 @@ impl Reached {
     /// Takes the earliest arrival from which the search has not continued yet.
     fn next(&mut self) -> Option<(SafeStop, f64)> {
         loop {
-            let Reverse((Ordered(time), stop, interval)) = self.open.pop()?;
+            let Reverse((OrderedF64(time), stop, interval)) = self.open.pop()?;
             // An entry of an older, later arrival may remain.
             if self.known[&(stop, interval)].time >= time {
                 return Some(((stop, interval), time));
@@ -159,15 +159,15 @@ impl Reached {
     }
 
     /// Stores an arrival if it is earlier than the known one.
-    fn arrive(&mut self, at: SafeStop, arrival: Arrival, is_for_good: bool) {
+    fn arrive(&mut self, at: SafeStop, arrival: Arrival, may_stay_forever: bool) {
         if !self.is_improved_by(at, arrival.time) {
             return;
         }
-        if is_for_good {
-            self.soonest_for_good = self.soonest_for_good.min(arrival.time);
+        if may_stay_forever {
+            self.earliest_permanent_arrival = self.earliest_permanent_arrival.min(arrival.time);
         }
         self.known.insert(at, arrival);
-        self.open.push(Reverse((Ordered(arrival.time), at.0, at.1)));
+        self.open.push(Reverse((OrderedF64(arrival.time), at.0, at.1)));
     }
 
     /// Returns the stops up to an arrival, each with its departure; the last with its arrival.
@@ -193,14 +193,14 @@ impl Reached {
 /// # Errors
 /// Fails if a part of the path cannot be timed.
 pub fn schedule(
-    movers: &Movers,
+    movers: &MovingObstacles,
     path: &CertifiedPath,
-    whole: &Timed,
+    whole: &TimedMotion,
     drive: &Drive,
-    demand: &Demand,
+    demand: &TimingRequirements,
     effort: Effort,
     before: f64,
-) -> Result<Option<Scheduled>, TimingError> {
+) -> Result<Option<ScheduledMotion>, TimingError> {
     let at = places(movers, path.path(), effort);
     let safe_at = |&distance: &f64| movers.safe_intervals(&posture_at(movers, path.path(), distance));
     let mut safe: Vec<Vec<Interval>> = at.iter().map(safe_at).collect();
@@ -213,14 +213,14 @@ pub fn schedule(
     let metric = Metric::Time { speeds };
     let gone = at.iter().map(|&distance| metric.length(&path.path().part(0.0, distance))).collect();
     let mut stops = Stops { movers, path, drive, effort, demand, at, gone, safe, legs };
-    let Some(Way { stops: way, free_until }) = stops.search(before)? else { return Ok(None) };
-    let (timed, waits) = stops.driven(&way)?;
-    Ok(Some(Scheduled { timed, waits, free_until }))
+    let Some(StopSequence { stops: sequence, free_until }) = stops.search(before)? else { return Ok(None) };
+    let (timed, waits) = stops.driven(&sequence)?;
+    Ok(Some(ScheduledMotion { timed, waits, free_until }))
 }
 
 impl Stops<'_> {
     /// Returns the motion from one stop to another.
-    fn leg(&mut self, from: usize, to: usize) -> Result<&Timed, TimingError> {
+    fn leg(&mut self, from: usize, to: usize) -> Result<&TimedMotion, TimingError> {
         if !self.legs.contains_key(&(from, to)) {
             checkpoint();
             let part = self.path.part(self.at[from], self.at[to]);
@@ -238,23 +238,23 @@ impl Stops<'_> {
     }
 
     /// Finds the earliest sequence of stops to the last one, except those that end for good after `before`.
-    fn search(&mut self, before: f64) -> Result<Option<Way>, TimingError> {
+    fn search(&mut self, before: f64) -> Result<Option<StopSequence>, TimingError> {
         // At the start, only the first interval can contain time 0.
         if self.safe[0].first().is_none_or(|first| first[0] > 0.0) {
             return Ok(None);
         }
         let last = self.at.len() - 1;
-        let mut reached = Reached::from_the_start(before);
+        let mut reached = EarliestArrivals::from_the_start(before);
         let mut fallback = None;
         while let Some((at, time)) = reached.next() {
             let (stop, interval) = at;
             if stop == last {
                 let free_until = self.stays(interval, time);
                 if free_until == f64::INFINITY {
-                    return Ok(Some(Way { stops: reached.stops_to(at), free_until }));
+                    return Ok(Some(StopSequence { stops: reached.stops_to(at), free_until }));
                 }
                 if self.demand.arrival.is_none() && fallback.is_none() {
-                    fallback = Some(Way { stops: reached.stops_to(at), free_until });
+                    fallback = Some(StopSequence { stops: reached.stops_to(at), free_until });
                 }
                 continue;
             }
@@ -270,7 +270,7 @@ impl Stops<'_> {
     /// Departs for another stop: for each of its safe intervals, as early as possible.
     fn depart(
         &mut self,
-        reached: &mut Reached,
+        reached: &mut EarliestArrivals,
         (stop, interval): SafeStop,
         time: f64,
         next: usize,
@@ -279,7 +279,7 @@ impl Stops<'_> {
         let (soonest, onwards) = (time + self.least(stop, next), self.least(next, last));
         let is_target = |&k: &usize| {
             let [begins, ends] = self.safe[next][k];
-            let is_of_use = next == last || soonest.max(begins) + onwards < reached.soonest_for_good;
+            let is_of_use = next == last || soonest.max(begins) + onwards < reached.earliest_permanent_arrival;
             is_of_use && ends >= soonest && reached.is_improved_by((next, k), soonest)
         };
         let targets: Vec<usize> = (0..self.safe[next].len()).filter(is_target).collect();
@@ -291,7 +291,7 @@ impl Stops<'_> {
         let (lasts, pieces) = (trajectory.duration(), trajectory.pieces());
         let window = |target: usize| {
             let [begins, ends] = self.safe[next][target];
-            let by = leaves_by.min(ends - lasts).min(reached.soonest_for_good - onwards - lasts);
+            let by = leaves_by.min(ends - lasts).min(reached.earliest_permanent_arrival - onwards - lasts);
             (target, [time.max(begins - lasts), by])
         };
         let windows: Vec<(usize, Interval)> =
@@ -301,9 +301,9 @@ impl Stops<'_> {
         for (target, [from, to]) in windows {
             let Some(departs) = first_departure(&blocked, from, to) else { continue };
             let is_endless = self.safe[next][target][1] == f64::INFINITY;
-            let is_for_good = next == last && (is_endless || self.demand.arrival.is_some());
+            let may_stay_forever = next == last && (is_endless || self.demand.arrival.is_some());
             let arrival = Arrival { time: departs + lasts, from: Some(((stop, interval), departs)) };
-            reached.arrive((next, target), arrival, is_for_good);
+            reached.arrive((next, target), arrival, may_stay_forever);
         }
         Ok(())
     }
@@ -322,12 +322,12 @@ impl Stops<'_> {
     }
 
     /// Returns the motion along a sequence of stops.
-    fn driven(&mut self, way: &[(usize, f64)]) -> Result<(Timed, Vec<Wait>), TimingError> {
+    fn driven(&mut self, sequence: &[(usize, f64)]) -> Result<(TimedMotion, Vec<Wait>), TimingError> {
         let start = self.path.part(0.0, 0.0);
         let mut trajectory = Trajectory::default();
         let mut curve: Option<CertifiedCurve> = None;
         let (mut waits, mut arrived) = (Vec::new(), 0.0);
-        for legs in way.windows(2) {
+        for legs in sequence.windows(2) {
             let [(from, departs), (to, _)] = [legs[0], legs[1]];
             let pause = departs - arrived;
             if trajectory.time.is_empty() && pause > 0.0 {
@@ -351,34 +351,34 @@ impl Stops<'_> {
         }
         let curve = curve.unwrap_or_else(|| start.into());
         if let Some([begins, _]) = self.demand.arrival {
-            trajectory.stand_until(self.demand.until.unwrap_or(begins));
+            trajectory.append_rest_until(self.demand.until.unwrap_or(begins));
             let (to, goal) = (trajectory.duration(), self.path.path().goal());
             waits.extend((to > arrived).then(|| Wait { from: arrived, to, at: goal.into() }));
         }
-        Ok((Timed { curve, trajectory }, waits))
+        Ok((TimedMotion { curve, trajectory }, waits))
     }
 }
 
 /// Returns the posture of the arm at a distance along a path.
-fn posture_at<'a>(movers: &Movers<'a>, path: &Path, distance: f64) -> Posture<'a> {
+fn posture_at<'a>(movers: &MovingObstacles<'a>, path: &Path, distance: f64) -> Posture<'a> {
     Posture::new(movers.scene(), path.part(distance, distance).start())
 }
 
 /// Returns the places where the arm may wait: the ends of the path and the ends of its parts that no obstacle ever
 /// comes near to. With more effort, adds some more places.
-fn places(movers: &Movers, path: &Path, effort: Effort) -> Vec<f64> {
+fn places(movers: &MovingObstacles, path: &Path, effort: Effort) -> Vec<f64> {
     let length = path.length();
     if length == 0.0 {
         return vec![0.0];
     }
-    let looks: Vec<f64> = (0..=LOOKS).map(|k| length * k as f64 / LOOKS as f64).collect();
-    let is_calm = |&distance: &f64| movers.is_calm(&posture_at(movers, path, distance));
-    let calm: Vec<bool> = looks.iter().map(is_calm).collect();
+    let looks: Vec<f64> = (0..=PLACES_PER_PATH).map(|k| length * k as f64 / PLACES_PER_PATH as f64).collect();
+    let is_always_safe = |&distance: &f64| movers.is_always_safe(&posture_at(movers, path, distance));
+    let calm: Vec<bool> = looks.iter().map(is_always_safe).collect();
     let is_end = |&k: &usize| calm[k] && (!calm[k - 1] || !calm[k + 1]);
-    let mut stops: Vec<usize> = (1..LOOKS).filter(is_end).take(effort.most_stops).collect();
+    let mut stops: Vec<usize> = (1..PLACES_PER_PATH).filter(is_end).take(effort.most_stops).collect();
     let left = if effort.spread { effort.most_stops - stops.len() } else { 0 };
-    stops.extend((1..=left).map(|k| k * LOOKS / (left + 1)).filter(|k| (1..LOOKS).contains(k)));
-    stops.extend([0, LOOKS]);
+    stops.extend((1..=left).map(|k| k * PLACES_PER_PATH / (left + 1)).filter(|k| (1..PLACES_PER_PATH).contains(k)));
+    stops.extend([0, PLACES_PER_PATH]);
     stops.sort_unstable();
     stops.dedup();
     stops.into_iter().map(|k| looks[k]).collect()

@@ -7,13 +7,13 @@ use super::stencil::Stencil;
 type Packs<'a> = &'a [[f32; LANES]];
 
 /// A row and its eight neighbours, each with its coupling.
-pub(super) struct Nine<'a> {
+pub(super) struct NineCells<'a> {
     pub middle: Packs<'a>,
     /// Couplings and values: east, west, south, north, south-east, north-west, south-west, north-east.
     terms: [(Packs<'a>, Packs<'a>); 8],
 }
 
-impl<'a> Nine<'a> {
+impl<'a> NineCells<'a> {
     #[inline(always)]
     pub fn new(stencil: &'a Stencil, values: &'a [f32], i: usize) -> Self {
         let frame = stencil.frame;

@@ -58,9 +58,9 @@ impl<T: Copy + Default> Band<T> {
 
     /// Returns the neighbours, which have the other colour, of the cells of `colour` in row `i`.
     #[inline(always)]
-    pub fn around(&self, i: usize, colour: Colour, count: usize) -> Around<'_, T> {
+    pub fn around(&self, i: usize, colour: Color, count: usize) -> Around<'_, T> {
         let at = self.start(i);
-        let west = (colour == Colour::Odd) == i.is_multiple_of(2);
+        let west = (colour == Color::Odd) == i.is_multiple_of(2);
         let packs = |at: usize| packs(&self.data, at, count);
         let side = packs(if west { at - 1 } else { at + 1 });
         Around { above: packs(self.above(i)), below: packs(self.below(i)), beside: [packs(at), side] }
@@ -69,7 +69,7 @@ impl<T: Copy + Default> Band<T> {
 
 /// The colour of a cell on the chessboard.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Colour {
+pub(super) enum Color {
     Even,
     Odd,
 }

@@ -7,7 +7,7 @@
 //! one red-black Gauss-Seidel step on the full system. After it the residual of the odd cells is zero, so they are
 //! neither restricted nor interpolated.
 
-use super::band::{Band, Colour};
+use super::band::{Band, Color};
 use super::cycle::Stack;
 use super::machine::{Machine, Pack};
 use super::red_black::{RedBlack, Shape};
@@ -145,7 +145,7 @@ impl Workspace {
                             odd_row(m, red_black, inverse, &self.residual, &mut self.odd, i);
                         }
                         2 => {
-                            let around = self.odd.around(i, Colour::Odd, count);
+                            let around = self.odd.around(i, Color::Odd, count);
                             for (k, to) in self.even.row_mut(i, count).iter_mut().enumerate() {
                                 (inverse * around.sum(m, k)).store(to, 0);
                             }
@@ -193,7 +193,7 @@ impl Workspace {
                             odd_row(m, red_black, inverse, &self.even, &mut self.odd, i);
                         }
                         2 => {
-                            let around = self.odd.around(i, Colour::Odd, count);
+                            let around = self.odd.around(i, Color::Odd, count);
                             let (residual, free) = (self.residual.row(i, count), red_black.even.row(i, count));
                             let to = self.advice.row_mut(i, count);
                             let mut sum = product;
@@ -207,7 +207,7 @@ impl Workspace {
                             red_black.frame_even(&mut self.advice, i);
                         }
                         3 => {
-                            let around = self.advice.around(i, Colour::Even, count);
+                            let around = self.advice.around(i, Color::Even, count);
                             let to = self.exact_odd.row_mut(i, count);
                             for (k, (free, to)) in red_black.odd.row(i, count).iter().zip(to).enumerate() {
                                 (around.exact_sum(m, k) * (m.double(m.pack(free)) * exact_inverse)).store(to, 0);
@@ -215,7 +215,7 @@ impl Workspace {
                             red_black.settle(&mut self.exact_odd, &self.advice, i);
                         }
                         _ => {
-                            let around = self.exact_odd.around(i, Colour::Odd, count);
+                            let around = self.exact_odd.around(i, Color::Odd, count);
                             let (advice, free) = (self.advice.row(i, count), red_black.even.row(i, count));
                             let to = self.advice_image.row_mut(i, count);
                             let mut sum = energy;
@@ -315,7 +315,7 @@ impl Workspace {
     #[inline(always)]
     fn compute_odd<M: Machine>(&mut self, m: M, red_black: &RedBlack, inverse: M::Double, i: usize) {
         let count = red_black.count();
-        let around = self.exact_even.around(i, Colour::Even, count);
+        let around = self.exact_even.around(i, Color::Even, count);
         let (right, free) = (self.right_odd.row(i, count), red_black.odd.row(i, count));
         let to = self.exact_odd.row_mut(i, count);
         for (k, ((right, free), to)) in right.iter().zip(free).zip(to).enumerate() {
@@ -347,7 +347,7 @@ impl Workspace {
         i: usize,
     ) -> M::Double {
         let count = red_black.count();
-        let around = self.exact_odd.around(i, Colour::Odd, count);
+        let around = self.exact_odd.around(i, Color::Odd, count);
         let (even, right) = (self.exact_even.row(i, count), self.right_even.row(i, count));
         let free = red_black.even.row(i, count);
         let rows = even.iter().zip(right).zip(free).zip(self.residual.row_mut(i, count));
@@ -373,7 +373,7 @@ fn odd_row<M: Machine>(
     i: usize,
 ) {
     let count = red_black.count();
-    let around = even.around(i, Colour::Even, count);
+    let around = even.around(i, Color::Even, count);
     for (k, (free, to)) in red_black.odd.row(i, count).iter().zip(odd.row_mut(i, count)).enumerate() {
         (around.sum(m, k) * (inverse * m.pack(free))).store(to, 0);
     }

@@ -10,7 +10,7 @@ use super::transfer::{Corners, Rows, Transfer};
 use cplan_interrupt::checkpoint;
 
 /// A level with at most this many cells is solved directly.
-const BOTTOM: usize = 40;
+const MAX_DIRECT_CELLS: usize = 40;
 
 /// The levels below the finest. Depends on the operator only.
 #[derive(Debug, Clone)]
@@ -37,7 +37,7 @@ impl Hierarchy {
         let (transfer, first) = coarsen(m, finest);
         let (mut transfers, mut levels) = (Vec::new(), vec![first]);
         while let Some(level) = levels.last()
-            && level.frame.rows * level.frame.columns > BOTTOM
+            && level.frame.rows * level.frame.columns > MAX_DIRECT_CELLS
         {
             checkpoint();
             let (transfer, next) = coarsen(m, level);

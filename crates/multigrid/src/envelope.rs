@@ -32,7 +32,7 @@ impl Envelope {
             let squares: f64 = lower[start[i]..start[i + 1] - 1].iter().map(|a| a * a).sum();
             let pivot = scale - squares;
             // The diagonal stores the reciprocal.
-            lower[start[i + 1] - 1] = if pivot > PIVOT * scale { 1.0 / pivot.sqrt() } else { 0.0 };
+            lower[start[i + 1] - 1] = if pivot > MIN_PIVOT * scale { 1.0 / pivot.sqrt() } else { 0.0 };
         }
         Self { first, start, lower }
     }
@@ -59,4 +59,4 @@ impl Envelope {
 
 /// A pivot less than this part of the diagonal is rounding of the single precision in which the entries were computed:
 /// the matrix is singular there.
-const PIVOT: f64 = 1e-6;
+const MIN_PIVOT: f64 = 1e-6;

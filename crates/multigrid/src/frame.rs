@@ -123,18 +123,18 @@ impl Frame {
 
     /// Iterates over rows so that each is produced once, and consumed as soon as its neighbours exist, while the
     /// previous row is still in the cache. On a circle the last row comes first, because it lies above the first.
-    pub fn ahead(&self) -> impl Iterator<Item = Ahead> + use<> {
+    pub fn ahead(&self) -> impl Iterator<Item = AheadStep> + use<> {
         let rows = self.rows;
-        let first = (self.is_joined_at_rows() && rows > 1).then(|| Ahead { made: Some(rows - 1), used: None });
+        let first = (self.is_joined_at_rows() && rows > 1).then(|| AheadStep { made: Some(rows - 1), used: None });
         let last = if first.is_some() { rows - 1 } else { rows };
-        let rest = (0..=rows).map(move |i| Ahead { made: (i < last).then_some(i), used: i.checked_sub(1) });
+        let rest = (0..=rows).map(move |i| AheadStep { made: (i < last).then_some(i), used: i.checked_sub(1) });
         first.into_iter().chain(rest)
     }
 }
 
 /// A step of [`Frame::ahead`]: first `made`, then `used`.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Ahead {
+pub(super) struct AheadStep {
     pub made: Option<usize>,
     pub used: Option<usize>,
 }

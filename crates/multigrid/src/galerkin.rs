@@ -7,7 +7,7 @@
 
 use super::frame::{Ends, Frame};
 use super::machine::{LANES, Machine, Pack};
-use super::seam::Seamless;
+use super::seam::SeamlessOperator;
 use super::stencil::{Line, Operator, Stencil};
 use super::transfer::Transfer;
 
@@ -44,7 +44,7 @@ impl Halves {
 
 /// Three consecutive rows of an operator, the middle one even, as [`Halves`].
 struct Window<'a, O> {
-    from: Seamless<'a, O>,
+    from: SeamlessOperator<'a, O>,
     line: Line,
     above: Halves,
     middle: Halves,
@@ -55,7 +55,7 @@ impl<'a, O: Operator> Window<'a, O> {
     /// Creates a window before the first row.
     fn new<M: Machine>(m: M, operator: &'a O, coarse: Frame) -> Self {
         let halves = || Halves::new(coarse.width + 2);
-        let from = Seamless::new(operator);
+        let from = SeamlessOperator::new(operator);
         let line = Line::new(2 * coarse.width + 4 + LANES);
         let mut window = Self { from, line, above: halves(), middle: halves(), below: halves() };
         window.restart(m, coarse);

@@ -8,7 +8,7 @@ use super::stencil::{Line, Operator};
 /// the seam: a coupling `c` becomes two of `2 c` in series, which is the same once the new unknown is eliminated. (Exact
 /// for five points. Diagonal couplings across the seam, which coarse levels have, are laid on the straight ones beside
 /// them: a change that only the preconditioner sees.)
-pub(super) struct Seamless<'a, O> {
+pub(super) struct SeamlessOperator<'a, O> {
     operator: &'a O,
     fine: Frame,
     even: Frame,
@@ -20,7 +20,7 @@ pub(super) struct Seamless<'a, O> {
     first: Vec<f32>,
 }
 
-impl<'a, O: Operator> Seamless<'a, O> {
+impl<'a, O: Operator> SeamlessOperator<'a, O> {
     pub fn new(operator: &'a O) -> Self {
         let fine = operator.frame();
         let odd = odd_circles(fine);

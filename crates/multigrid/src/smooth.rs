@@ -4,16 +4,16 @@
 //! `0.5..2`, which coarser levels do not see. No order of cells is involved, so that whole rows are vectors, and the
 //! cycle is symmetric.
 
-use super::around::Nine;
+use super::around::NineCells;
 use super::frame::Frame;
 use super::machine::{LANES, Machine, Pack, packs, packs_mut};
 use super::stencil::Stencil;
 
 /// `1 / (1.25 +- 0.75 cos(pi / 4))`.
-const WEIGHTS: [f32; 2] = [0.561_731_2, 1.389_488_2];
+const STEP_WEIGHTS: [f32; 2] = [0.561_731_2, 1.389_488_2];
 /// Both steps from zero: `(w0 + w1 - w0 w1) D^-1 b + w0 w1 D^-1 (sum of couplings times D^-1 b)`.
-const OWN: f32 = WEIGHTS[0] + WEIGHTS[1] - WEIGHTS[0] * WEIGHTS[1];
-const AROUND: f32 = WEIGHTS[0] * WEIGHTS[1];
+const OWN_WEIGHT: f32 = STEP_WEIGHTS[0] + STEP_WEIGHTS[1] - STEP_WEIGHTS[0] * STEP_WEIGHTS[1];
+const NEIGHBOR_WEIGHT: f32 = STEP_WEIGHTS[0] * STEP_WEIGHTS[1];
 
 /// The vectors of a level.
 #[derive(Debug, Clone)]
@@ -44,7 +44,7 @@ impl Stencil {
     fn step<M: Machine>(&self, m: M, weight: f32, right: &[f32], from: &[f32], to: &mut [f32], i: usize) {
         let (keep, take) = (m.all(1.0 - weight), m.all(weight));
         let (start, count) = (self.frame.row(i).start, self.frame.width / LANES);
-        let nine = Nine::new(self, from, i);
+        let nine = NineCells::new(self, from, i);
         let [right, inverse] = [right, &self.inverse].map(|part| packs(part, start, count));
         let to = packs_mut(to, start, count);
         for k in 0..count {
@@ -64,11 +64,11 @@ impl Stencil {
             || {
                 for i in self.frame.ahead() {
                     if let Some(i) = i.made {
-                        self.step(m, WEIGHTS[1], right, solution, other, i);
+                        self.step(m, STEP_WEIGHTS[1], right, solution, other, i);
                         self.frame.finish_row(other, i);
                     }
                     if let Some(i) = i.used {
-                        self.step(m, WEIGHTS[0], right, other, solution, i);
+                        self.step(m, STEP_WEIGHTS[0], right, other, solution, i);
                     }
                 }
             },
@@ -92,13 +92,13 @@ impl Smooth for Stencil {
                 }
             },
         );
-        let (own, next) = (m.all(OWN), m.all(AROUND));
+        let (own, next) = (m.all(OWN_WEIGHT), m.all(NEIGHBOR_WEIGHT));
         m.run(
             #[inline(always)]
             || {
                 for i in 0..self.frame.rows {
                     let (start, count) = (self.frame.row(i).start, self.frame.width / LANES);
-                    let nine = Nine::new(self, other, i);
+                    let nine = NineCells::new(self, other, i);
                     let (inverse, to) = (packs(&self.inverse, start, count), packs_mut(solution, start, count));
                     for k in 0..count {
                         let sum = own * m.pack(&nine.middle[k]) + next * m.pack(&inverse[k]) * nine.sum(m, k);
@@ -115,7 +115,7 @@ impl Smooth for Stencil {
             #[inline(always)]
             || {
                 let (start, count) = (self.frame.row(i).start, self.frame.width / LANES);
-                let nine = Nine::new(self, solution, i);
+                let nine = NineCells::new(self, solution, i);
                 let [right, diagonal] = [right, &self.diagonal].map(|part| packs(part, start, count));
                 let out = packs_mut(out, 0, count);
                 for k in 0..count {

@@ -46,17 +46,17 @@ pub struct Convergence {
 }
 
 /// More steps than this are never needed: each gains a digit or nearly so.
-const MOST_ITERATIONS: usize = 100;
+const MAX_ITERATIONS: usize = 100;
 
 /// Rounding of sums in single precision, relative to the greatest.
-const SINGLE: f64 = 1e-7;
+const SINGLE_ROUNDING: f64 = 1e-7;
 
 /// A round that leaves more than this part of the residual ended in rounding.
-const LEAST_PROGRESS: f64 = 0.5;
+const MIN_PROGRESS: f64 = 0.5;
 
 /// Least ratio assumed for the geometric series that estimates the error from the last two changes. A step that happens
 /// to change little proves little.
-const LEAST_RATIO: f64 = 0.1;
+const MIN_RATIO: f64 = 0.1;
 
 impl Multigrid {
     /// Builds the solver for `cells` rows and columns, with `free` row by row. Linear in the number of cells.
@@ -135,12 +135,12 @@ impl Multigrid {
             let greatest = workspace.correct(m, red_black, right, values, 1.0 / scale, None).value;
             convergence.error = if greatest > 0.0 { error / scale / greatest } else { 0.0 };
             convergence.converged = convergence.error <= tolerance;
-            if convergence.converged || convergence.iterations >= MOST_ITERATIONS {
+            if convergence.converged || convergence.iterations >= MAX_ITERATIONS {
                 return convergence;
             }
             workspace.rest();
             start = workspace.correct(m, red_black, right, values, 0.0, Some(scale));
-            if start.change / scale > LEAST_PROGRESS * residual {
+            if start.change / scale > MIN_PROGRESS * residual {
                 return convergence;
             }
             residual = start.change / scale;
@@ -165,12 +165,12 @@ impl Multigrid {
             let moved = workspace.descend(m, &self.red_black, &hierarchy.corners, step);
             if step.is_some() {
                 *iterations += 1;
-                let ratio = (moved.change / before).max(LEAST_RATIO);
+                let ratio = (moved.change / before).max(MIN_RATIO);
                 before = moved.change;
-                let rounding = SINGLE * moved.value;
+                let rounding = SINGLE_ROUNDING * moved.value;
                 error = if ratio < 1.0 { moved.change * ratio / (1.0 - ratio) + rounding } else { f64::INFINITY };
                 let enough = error <= tolerance * greatest.max(moved.value) || error <= 2.0 * rounding;
-                if enough || *iterations >= MOST_ITERATIONS {
+                if enough || *iterations >= MAX_ITERATIONS {
                     return error;
                 }
             }
@@ -226,7 +226,7 @@ impl Multigrid {
 }
 
 /// Shift added to the diagonal if the problem would otherwise be singular.
-const SHIFT: f64 = 1e-6;
+const DIAGONAL_SHIFT: f64 = 1e-6;
 
 /// Builds the operator.
 fn operator(cells: [usize; 2], ends: [Ends; 2], free: &[bool], shift: f64) -> FivePoint {
@@ -238,7 +238,7 @@ fn operator(cells: [usize; 2], ends: [Ends; 2], free: &[bool], shift: f64) -> Fi
     }
     frame.of_coefficients().finish(&mut operator.free);
     if operator.is_singular() {
-        operator.degree += SHIFT;
+        operator.degree += DIAGONAL_SHIFT;
     }
     operator
 }

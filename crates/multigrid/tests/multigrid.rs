@@ -277,7 +277,7 @@ fn without_walls_the_field_is_constant() {
 }
 
 #[test]
-fn nothing_free_nothing_to_do() {
+fn grids_without_free_cells_need_no_work() {
     for cells in [[0, 0], [0, 5], [5, 0], [1, 1], [7, 300]] {
         let solver = Multigrid::new(cells, [Ends::Joined, Ends::High], &vec![false; cells[0] * cells[1]], 0.0);
         let mut values = vec![7.0; cells[0] * cells[1]];

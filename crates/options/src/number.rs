@@ -1,6 +1,6 @@
 //! Parsers of numbers.
 
-use cplan_motion::SHORTEST_INTERVAL;
+use cplan_motion::MIN_INTERVAL;
 
 /// Parses an allowed number.
 ///
@@ -34,6 +34,6 @@ pub fn positive(text: &str) -> Result<f64, String> {
 /// # Errors
 /// A time that is too short for controllers.
 pub fn seconds(text: &str) -> Result<f64, String> {
-    let range = format!("of seconds, finite and at least {SHORTEST_INTERVAL}");
-    number_in(text, |x| x.is_finite() && x >= SHORTEST_INTERVAL, &range)
+    let range = format!("of seconds, finite and at least {MIN_INTERVAL}");
+    number_in(text, |x| x.is_finite() && x >= MIN_INTERVAL, &range)
 }

@@ -11,7 +11,7 @@ use cplan_core::planner::{GridSearch, PathKind};
 use cplan_core::waves::Neighborhood;
 use cplan_core::waves::search::Ties;
 use cplan_fields::FieldPlanner;
-use cplan_solver::{CellCounts, Criterion, GridSpace, LEVELS, MOST_MARGIN, Method, Options, Planner, Setting};
+use cplan_solver::{ALLOWED_LEVELS, CellCounts, Criterion, GridSpace, MAX_MARGIN, Method, Options, Planner, Setting};
 use std::ops::RangeInclusive;
 use std::sync::LazyLock;
 
@@ -30,13 +30,13 @@ pub struct EffortArgs {
     #[arg(long, value_name = "SHARE", value_parser = margin, allow_hyphen_values = true)]
     pub margin: Option<f64>,
     /// Maximum number of attempts, each finer than the one before [default: 6].
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(whole(&LEVELS)))]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(whole(&ALLOWED_LEVELS)))]
     pub levels: Option<u8>,
 }
 
 impl EffortArgs {
     /// Returns the planner with those of these options that it reads.
-    pub fn put_into(&self, planner: Planner) -> Planner {
+    pub fn apply_to(&self, planner: Planner) -> Planner {
         let planner = self.margin.map_or(planner, |share| planner.with_margin(share));
         self.cells.map_or(planner, |counts| planner.with_cell_counts(counts))
     }
@@ -45,7 +45,7 @@ impl EffortArgs {
     pub fn levels(&self, planner: &Planner) -> usize {
         let is_coarse = |CellCounts(counts): CellCounts| counts.iter().all(|&n| n <= KEPT_CELLS);
         let usual = match planner.space().filter(|_| self.cells.is_some_and(is_coarse)) {
-            Some(space) => space.levels_of_a_size(),
+            Some(space) => space.levels_per_size(),
             None => Options::default().levels,
         };
         self.levels.map_or(usual, usize::from)
@@ -68,7 +68,7 @@ impl EffortArgs {
     }
 
     /// Returns these options; options that are not given come from `base`.
-    pub fn over(&self, base: &Self) -> Self {
+    pub fn or_from(&self, base: &Self) -> Self {
         Self {
             cells: self.cells.or(base.cells),
             margin: self.margin.or(base.margin),
@@ -225,11 +225,11 @@ impl PlannerArgs {
                 search.order.name()
             ));
         }
-        Ok(self.put_into(Planner::named(method).with_search(search), field))
+        Ok(self.apply_to(Planner::named(method).with_search(search), field))
     }
 
-    fn put_into(&self, planner: Planner, field: Option<FieldPlanner>) -> Planner {
-        let planner = self.effort.put_into(planner).with_criterion(self.optimum.criterion());
+    fn apply_to(&self, planner: Planner, field: Option<FieldPlanner>) -> Planner {
+        let planner = self.effort.apply_to(planner).with_criterion(self.optimum.criterion());
         let planner = planner
             .with(Setting::GridSearch, |settings| {
                 settings.grid_search = self.path.search.unwrap_or_default();
@@ -238,7 +238,7 @@ impl PlannerArgs {
                 settings.neighborhood = self.path.neighbors.unwrap_or_default();
             })
             .with(Setting::Field, |settings| settings.field = field);
-        let planner = self.roadmap.put_into(planner);
+        let planner = self.roadmap.apply_to(planner);
         let planner = self.optimum.gap.map_or(planner, |share| planner.with_gap(share));
         let planner = self.path.space.map_or(planner, |space| planner.with_space(space));
         self.path.path.map_or(planner, |kind| planner.with_path(kind))
@@ -271,8 +271,8 @@ impl OptimumArgs {
             return Err("--weights needs --metric weighted".into());
         }
         let asked = if self.gap.is_some() { "--gap" } else { "--metric" };
-        let optimises = self.gap.is_some() || self.metric != MetricName::Euclidean;
-        if optimises {
+        let optimizes = self.gap.is_some() || self.metric != MetricName::Euclidean;
+        if optimizes {
             require(asked, &[Setting::Gap], planner, "does not look for the shortest path")?;
         }
         Ok(())
@@ -346,8 +346,8 @@ fn gap(text: &str) -> Result<f64, String> {
 }
 
 fn margin(text: &str) -> Result<f64, String> {
-    let range = format!("from 0 to {MOST_MARGIN} (of the arm's reach)");
-    number_in(text, |x| (0.0..=MOST_MARGIN).contains(&x), &range)
+    let range = format!("from 0 to {MAX_MARGIN} (of the arm's reach)");
+    number_in(text, |x| (0.0..=MAX_MARGIN).contains(&x), &range)
 }
 
 /// Returns a range for the parser of whole numbers.

@@ -5,7 +5,7 @@ use super::planner::whole;
 use super::readers::{readers, require};
 use clap::Args;
 use cplan_core::planner::{GridSearch, RoadmapSearch, SearchOrder, VisibilityGraph};
-use cplan_solver::{Method, NEAREST, Planner, SAMPLES, Setting};
+use cplan_solver::{ALLOWED_NEIGHBORS, ALLOWED_SAMPLES, Method, Planner, Setting};
 use std::sync::LazyLock;
 
 static HEADING: LazyLock<String> =
@@ -22,10 +22,10 @@ pub struct RoadmapArgs {
     #[arg(long, value_parser = word::<VisibilityGraph>(), value_name = "KIND")]
     pub graph: Option<VisibilityGraph>,
     /// Number of random free configurations (planner prm); doubled with each attempt [default: 500].
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(whole(&SAMPLES)))]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(whole(&ALLOWED_SAMPLES)))]
     pub samples: Option<u32>,
     /// Number of nearest samples to which each sample is joined if the segment is free (planner prm) [default: 12].
-    #[arg(long, value_name = "K", value_parser = clap::value_parser!(u32).range(whole(&NEAREST)))]
+    #[arg(long, value_name = "K", value_parser = clap::value_parser!(u32).range(whole(&ALLOWED_NEIGHBORS)))]
     pub nearest: Option<u32>,
     /// Seed of the samples (planner prm): the same seed gives the same roadmap [default: 1].
     #[arg(long, value_name = "N")]
@@ -72,7 +72,7 @@ impl RoadmapArgs {
     }
 
     /// Returns the planner with those of these options that it reads.
-    pub fn put_into(&self, planner: Planner) -> Planner {
+    pub fn apply_to(&self, planner: Planner) -> Planner {
         planner.with(Setting::Graph, |settings| settings.graph = self.graph.unwrap_or_default()).with(
             Setting::Samples,
             |settings| {

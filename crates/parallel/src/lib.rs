@@ -7,7 +7,7 @@ use std::sync::mpsc::channel;
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 
 /// Largest number of results per thread that wait for an earlier one.
-const WAITING: usize = 64;
+const MAX_WAITING_PER_THREAD: usize = 64;
 
 /// Runs one piece of work and catches its panic, so that other pieces continue.
 ///
@@ -15,9 +15,9 @@ const WAITING: usize = 64;
 /// The panic message. An interruption from outside unwinds further.
 pub fn caught<T>(work: impl FnOnce() -> T) -> Result<T, String> {
     catch_unwind(AssertUnwindSafe(work)).map_err(|panic| {
-        let said = panic.downcast_ref::<String>().map(String::as_str).or(panic.downcast_ref::<&str>().copied());
-        match said {
-            Some(said) => format!("cplan failed, which is a mistake in it: {said}"),
+        let message = panic.downcast_ref::<String>().map(String::as_str).or(panic.downcast_ref::<&str>().copied());
+        match message {
+            Some(message) => format!("cplan failed, which is a mistake in it: {message}"),
             None => resume_unwind(panic),
         }
     })
@@ -38,7 +38,7 @@ pub fn in_order<T: Send, E>(
         return (0..count).try_for_each(|i| each(work(i)));
     }
     let next = AtomicUsize::new(0);
-    let turns = Turns { state: Mutex::new((0, false)), moved: Condvar::new(), most: WAITING * jobs };
+    let turns = TurnState { state: Mutex::new((0, false)), moved: Condvar::new(), most: MAX_WAITING_PER_THREAD * jobs };
     std::thread::scope(|scope| {
         let (sender, results) = channel();
         for _ in 0..jobs.min(count) {
@@ -62,7 +62,7 @@ pub fn in_order<T: Send, E>(
             });
         }
         drop(sender);
-        let _over = Over(&turns);
+        let _over = StopGuard(&turns);
         let (mut early, mut due) = (BTreeMap::new(), 0);
         for (i, result) in results {
             early.insert(i, result);
@@ -77,13 +77,13 @@ pub fn in_order<T: Send, E>(
 }
 
 /// Number of the next result, and whether new work may start.
-struct Turns {
+struct TurnState {
     state: Mutex<(usize, bool)>,
     moved: Condvar,
     most: usize,
 }
 
-impl Turns {
+impl TurnState {
     fn state(&self) -> MutexGuard<'_, (usize, bool)> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -106,9 +106,9 @@ impl Turns {
 }
 
 /// Releases all waiting threads when the receiver stops, even by an error or a panic.
-struct Over<'a>(&'a Turns);
+struct StopGuard<'a>(&'a TurnState);
 
-impl Drop for Over<'_> {
+impl Drop for StopGuard<'_> {
     fn drop(&mut self) {
         self.0.end();
     }
@@ -150,7 +150,7 @@ mod tests {
     }
 
     #[test]
-    fn a_panic_is_caught_and_what_is_stopped_is_not() {
+    fn panics_are_caught_and_interrupts_are_not() {
         assert_eq!(caught(|| 7), Ok(7));
         let why = caught(|| -> u8 { panic!("corner {}", 3) });
         assert_eq!(why, Err("cplan failed, which is a mistake in it: corner 3".into()));
@@ -171,11 +171,11 @@ mod tests {
             begun.fetch_add(1, Ordering::SeqCst);
             if i == 0 {
                 // As many pieces as may start, and no more, however long the first takes.
-                while begun.load(Ordering::SeqCst) < 3 * WAITING {
+                while begun.load(Ordering::SeqCst) < 3 * MAX_WAITING_PER_THREAD {
                     std::thread::yield_now();
                 }
                 std::thread::sleep(std::time::Duration::from_millis(20));
-                assert_eq!(begun.load(Ordering::SeqCst), 3 * WAITING);
+                assert_eq!(begun.load(Ordering::SeqCst), 3 * MAX_WAITING_PER_THREAD);
             }
             i
         };
@@ -194,7 +194,7 @@ mod tests {
     }
 
     #[test]
-    fn a_panic_of_who_takes_results_ends_the_work() {
+    fn a_panic_of_the_receiver_ends_the_work() {
         let begun = AtomicUsize::new(0);
         let work = |_| begun.fetch_add(1, Ordering::SeqCst);
         let all = catch_unwind(AssertUnwindSafe(|| {

@@ -1,14 +1,14 @@
 //! Bands of `q1` that joint 1 alone decides, because link 1 collides there.
 
-use super::slab::{OUTWARD, is_stuck};
+use super::slab::{CLOSED_FORM_ERROR, is_collision};
 use cplan_core::check::Cell;
-use cplan_core::check::StuckBox;
+use cplan_core::check::CollisionBox;
 use cplan_core::check::{Deviation, Posture};
 use cplan_core::model::{Contacts, on_axis};
 use cplan_geometry::{Vector, merge_in_place};
 
 /// Places in a band where a wall is searched, as shares of each pair's interval. Shapes usually overlap most in the middle.
-const PLACES: [f64; 5] = [0.5, 0.25, 0.75, 0.1, 0.9];
+const WALL_POSITIONS: [f64; 5] = [0.5, 0.25, 0.75, 0.1, 0.9];
 
 /// A stretch of joint 1's domain.
 pub(super) struct Stretch {
@@ -22,7 +22,7 @@ pub(super) enum Kind {
     /// Link 1 keeps its distance everywhere in the stretch.
     Free,
     /// Link 1 is proven too near over some width within the stretch, so no path crosses the stretch.
-    Wall(StuckBox),
+    Wall(CollisionBox),
     /// Neither certainly free nor certainly in collision.
     Unknown,
 }
@@ -36,7 +36,7 @@ pub(super) fn bands(contacts: &Contacts, clearance: f64) -> Vec<Stretch> {
     let mut arcs = Vec::new();
     for index in 0..contacts.second_link_pairs().start {
         arcs.clear();
-        let hits = contacts.first_link(index, clearance + OUTWARD, &mut arcs);
+        let hits = contacts.first_link(index, clearance + CLOSED_FORM_ERROR, &mut arcs);
         on_axis(joint, hits, &arcs, |interval| of_pairs.push((index, interval)));
     }
     let mut merged: Vec<[f64; 2]> = of_pairs.iter().map(|p| p.1).collect();
@@ -62,11 +62,11 @@ pub(super) fn bands(contacts: &Contacts, clearance: f64) -> Vec<Stretch> {
 }
 
 /// Finds a collision box of the pair, as high as the domain, within an interval of `q1` where the pair is too near.
-fn wall(contacts: &Contacts, clearance: f64, index: usize, [from, to]: [f64; 2]) -> Option<StuckBox> {
+fn wall(contacts: &Contacts, clearance: f64, index: usize, [from, to]: [f64; 2]) -> Option<CollisionBox> {
     let scene = contacts.scene();
     let (pair, lever) = (scene.pairs()[index], contacts.lever(index));
     let (bottom, top) = scene.arm().joints[1].range.domain();
-    PLACES.iter().find_map(|share| {
+    WALL_POSITIONS.iter().find_map(|share| {
         let middle = from + (to - from) * share;
         let posture = Posture::new(scene, Vector::new(middle, (bottom + top) / 2.0));
         let depth = clearance - posture.greatest(pair, Deviation::Box([0.0, 0.0]));
@@ -74,6 +74,6 @@ fn wall(contacts: &Contacts, clearance: f64, index: usize, [from, to]: [f64; 2])
         let half = (depth / lever / 2.0).min(middle - from).min(to - middle);
         let cell = Cell { lower: [middle - half, bottom], upper: [middle + half, top] };
         let stands = cell.lower[0] < cell.upper[0] && bottom < top;
-        (stands && is_stuck(scene, pair, &cell, clearance)).then_some(StuckBox { cell, pair })
+        (stands && is_collision(scene, pair, &cell, clearance)).then_some(CollisionBox { cell, pair })
     })
 }

@@ -77,9 +77,9 @@ pub(super) enum State {
     /// No pair comes too near anywhere in the box.
     Free,
     /// This pair is too near everywhere in the box.
-    Stuck(Pair),
+    Colliding(Pair),
     /// These pairs are undecided. No other pair comes too near.
-    Mixed(Vec<Pair>),
+    Undecided(Vec<Pair>),
     /// Undecided, and halving would not help: either only link 1 is undecided in a column of the finest width, or the
     /// box has the finest size.
     Finest,
@@ -97,7 +97,7 @@ pub(super) struct Node {
 impl Node {
     /// Returns true if it may contain a free configuration: it is neither a collision box nor split.
     pub fn is_open(&self) -> bool {
-        matches!(self.state, State::Free | State::Mixed(_) | State::Finest)
+        matches!(self.state, State::Free | State::Undecided(_) | State::Finest)
     }
 }
 
@@ -112,28 +112,30 @@ pub(super) struct Subdivision<'a> {
 }
 
 /// Number of initial columns and rows. At least three, so that across a seam no box is its own neighbour.
-const FIRST: usize = 8;
+const INITIAL_COLUMNS: usize = 8;
 
 /// Finest width of a column, as a share of the domain. Link 1 alone is decided on such intervals of `q1`. Columns are
 /// as tall as the domain, so fine ones cost little. A thin wall of link 1, such as a corner that just reaches an
 /// obstacle, needs fine columns.
-const FINEST_COLUMN: f64 = 1e-8;
+const MIN_COLUMN_WIDTH: f64 = 1e-8;
 
 /// Maximum number of undecided columns of one width that are halved in advance. Each end of a contact leaves a few
 /// undecided columns. Far more of them mean that link 1 slides along an obstacle at exactly the clearance, and halving
 /// would not help. The search then halves boxes of such columns only where it matters.
-const MOST_OPEN_COLUMNS: usize = 512;
+const MAX_UNDECIDED_COLUMNS: usize = 512;
 
 /// Finest size of a box, as a share of the domain along each axis. Finer boxes would be within the rounding error of a
 /// clearance, and a start or goal without any free space around it would never be decided.
-const FINEST_BOX: f64 = 1e-10;
+const MIN_BOX_SIZE: f64 = 1e-10;
 
 impl<'a> Subdivision<'a> {
     pub fn new(scene: &'a Scene, clearance: f64) -> Self {
         let topology = scene.arm().topology();
         let mut this = Self { scene, topology, clearance, nodes: Vec::new(), roots: 0 };
         let (bottom, top) = topology.ranges[1].domain();
-        let row = |j: usize| if j == FIRST { top } else { bottom + (top - bottom) * j as f64 / FIRST as f64 };
+        let row = |j: usize| {
+            if j == INITIAL_COLUMNS { top } else { bottom + (top - bottom) * j as f64 / INITIAL_COLUMNS as f64 }
+        };
         let second: Vec<Pair> = scene.pairs().iter().copied().filter(|p| p.link > 0).collect();
         // Only boxes of the same column, of neighbouring columns, or of the first and the last column can be adjacent.
         let (mut end_of_first, mut previous) = (0, 0);
@@ -145,11 +147,11 @@ impl<'a> Subdivision<'a> {
                     (0..end_of_first).chain(previous.max(end_of_first)..now).map(index).collect();
                 this.add(cell, state, &candidates);
             };
-            if let State::Stuck(pair) = state {
-                add(Cell { lower: [lower, bottom], upper: [upper, top] }, State::Stuck(pair));
+            if let State::Colliding(pair) = state {
+                add(Cell { lower: [lower, bottom], upper: [upper, top] }, State::Colliding(pair));
             } else {
-                let left = if let State::Mixed(left) = state { left } else { Vec::new() };
-                for j in 0..FIRST {
+                let left = if let State::Undecided(left) = state { left } else { Vec::new() };
+                for j in 0..INITIAL_COLUMNS {
                     let cell = Cell { lower: [lower, row(j)], upper: [upper, row(j + 1)] };
                     let state = judge(scene, clearance, &cell, &second, &left);
                     add(cell, state);
@@ -169,16 +171,19 @@ impl<'a> Subdivision<'a> {
     fn columns(&self) -> Vec<(f64, f64, State)> {
         let (lower, upper) = self.topology.ranges[0].domain();
         let first: Vec<Pair> = self.scene.pairs().iter().copied().filter(|p| p.link == 0).collect();
-        let at = |i: usize| if i == FIRST { upper } else { lower + (upper - lower) * i as f64 / FIRST as f64 };
-        let mut open: Vec<(f64, f64, Vec<Pair>)> = (0..FIRST).map(|i| (at(i), at(i + 1), first.clone())).collect();
+        let at = |i: usize| {
+            if i == INITIAL_COLUMNS { upper } else { lower + (upper - lower) * i as f64 / INITIAL_COLUMNS as f64 }
+        };
+        let mut open: Vec<(f64, f64, Vec<Pair>)> =
+            (0..INITIAL_COLUMNS).map(|i| (at(i), at(i + 1), first.clone())).collect();
         let mut columns = Vec::new();
         let middle = self.topology.ranges[1].domain().0;
         while !open.is_empty() {
-            let few = open.len() <= MOST_OPEN_COLUMNS;
+            let few = open.len() <= MAX_UNDECIDED_COLUMNS;
             for (from, to, pairs) in std::mem::take(&mut open) {
                 let cell = Cell { lower: [from, middle], upper: [to, middle] };
                 match judge(self.scene, self.clearance, &cell, &pairs, &[]) {
-                    State::Mixed(pairs) if few && to - from > FINEST_COLUMN * (upper - lower) => {
+                    State::Undecided(pairs) if few && to - from > MIN_COLUMN_WIDTH * (upper - lower) => {
                         let half = (from + to) / 2.0;
                         open.extend([(from, half, pairs.clone()), (half, to, pairs)]);
                     }
@@ -196,7 +201,7 @@ impl<'a> Subdivision<'a> {
         for &other in candidates {
             let beside = &mut self.nodes[other as usize];
             // Adjacency of two collision boxes does not matter. Split boxes no longer exist.
-            let matters = beside.is_open() || node.is_open() && matches!(beside.state, State::Stuck(_));
+            let matters = beside.is_open() || node.is_open() && matches!(beside.state, State::Colliding(_));
             if !matters || portal(&cell, &beside.cell, &self.topology).is_none() {
                 continue;
             }
@@ -213,13 +218,13 @@ impl<'a> Subdivision<'a> {
     /// Replaces an undecided box by its two halves and returns true. If halving would not help, marks the box as finest
     /// and returns false.
     pub fn split(&mut self, index: u32) -> bool {
-        let State::Mixed(pairs) = &self.nodes[index as usize].state else { return false };
+        let State::Undecided(pairs) = &self.nodes[index as usize].state else { return false };
         let cell = self.nodes[index as usize].cell;
-        let narrow = cell.upper[0] - cell.lower[0] <= FINEST_COLUMN * self.topology.ranges[0].extent();
+        let narrow = cell.upper[0] - cell.lower[0] <= MIN_COLUMN_WIDTH * self.topology.ranges[0].extent();
         let (fixed, open): (Vec<Pair>, Vec<Pair>) = pairs.iter().partition(|p| p.link == 0 && narrow);
         let axis = self.longer(&cell, &open);
         let wide =
-            |&axis: &usize| cell.upper[axis] - cell.lower[axis] > FINEST_BOX * self.topology.ranges[axis].extent();
+            |&axis: &usize| cell.upper[axis] - cell.lower[axis] > MIN_BOX_SIZE * self.topology.ranges[axis].extent();
         let Some(halves) = axis.filter(wide).map(|axis| halves(&cell, axis)) else {
             self.nodes[index as usize].state = State::Finest;
             return false;
@@ -280,9 +285,9 @@ impl Mosaic for Subdivision<'_> {
     fn openness(&self, index: u32) -> Option<Openness> {
         match self.nodes[index as usize].state {
             State::Free => Some(Openness::Free),
-            State::Mixed(_) => Some(Openness::Mixed),
+            State::Undecided(_) => Some(Openness::Undecided),
             State::Finest => Some(Openness::Finest),
-            State::Stuck(_) | State::Split(_) => None,
+            State::Colliding(_) | State::Split(_) => None,
         }
     }
 
@@ -324,9 +329,9 @@ fn judge(scene: &Scene, clearance: f64, cell: &Cell, pairs: &[Pair], fixed: &[Pa
             continue;
         }
         if bounded.here.distance < clearance && posture.greatest(pair, deviation) < clearance {
-            return State::Stuck(pair);
+            return State::Colliding(pair);
         }
         open.push(pair);
     }
-    if open.is_empty() { State::Free } else { State::Mixed(open) }
+    if open.is_empty() { State::Free } else { State::Undecided(open) }
 }

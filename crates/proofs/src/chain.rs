@@ -11,7 +11,7 @@ use cplan_geometry::OpenList;
 use cplan_interrupt::checkpoint;
 use std::collections::VecDeque;
 
-const NONE: u32 = u32::MAX;
+const NO_BOX: u32 = u32::MAX;
 
 /// State of a box that may contain free configurations.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -19,7 +19,7 @@ pub(super) enum Openness {
     /// Entirely free.
     Free,
     /// Neither proven free nor proven in collision.
-    Mixed,
+    Undecided,
     /// Undecided, and halving would not help.
     Finest,
 }
@@ -64,13 +64,13 @@ pub(super) fn ends_in(ends: &[End], index: u32) -> impl Iterator<Item = &Segment
 
 /// Finds the chain of adjacent boxes from `from` to one of `ends` with the fewest undecided boxes. It uses boxes of the
 /// finest size only if `finest`. Breadth-first search in which free boxes cost nothing. Takes `O(boxes + adjacencies)`.
-pub(super) fn fewest_mixed(boxes: &impl Mosaic, from: u32, ends: &[End], finest: bool) -> Option<Vec<u32>> {
+pub(super) fn fewest_undecided(boxes: &impl Mosaic, from: u32, ends: &[End], finest: bool) -> Option<Vec<u32>> {
     let (_, parent, last) = search(boxes, &[from], ends, finest);
     last.map(|last| back(&parent, last))
 }
 
 /// Returns all undecided boxes, ascending, that lie on a chain with the fewest undecided boxes. Takes two searches.
-pub(super) fn all_of_fewest_mixed(boxes: &impl Mosaic, from: u32, ends: &[End], finest: bool) -> Vec<u32> {
+pub(super) fn all_of_fewest_undecided(boxes: &impl Mosaic, from: u32, ends: &[End], finest: bool) -> Vec<u32> {
     let (here, ..) = search(boxes, &[from], &[], finest);
     let starts: Vec<u32> = ends.iter().map(|end| end.0).collect();
     let (there, ..) = search(boxes, &starts, &[], finest);
@@ -84,7 +84,7 @@ pub(super) fn all_of_fewest_mixed(boxes: &impl Mosaic, from: u32, ends: &[End], 
 fn cost_of(boxes: &impl Mosaic, index: u32, finest: bool) -> Option<u32> {
     match boxes.openness(index) {
         Some(Openness::Free) => Some(0),
-        Some(Openness::Mixed) => Some(1),
+        Some(Openness::Undecided) => Some(1),
         Some(Openness::Finest) if finest => Some(1),
         _ => None,
     }
@@ -94,7 +94,7 @@ fn cost_of(boxes: &impl Mosaic, index: u32, finest: bool) -> Option<u32> {
 /// `ends` is reached.
 fn search(boxes: &impl Mosaic, starts: &[u32], ends: &[End], finest: bool) -> (Vec<u32>, Vec<u32>, Option<u32>) {
     let mut cost = vec![u32::MAX; boxes.count()];
-    let mut parent = vec![NONE; boxes.count()];
+    let mut parent = vec![NO_BOX; boxes.count()];
     let mut queue = VecDeque::new();
     for &start in starts {
         let Some(own) = cost_of(boxes, start, finest) else { continue };
@@ -129,7 +129,7 @@ pub(super) fn shortest(boxes: &impl Mosaic, start: Configuration, from: u32, end
     let mut length = vec![f64::INFINITY; boxes.count()];
     // The point where each box is entered, in the fundamental domain.
     let mut entry = vec![topology.wrap(start); boxes.count()];
-    let mut parent = vec![NONE; boxes.count()];
+    let mut parent = vec![NO_BOX; boxes.count()];
     let mut open = OpenList::default();
     open.push(0.0, from);
     let mut best = (f64::INFINITY, from);
@@ -172,7 +172,7 @@ pub(super) fn shortest(boxes: &impl Mosaic, start: Configuration, from: u32, end
 fn back(parent: &[u32], last: u32) -> Vec<u32> {
     let mut chain = vec![last];
     let mut at = last;
-    while parent[at as usize] != NONE {
+    while parent[at as usize] != NO_BOX {
         at = parent[at as usize];
         chain.push(at);
     }

@@ -1,7 +1,7 @@
 //! Decides whether a path exists, by subdivision: finds a path, or proves that no path exists.
 
 use super::boxes::{State, Subdivision};
-use super::chain::{Mosaic, all_of_fewest_mixed, ends, fewest_mixed, shortest};
+use super::chain::{Mosaic, all_of_fewest_undecided, ends, fewest_undecided, shortest};
 use super::channel::Channel;
 use super::separating::separating;
 use cplan_core::check::Cell;
@@ -33,9 +33,9 @@ pub enum Occupancy {
     /// No pair comes too near anywhere in the box.
     Free,
     /// One pair of shapes is too near everywhere in the box.
-    Stuck,
+    Colliding,
     /// Neither proven free nor proven in collision.
-    Mixed,
+    Undecided,
 }
 
 /// An answer, and the subdivision that led to it.
@@ -73,7 +73,9 @@ pub fn connectivity(
 pub(super) fn proven(scene: &Scene, decide: impl Fn(&Scene) -> Connectivity) -> Connectivity {
     match (decide(scene), scene.inner()) {
         (Connectivity::Disconnected(proof), Cow::Owned(inner)) => match decide(&inner) {
-            Connectivity::Connected(_) => Connectivity::Undecided { boxes: proof.stuck().len(), closed: false },
+            Connectivity::Connected(_) => {
+                Connectivity::Undecided { boxes: proof.collision_boxes().len(), closed: false }
+            }
             answer => answer,
         },
         (answer, _) => answer,
@@ -87,8 +89,8 @@ pub fn explore(scene: &Scene, start: Configuration, goals: &GoalSet, clearance: 
     let answer = decide(&mut boxes, start, goals, max_boxes);
     let known = |state: &State| match state {
         State::Free => Some(Occupancy::Free),
-        State::Stuck(_) => Some(Occupancy::Stuck),
-        State::Mixed(_) | State::Finest => Some(Occupancy::Mixed),
+        State::Colliding(_) => Some(Occupancy::Colliding),
+        State::Undecided(_) | State::Finest => Some(Occupancy::Undecided),
         State::Split(_) => None,
     };
     // Undecided and free boxes list each other as neighbours. Collision boxes are listed on one side only.
@@ -106,15 +108,16 @@ pub fn explore(scene: &Scene, start: Configuration, goals: &GoalSet, clearance: 
 /// it saves. Above it, all chains with the fewest undecided boxes are refined at once. Otherwise a passage that is
 /// closed along a curve, which boxes cannot prove, would need a search for every few boxes along the curve, and so
 /// quadratic time.
-const ONE_BY_ONE: usize = 512;
+const MIN_BATCH_BOXES: usize = 512;
 
 fn decide(boxes: &mut Subdivision, start: Configuration, goals: &GoalSet, max_boxes: usize) -> Connectivity {
     loop {
         let ends = ends(boxes, goals);
         let Some(from) = boxes.locate(start) else { return disconnected(boxes, start, goals) };
         // Boxes of the finest size cannot be decided. They prevent a proof only if nothing else connects.
-        let chain = fewest_mixed(boxes, from, &ends, false).map(|chain| (chain, false));
-        let Some((chain, finest)) = chain.or_else(|| fewest_mixed(boxes, from, &ends, true).map(|chain| (chain, true)))
+        let chain = fewest_undecided(boxes, from, &ends, false).map(|chain| (chain, false));
+        let Some((chain, finest)) =
+            chain.or_else(|| fewest_undecided(boxes, from, &ends, true).map(|chain| (chain, true)))
         else {
             return disconnected(boxes, start, goals);
         };
@@ -123,9 +126,12 @@ fn decide(boxes: &mut Subdivision, start: Configuration, goals: &GoalSet, max_bo
             let chain = shortest(boxes, start, from, &ends);
             return Connectivity::Connected(Channel::new(boxes, &chain, start, &ends));
         }
-        let chain =
-            if boxes.nodes.len() < ONE_BY_ONE { chain } else { all_of_fewest_mixed(boxes, from, &ends, finest) };
-        let mixed: Vec<u32> = chain.into_iter().filter(|&b| matches!(state(b), State::Mixed(_))).collect();
+        let chain = if boxes.nodes.len() < MIN_BATCH_BOXES {
+            chain
+        } else {
+            all_of_fewest_undecided(boxes, from, &ends, finest)
+        };
+        let mixed: Vec<u32> = chain.into_iter().filter(|&b| matches!(state(b), State::Undecided(_))).collect();
         if mixed.is_empty() || boxes.nodes.len() > max_boxes {
             return Connectivity::Undecided { boxes: boxes.nodes.len(), closed: false };
         }

@@ -7,12 +7,12 @@
 //! depths from the Minkowski difference step by step, where each depth covers a part of the segment. The checker of
 //! certificates judges the segments in exact arithmetic.
 
-mod held;
+mod blocked_part;
 
+use blocked_part::held;
 use cplan_core::model::{Pair, Scene};
 use cplan_core::space::Configuration;
 use cplan_interrupt::checkpoint;
-use held::held;
 
 /// Values of joint 2 on a slice at which a pair collides.
 #[derive(Debug, Clone, Copy)]
@@ -63,11 +63,11 @@ pub struct BoundEvidence {
 }
 
 /// Shifts to try for a barrier that is not proven in its place, in either direction, radians or metres.
-const INSIDE: [f64; 9] = [0.0, 1e-7, -1e-7, 1e-6, -1e-6, 1e-5, -1e-5, 1e-4, -1e-4];
+const BARRIER_SHIFTS: [f64; 9] = [0.0, 1e-7, -1e-7, 1e-6, -1e-6, 1e-5, -1e-5, 1e-4, -1e-4];
 
 /// Overlap of barriers and walls beyond a seam, radians. It ensures that they overlap their continuation despite
 /// rounding.
-const SEAM: f64 = 1e-7;
+const SEAM_OVERLAP: f64 = 1e-7;
 
 impl BoundEvidence {
     /// Returns the proven parts of the walls, and the proven barriers, with up to `looks` tests along each in either
@@ -92,7 +92,7 @@ impl BoundEvidence {
             }
             let next = match self.slices.get(number + 1) {
                 Some(next) => next.q1,
-                None if circle => (self.slices[0].q1 + std::f64::consts::TAU) + SEAM,
+                None if circle => (self.slices[0].q1 + std::f64::consts::TAU) + SEAM_OVERLAP,
                 None => continue,
             };
             for barrier in &slice.barriers {
@@ -100,7 +100,7 @@ impl BoundEvidence {
                     let [from, to] = barrier.ends;
                     [Configuration::new(slice.q1, from + inside), Configuration::new(next, to + inside)]
                 };
-                let ends = INSIDE.into_iter().map(at).find(|ends| seen(*ends, barrier.pair) == [0.0, 1.0]);
+                let ends = BARRIER_SHIFTS.into_iter().map(at).find(|ends| seen(*ends, barrier.pair) == [0.0, 1.0]);
                 closed.extend(ends.map(|ends| ClosedSegment { ends, pair: barrier.pair }));
             }
         }
@@ -112,6 +112,6 @@ impl BoundEvidence {
 fn past_seam(scene: &Scene, wall: &Wall) -> [f64; 2] {
     let range = scene.arm().topology().ranges[1];
     let (lower, upper) = range.domain();
-    let by = |is_there: bool| if range.is_circle() && is_there { SEAM } else { 0.0 };
+    let by = |is_there: bool| if range.is_circle() && is_there { SEAM_OVERLAP } else { 0.0 };
     [wall.lower - by(wall.lower <= lower), wall.upper + by(wall.upper >= upper)]
 }

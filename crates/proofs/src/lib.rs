@@ -44,6 +44,8 @@ mod tiles;
 pub use channel::Channel;
 pub use connectivity::{Connectivity, Exploration, Occupancy, connectivity, explore};
 pub use evidence::{BoundEvidence, ClosedSegment};
-pub use optimum::{Motions, Proposed, Refused, ShortMotion, bound_evidence, least_length, short_motion};
+pub use optimum::{
+    MotionQuery, NearShortestMotion, ProposedPath, RefusalReason, bound_evidence, least_length, short_motion,
+};
 pub use slabs::{slab_boxes, slab_connectivity};
 pub use slim::slimmed;

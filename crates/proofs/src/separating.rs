@@ -2,7 +2,7 @@
 
 use super::boxes::{State, Subdivision};
 use super::chain::Mosaic;
-use cplan_core::check::{Disconnection, StuckBox};
+use cplan_core::check::{CollisionBox, Disconnection};
 use cplan_core::space::{Configuration, GoalSet};
 
 /// Selects the collision boxes that separate start and goals. The boxes of the subdivision that may be free must not
@@ -15,7 +15,7 @@ pub(super) fn separating(boxes: &Subdivision, start: Configuration, goals: &Goal
     let fewer = if there.len() < here.len() { there } else { here };
     let stuck = fewer.into_iter().filter_map(|index| {
         let node = &boxes.nodes[index as usize];
-        if let State::Stuck(pair) = node.state { Some(StuckBox { cell: node.cell, pair }) } else { None }
+        if let State::Colliding(pair) = node.state { Some(CollisionBox { cell: node.cell, pair }) } else { None }
     });
     Disconnection::new(stuck.collect())
 }

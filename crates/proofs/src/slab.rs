@@ -7,44 +7,44 @@
 
 use cplan_core::check::Cell;
 use cplan_core::check::{Deviation, Posture};
-use cplan_core::model::{Carried, Contacts, Pair, Scene, on_axis};
+use cplan_core::model::{CarriedPart, Contacts, Pair, Scene, on_axis};
 use cplan_geometry::{Convex, Features, Hits, Point, ROUNDING, Vector};
 use cplan_interrupt::checkpoint;
 
 /// Assumed error of closed forms, metres: twice their stated error. This also covers the addition of a few numbers of
 /// the arm's size, and of angles to whole turns.
-pub(super) const OUTWARD: f64 = 2.0 * ROUNDING;
+pub(super) const CLOSED_FORM_ERROR: f64 = 2.0 * ROUNDING;
 
 /// Required overlap, as a multiple of the slab's motion. The excess allows joint 2 to move within the boxes that state
 /// the proof: at the ends of a colliding interval, about as far as joint 1 moves over a quarter of the slab.
-const OVERLAP: f64 = 1.25;
+const REQUIRED_OVERLAP: f64 = 1.25;
 
 /// A part of link 2, or the static piece in one of its pairs.
-struct Deep {
+struct PairShape {
     /// Greatest depth of a point within the shape, metres.
     depth: f64,
     /// For each level of slabs requested so far: the deeper shape of a pair, eroded. The inner `None` means that
     /// nothing is left. It is stored with the part if it is the same for all of the part's pieces.
-    eroded: Vec<Option<Option<Eroded>>>,
+    eroded: Vec<Option<Option<ErodedShape>>>,
 }
 
-impl Deep {
+impl PairShape {
     fn new(shape: &Convex) -> Self {
         Self { depth: shape.depth(), eroded: Vec::new() }
     }
 }
 
 /// An eroded shape of a pair.
-pub(super) enum Eroded {
-    Part(Carried),
+pub(super) enum ErodedShape {
+    Part(CarriedPart),
     Piece(Features),
     /// No erosion: the clearance exceeds the required overlap by this much.
     Grown(f64),
 }
 
-impl Eroded {
+impl ErodedShape {
     /// Erodes the deeper of the two shapes by `overlap` less `clearance`. Returns `None` if nothing is left.
-    pub fn new(part: &Carried, piece: &Convex, overlap: f64, clearance: f64) -> Option<Self> {
+    pub fn new(part: &CarriedPart, piece: &Convex, overlap: f64, clearance: f64) -> Option<Self> {
         if part.shape().depth() > piece.depth() {
             Self::part(part, piece, overlap, clearance)
         } else {
@@ -52,13 +52,13 @@ impl Eroded {
         }
     }
 
-    fn part(part: &Carried, piece: &Convex, overlap: f64, clearance: f64) -> Option<Self> {
+    fn part(part: &CarriedPart, piece: &Convex, overlap: f64, clearance: f64) -> Option<Self> {
         let grow = clearance - overlap;
         let by = lacking(piece) - grow;
         if by <= 0.0 {
             return Some(Self::Grown(grow));
         }
-        part.shape().eroded(by).map(|shape| Self::Part(Carried::new(part.joint_type(), &shape)))
+        part.shape().eroded(by).map(|shape| Self::Part(CarriedPart::new(part.joint_type(), &shape)))
     }
 
     fn piece(piece: &Convex, overlap: f64, clearance: f64) -> Option<Self> {
@@ -72,7 +72,7 @@ impl Eroded {
     /// Finds the values of the joint at which the pair's shapes overlap by at least the erosion of one of them.
     pub fn hits(
         &self,
-        part: &Carried,
+        part: &CarriedPart,
         piece: &Features,
         pivot: Point,
         heading: Vector,
@@ -97,9 +97,9 @@ pub(super) struct SecondLink<'a> {
     contacts: Contacts<'a>,
     clearance: f64,
     /// The parts of link 2.
-    parts: Vec<Deep>,
+    parts: Vec<PairShape>,
     /// The pieces of its pairs.
-    pieces: Vec<Deep>,
+    pieces: Vec<PairShape>,
     scratch: Vec<[f64; 2]>,
     near: Vec<u32>,
 }
@@ -120,11 +120,11 @@ impl<'a> SecondLink<'a> {
         let of_pairs = &scene.pairs()[contacts.second_link_pairs()];
         let parts = of_pairs
             .chunk_by(|a, b| (a.link, a.part) == (b.link, b.part))
-            .map(|of_part| Deep::new(scene.part(of_part[0])))
+            .map(|of_part| PairShape::new(scene.part(of_part[0])))
             .collect();
         let piece = |pair: &Pair| {
             checkpoint();
-            Deep::new(scene.piece(*pair))
+            PairShape::new(scene.piece(*pair))
         };
         let pieces = of_pairs.iter().map(piece).collect();
         Self { contacts, clearance, parts, pieces, scratch: Vec::new(), near: Vec::new() }
@@ -152,12 +152,12 @@ impl<'a> SecondLink<'a> {
         let mut scratch = std::mem::take(&mut self.scratch);
         let mut near = std::mem::take(&mut self.near);
         for part in self.contacts.second_link_parts() {
-            let far = self.clearance + self.contacts.motion_of(part, width) + 2.0 * OUTWARD;
+            let far = self.clearance + self.contacts.motion_of(part, width) + 2.0 * CLOSED_FORM_ERROR;
             self.contacts.near(part, elbow, far, &mut near);
-            let overlap = self.contacts.motion_of(part, half) * OVERLAP + OUTWARD;
+            let overlap = self.contacts.motion_of(part, half) * REQUIRED_OVERLAP + CLOSED_FORM_ERROR;
             for &index in &near {
                 let index = index as usize;
-                let grow = self.clearance + self.contacts.motion(index, width, self.clearance) + OUTWARD;
+                let grow = self.clearance + self.contacts.motion(index, width, self.clearance) + CLOSED_FORM_ERROR;
                 scratch.clear();
                 let hits = self.contacts.at_elbow(index, elbow, heading, grow, &mut scratch);
                 if hits == Hits::Never {
@@ -167,7 +167,7 @@ impl<'a> SecondLink<'a> {
                 on_axis(joint, hits, &scratch, |interval| verdicts.outer.push(interval));
                 scratch.clear();
                 let frame = self.contacts.frame(index, (elbow, heading));
-                let hits = self.stuck(index, level, overlap, frame, &mut scratch);
+                let hits = self.collision_boxes(index, level, overlap, frame, &mut scratch);
                 on_axis(joint, hits, &scratch, |interval| {
                     if interval[0] < interval[1] {
                         verdicts.inner.push((index, interval));
@@ -180,7 +180,7 @@ impl<'a> SecondLink<'a> {
 
     /// Finds the values of joint 2 at which the shapes of a pair overlap by more than `overlap` less the clearance. The
     /// value of `overlap` must depend only on the part and the level.
-    fn stuck(
+    fn collision_boxes(
         &mut self,
         index: usize,
         level: usize,
@@ -188,7 +188,7 @@ impl<'a> SecondLink<'a> {
         (elbow, heading): (Point, Vector),
         out: &mut Vec<[f64; 2]>,
     ) -> Hits {
-        let (moving, standing) = (self.contacts.moving(index), self.contacts.standing(index));
+        let (moving, standing) = (self.contacts.moving(index), self.contacts.static_shape(index));
         let (clearance, shape) = (self.clearance, standing.shape());
         let part = &mut self.parts[self.contacts.part_of(index) - self.contacts.second_link_parts().start];
         let piece = &mut self.pieces[index - self.contacts.second_link_pairs().start];
@@ -200,8 +200,8 @@ impl<'a> SecondLink<'a> {
             known.resize_with(level + 1, || None);
         }
         let eroded = known[level].get_or_insert_with(|| match of_part {
-            true => Eroded::part(moving, shape, overlap, clearance),
-            false => Eroded::piece(shape, overlap, clearance),
+            true => ErodedShape::part(moving, shape, overlap, clearance),
+            false => ErodedShape::piece(shape, overlap, clearance),
         });
         match eroded {
             None => Hits::Never,
@@ -211,7 +211,7 @@ impl<'a> SecondLink<'a> {
 }
 
 /// Returns true if the pair is too near all over the box, by the same bounds that the check of boxes uses.
-pub(super) fn is_stuck(scene: &Scene, pair: Pair, cell: &Cell, clearance: f64) -> bool {
+pub(super) fn is_collision(scene: &Scene, pair: Pair, cell: &Cell, clearance: f64) -> bool {
     Posture::new(scene, cell.center()).greatest(pair, Deviation::Box(cell.half())) < clearance
 }
 
@@ -275,7 +275,7 @@ mod tests {
 
         /// The oracle is the distance of the shapes in sampled configurations. It does not use contact angles.
         #[test]
-        fn what_is_said_of_a_slab_holds_all_over_it(
+        fn verdicts_hold_all_over_the_slab(
             kinds in (any::<bool>(), any::<bool>()), offset in (-1.0..1.0f64, -1.0..1.0f64),
             part in shape(0.8), piece in shape(0.6), at in (-1.2..1.2f64, -1.2..1.2f64),
             middle in -3.0..3.0f64, half in prop_oneof![0.001..0.02f64, 0.02..0.3f64],

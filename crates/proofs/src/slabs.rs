@@ -8,29 +8,29 @@
 mod proof;
 
 use super::bands::{Kind, bands};
-use super::chain::{Mosaic, Openness, all_of_fewest_mixed, ends, fewest_mixed};
+use super::chain::{Mosaic, Openness, all_of_fewest_undecided, ends, fewest_undecided};
 use super::channel::Channel;
 use super::connectivity::{Connectivity, Occupancy, proven};
 use super::slab::{SecondLink, Verdicts};
 use cplan_core::check::Cell;
-use cplan_core::check::StuckBox;
+use cplan_core::check::CollisionBox;
 use cplan_core::model::Scene;
 use cplan_core::space::{Configuration, GoalSet, Segment, Topology};
 use cplan_geometry::merge_in_place;
 
 /// Number of initial slabs over the domain; those beside a band of link 1 are narrower. Later slabs are repeated halves
 /// of these. At least three, so that across a seam no slab is its own neighbour.
-const FIRST: usize = 16;
+const INITIAL_SLABS: usize = 16;
 
 /// Maximum number of times that a slab is halved. Finer slabs would move link 2 by less than the rounding error.
-const MOST_LEVELS: usize = 26;
+const MAX_HALVINGS: usize = 26;
 
 /// Number of slabs from which all connections with the fewest undecided spans are refined at once. Refining one at a
 /// time, the searches would dominate the time.
-const ONE_BY_ONE: usize = 512;
+const MIN_BATCH_SLABS: usize = 512;
 
 /// Tolerance for slabs of the same level, as a share of their width. It is far greater than the rounding of their ends.
-const ALIKE: f64 = 1e-6;
+const LEVEL_TOLERANCE: f64 = 1e-6;
 
 /// A stretch of `q1` and its spans.
 #[derive(Clone, Copy)]
@@ -65,7 +65,7 @@ struct Slabs<'a> {
     slabs: Vec<Slab>,
     /// The spans. Those of halved slabs remain in the list, unused.
     spans: Vec<Span>,
-    walls: Vec<StuckBox>,
+    walls: Vec<CollisionBox>,
     verdicts: Verdicts,
 }
 
@@ -118,7 +118,7 @@ fn decide(
         let count = slabs.slabs.len();
         let undecided = |closed: bool| Connectivity::Undecided { boxes: count, closed };
         let Some(from) = slabs.locate(start) else { return undecided(false) };
-        let connection = |finest| fewest_mixed(slabs, from, &ends, finest);
+        let connection = |finest| fewest_undecided(slabs, from, &ends, finest);
         let Some(chain) = connection(false).or_else(|| connection(true)) else {
             let proof = slabs.disconnection(start, goals, max_boxes);
             return proof.map_or_else(|| undecided(true), Connectivity::Disconnected);
@@ -126,15 +126,15 @@ fn decide(
         if chain.iter().all(|&i| slabs.spans[i as usize].openness == Openness::Free) {
             return Connectivity::Connected(Channel::new(slabs, &chain, start, &ends));
         }
-        let chain = if slabs.slabs.len() < ONE_BY_ONE {
+        let chain = if slabs.slabs.len() < MIN_BATCH_SLABS {
             chain
         } else {
-            let all = all_of_fewest_mixed(slabs, from, &ends, false);
+            let all = all_of_fewest_undecided(slabs, from, &ends, false);
             if all.is_empty() { chain } else { all }
         };
         let mut mixed: Vec<u32> = chain
             .into_iter()
-            .filter(|&i| slabs.spans[i as usize].openness == Openness::Mixed)
+            .filter(|&i| slabs.spans[i as usize].openness == Openness::Undecided)
             .map(|i| slabs.spans[i as usize].slab)
             .collect();
         mixed.sort_unstable();
@@ -185,11 +185,11 @@ impl<'a> Slabs<'a> {
     /// have the same widths.
     fn lay(&mut self, from: f64, to: f64, clear: bool) {
         let (lower, upper) = self.topology.ranges[0].domain();
-        let at = |i: usize| lower + (upper - lower) * i as f64 / FIRST as f64;
+        let at = |i: usize| lower + (upper - lower) * i as f64 / INITIAL_SLABS as f64;
         let mut from = from;
-        for cut in (1..FIRST).map(at).chain([to]) {
+        for cut in (1..INITIAL_SLABS).map(at).chain([to]) {
             if from < cut && cut <= to {
-                let spans = self.whole(Openness::Mixed);
+                let spans = self.whole(Openness::Undecided);
                 self.slabs.push(Slab { from, to: cut, level: 0, clear, judged: false, spans, wall: None });
                 from = cut;
             }
@@ -207,13 +207,13 @@ impl<'a> Slabs<'a> {
     /// Adds a slab and judges it.
     fn add(&mut self, from: f64, to: f64, clear: bool) {
         // The finest level whose slabs are at least as wide. The ends of the initial slabs are rounded.
-        let fits = |&level: &usize| (to - from) / 2.0 <= half_of_level(&self.topology, level) * (1.0 + ALIKE);
-        let level = (0..=MOST_LEVELS).take_while(fits).last().unwrap_or(0);
+        let fits = |&level: &usize| (to - from) / 2.0 <= half_of_level(&self.topology, level) * (1.0 + LEVEL_TOLERANCE);
+        let level = (0..=MAX_HALVINGS).take_while(fits).last().unwrap_or(0);
         self.second.judge(
             from,
             to,
             level,
-            half_of_level(&self.topology, level) * (1.0 + 2.0 * ALIKE),
+            half_of_level(&self.topology, level) * (1.0 + 2.0 * LEVEL_TOLERANCE),
             &mut self.verdicts,
         );
         let first = index(self.spans.len());
@@ -236,7 +236,7 @@ impl<'a> Slabs<'a> {
         merge_in_place(outer);
         let mut stuck: Vec<[f64; 2]> = inner.iter().map(|i| i.1).collect();
         merge_in_place(&mut stuck);
-        let openness = if level < MOST_LEVELS { Openness::Mixed } else { Openness::Finest };
+        let openness = if level < MAX_HALVINGS { Openness::Undecided } else { Openness::Finest };
         let free = if clear { Openness::Free } else { openness };
         let spans = &mut self.spans;
         let mut add = |lower: f64, upper: f64, openness| {
@@ -287,7 +287,7 @@ impl<'a> Slabs<'a> {
             } else {
                 let range = slab.spans[0] as usize..slab.spans[1] as usize;
                 self.spans[range].iter_mut().for_each(|span| {
-                    if span.openness == Openness::Mixed {
+                    if span.openness == Openness::Undecided {
                         span.openness = Openness::Finest;
                     }
                 });
@@ -310,11 +310,11 @@ impl<'a> Slabs<'a> {
             let mut at = bottom;
             for span in &self.spans[slab.spans[0] as usize..slab.spans[1] as usize] {
                 let is_free = span.openness == Openness::Free;
-                add(at, span.lower, Occupancy::Stuck);
-                add(span.lower, span.upper, if is_free { Occupancy::Free } else { Occupancy::Mixed });
+                add(at, span.lower, Occupancy::Colliding);
+                add(span.lower, span.upper, if is_free { Occupancy::Free } else { Occupancy::Undecided });
                 at = span.upper;
             }
-            add(at, top, Occupancy::Stuck);
+            add(at, top, Occupancy::Colliding);
         }
         boxes
     }
@@ -336,7 +336,7 @@ impl<'a> Slabs<'a> {
 
 /// Returns half the width of the slabs of a level.
 fn half_of_level(topology: &Topology, level: usize) -> f64 {
-    topology.ranges[0].extent() / FIRST as f64 / 2.0 * 0.5_f64.powi(level as i32)
+    topology.ranges[0].extent() / INITIAL_SLABS as f64 / 2.0 * 0.5_f64.powi(level as i32)
 }
 
 impl Mosaic for Slabs<'_> {

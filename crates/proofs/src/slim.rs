@@ -1,12 +1,12 @@
 //! Proofs with fewer boxes.
 
-use cplan_core::check::{CheckedProof, Disconnection, StuckBox};
+use cplan_core::check::{CheckedProof, CollisionBox, Disconnection};
 
 /// Number of boxes up to which proofs are not reduced.
-const SMALL: usize = 256;
+const MAX_UNREDUCED_BOXES: usize = 256;
 
 /// Tolerance: a proof may exceed the smallest sufficient number of largest boxes by one part in this many.
-const CLOSE: usize = 8;
+const EXCESS_DIVISOR: usize = 8;
 
 /// Reduces a proof to about the fewest of its largest boxes, by their extent in `q2`, that still separate start and
 /// goal. `check` judges a selection of boxes. Returns `None` if it refuses even all boxes together. Slabs need
@@ -14,16 +14,18 @@ const CLOSE: usize = 8;
 ///
 /// More boxes never separate less, so doubling and bisection find the number. Takes `O(log n)` calls of `check`.
 pub fn slimmed(proof: &Disconnection, check: impl Fn(Disconnection) -> Option<CheckedProof>) -> Option<CheckedProof> {
-    let count = proof.stuck().len();
-    let height = |b: &StuckBox| b.cell.upper[1] - b.cell.lower[1];
+    let count = proof.collision_boxes().len();
+    let height = |b: &CollisionBox| b.cell.upper[1] - b.cell.lower[1];
     let mut largest: Vec<usize> = (0..count).collect();
-    largest.sort_by(|&a, &b| height(&proof.stuck()[b]).total_cmp(&height(&proof.stuck()[a])).then(a.cmp(&b)));
+    largest.sort_by(|&a, &b| {
+        height(&proof.collision_boxes()[b]).total_cmp(&height(&proof.collision_boxes()[a])).then(a.cmp(&b))
+    });
     let some = |n: usize| {
         let mut chosen = largest[..n].to_vec();
         chosen.sort_unstable();
-        check(Disconnection::new(chosen.into_iter().map(|k| proof.stuck()[k].clone()).collect()))
+        check(Disconnection::new(chosen.into_iter().map(|k| proof.collision_boxes()[k].clone()).collect()))
     };
-    let (mut too_few, mut enough) = (0, SMALL.min(count));
+    let (mut too_few, mut enough) = (0, MAX_UNREDUCED_BOXES.min(count));
     let mut slim = loop {
         match some(enough) {
             Some(found) => break found,
@@ -31,7 +33,7 @@ pub fn slimmed(proof: &Disconnection, check: impl Fn(Disconnection) -> Option<Ch
             None => (too_few, enough) = (enough, (2 * enough).min(count)),
         }
     };
-    while count > SMALL && enough - too_few > enough / CLOSE + 1 {
+    while count > MAX_UNREDUCED_BOXES && enough - too_few > enough / EXCESS_DIVISOR + 1 {
         let middle = too_few.midpoint(enough);
         match some(middle) {
             Some(smaller) => (slim, enough) = (smaller, middle),

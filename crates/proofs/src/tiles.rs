@@ -5,17 +5,17 @@
 //! repeat all these boxes everywhere else. Therefore adjacent slabs share boxes: a rectangle of slabs and values of
 //! joint 2 that does not collide everywhere is halved across the joint that moves the shapes more.
 
-use super::slab::is_stuck;
-use cplan_core::check::{Cell, Deviation, Posture, StuckBox};
+use super::slab::is_collision;
+use cplan_core::check::{Cell, CollisionBox, Deviation, Posture};
 use cplan_core::model::{Pair, Scene};
 use cplan_interrupt::checkpoint;
 
 /// Maximum number of boxes for a colliding interval of a slab. Shallow ends need boxes about as high as the slab is
 /// wide.
-const MOST_TILES: usize = 4096;
+const MAX_TILES_PER_INTERVAL: usize = 4096;
 
 /// A slab `from <= q1 <= to` with its collisions: the pair, and the interval of joint 2.
-pub(super) struct Stuck {
+pub(super) struct SlabCollision {
     pub from: f64,
     pub to: f64,
     pub by: Vec<(Pair, [f64; 2])>,
@@ -26,10 +26,10 @@ pub(super) struct Stuck {
 pub(super) fn lay(
     scene: &Scene,
     clearance: f64,
-    slabs: &[Stuck],
+    slabs: &[SlabCollision],
     range: [f64; 2],
     most: usize,
-    boxes: &mut Vec<StuckBox>,
+    boxes: &mut Vec<CollisionBox>,
 ) -> bool {
     let mut open = vec![(slabs, range)];
     while let Some((slabs, [lower, upper])) = open.pop() {
@@ -51,8 +51,8 @@ pub(super) fn lay(
             continue;
         };
         let cell = Cell { lower: [first.from, lower], upper: [last.to, upper] };
-        if height == upper - lower && is_stuck(scene, pair, &cell, clearance) {
-            boxes.push(StuckBox { cell, pair });
+        if height == upper - lower && is_collision(scene, pair, &cell, clearance) {
+            boxes.push(CollisionBox { cell, pair });
             continue;
         }
         let (posture, half) = (Posture::new(scene, cell.center()), cell.half());
@@ -79,19 +79,19 @@ pub(super) fn tile(
     [from, to]: [f64; 2],
     pair: Pair,
     interval: [f64; 2],
-    boxes: &mut Vec<StuckBox>,
+    boxes: &mut Vec<CollisionBox>,
 ) -> bool {
     let begin = boxes.len();
     let mut open = vec![interval];
     while let Some([lower, upper]) = open.pop() {
         checkpoint();
         let cell = Cell { lower: [from, lower], upper: [to, upper] };
-        if is_stuck(scene, pair, &cell, clearance) {
-            boxes.push(StuckBox { cell, pair });
+        if is_collision(scene, pair, &cell, clearance) {
+            boxes.push(CollisionBox { cell, pair });
             continue;
         }
         let middle = (lower + upper) / 2.0;
-        if open.len() + boxes.len() - begin > MOST_TILES || middle <= lower || middle >= upper {
+        if open.len() + boxes.len() - begin > MAX_TILES_PER_INTERVAL || middle <= lower || middle >= upper {
             return false;
         }
         open.push([middle, upper]);

@@ -3,10 +3,10 @@
 use super::triangles::taut;
 use cplan_core::cspace::Regions;
 use cplan_core::planner::mesh::Mesh;
-use cplan_core::planner::roadmap::{self, Asked, Nearby, Roadmap, RoadmapSearch};
+use cplan_core::planner::roadmap::{self, Nearby, QueryGraph, Roadmap, RoadmapSearch};
 use cplan_core::planner::terminals::Terminals;
 use cplan_core::planner::{GraphKind, PathKind, Planner, Proposal, Query, Run};
-use cplan_core::space::{Draws, Measure, Metric, Path, Segment};
+use cplan_core::space::{Measure, Metric, Path, Segment, SplitMix64};
 use cplan_geometry::Point;
 use cplan_geometry::planar::Boundary;
 use cplan_interrupt::checkpoint;
@@ -14,7 +14,7 @@ use cplan_text::counted;
 use petgraph::graph::NodeIndex;
 
 /// Draws for each sample that is wanted, at most: a free share of a hundredth is enough.
-const DRAWS: usize = 100;
+const MAX_DRAWS_PER_SAMPLE: usize = 100;
 
 /// The *probabilistic roadmap* (Kavraki, Svestka, Latombe, Overmars 1996), for comparison: random free configurations,
 /// each joined to the nearest ones that it sees.
@@ -81,22 +81,22 @@ impl Planner for Prm {
             Ok(terminals) => terminals,
             Err(reason) => return roadmap::run(GraphKind::Samples, Proposal::GaveUp(reason), None, Vec::new()),
         };
-        let asked = self.asked(map, &terminals);
-        let (way, expanded) = asked.search(self.search, &terminals);
-        let outcome = match way {
+        let query_graph = self.query_graph(map, &terminals);
+        let (route, expanded) = query_graph.search(self.search, &terminals);
+        let outcome = match route {
             None => Proposal::GaveUp(format!("{} do not join start and goal", counted(self.samples, "sample"))),
-            Some(way) => along(&map.mesh, way.into_iter().map(|node| asked.at(node)).collect(), self.path),
+            Some(route) => along(&map.mesh, route.into_iter().map(|node| query_graph.at(node)).collect(), self.path),
         };
-        roadmap::run(GraphKind::Samples, outcome, Some(&asked), expanded)
+        roadmap::run(GraphKind::Samples, outcome, Some(&query_graph), expanded)
     }
 }
 
 impl Prm {
     /// Returns the free samples with all their copies in the window.
     fn drawn(&self, space: &Regions, mesh: &Mesh) -> Vec<Point> {
-        let mut draws = Draws::new(self.seed);
+        let mut draws = SplitMix64::new(self.seed);
         let (mut points, mut found) = (Vec::new(), 0);
-        for _ in 0..DRAWS * self.samples {
+        for _ in 0..MAX_DRAWS_PER_SAMPLE * self.samples {
             checkpoint();
             let q = draws.configuration(&space.topology);
             let copies = |k: usize| space.topology.ranges[k].copies_within(q[k], space.window[k]);
@@ -114,26 +114,26 @@ impl Prm {
     }
 
     /// Returns the roadmap with a query's ends, joined to each other and to the nearest samples.
-    fn asked(&self, map: &PrmMap, terminals: &Terminals) -> Asked {
-        let mut asked = map.roadmap.clone().asked(terminals.start);
-        let start = asked.start;
-        let join = |asked: &mut Asked, end: NodeIndex| {
-            let at = asked.at(end);
+    fn query_graph(&self, map: &PrmMap, terminals: &Terminals) -> QueryGraph {
+        let mut query_graph = map.roadmap.clone().query_graph(terminals.start);
+        let start = query_graph.start;
+        let join = |query_graph: &mut QueryGraph, end: NodeIndex| {
+            let at = query_graph.at(end);
             for sample in map.samples.nearest(at, self.nearest) {
                 if map.mesh.is_clear(at, map.samples.points()[sample]) {
-                    asked.join(end, NodeIndex::new(sample));
+                    query_graph.join(end, NodeIndex::new(sample));
                 }
             }
         };
-        join(&mut asked, start);
+        join(&mut query_graph, start);
         for at in terminals.places(&map.mesh) {
-            let goal = asked.goal(at);
-            join(&mut asked, goal);
+            let goal = query_graph.goal(at);
+            join(&mut query_graph, goal);
             if map.mesh.is_clear(terminals.start, at) {
-                asked.join(start, goal);
+                query_graph.join(start, goal);
             }
         }
-        asked
+        query_graph
     }
 }
 

@@ -7,7 +7,7 @@ use cplan_core::planner::terminals::Terminals;
 use cplan_core::planner::{CellKind, ChannelPoints, PathKind, Planner, Proposal, Query, Run, Size, Trace};
 use cplan_core::space::{Configuration, Measure, Metric, Path, Portal, Segment, funnel_path, nearest_end};
 use cplan_geometry::Point;
-use cplan_geometry::planar::{Boundary, NONE};
+use cplan_geometry::planar::{Boundary, NO_ENTRY};
 use petgraph::graph::NodeIndex;
 use std::sync::Arc;
 
@@ -41,7 +41,7 @@ pub struct TrianglesMap {
     roadmap: Roadmap,
     /// For each node, one of the two half-edges of its side.
     sides: Vec<u32>,
-    /// The node at the middle of each half-edge, `NONE` where that is part of the boundary.
+    /// The node at the middle of each half-edge, `NO_ENTRY` where that is part of the boundary.
     middles: Vec<u32>,
 }
 
@@ -58,10 +58,10 @@ impl Planner for Triangles {
         let (outcome, channel, expanded) = match Terminals::new(space, query, |segment| map.mesh.parts_of(segment)) {
             Err(reason) => (Proposal::GaveUp(reason), Vec::new(), Vec::new()),
             Ok(terminals) => {
-                let (way, expanded) = map.way(&terminals, self.search);
-                match way {
+                let (route, expanded) = map.route(&terminals, self.search);
+                match route {
                     None => (Proposal::NoPath, Vec::new(), expanded),
-                    Some(Way { own, channel, portals, goals }) => {
+                    Some(RoadmapPath { own, channel, portals, goals }) => {
                         let waypoints = match self.path {
                             PathKind::Own | PathKind::Middles => own,
                             PathKind::Taut => taut(&map.mesh, terminals.start, &goals, &portals),
@@ -103,7 +103,7 @@ pub(super) fn taut(mesh: &Mesh, start: Point, goals: &Segment, sides: &[u32]) ->
 }
 
 /// A way on the roadmap.
-struct Way {
+struct RoadmapPath {
     /// Start, middles, goal.
     own: Vec<Point>,
     /// The triangles that it passes.
@@ -120,7 +120,7 @@ impl TrianglesMap {
         let corners_of = |triangle: u32| (0..3).map(|k| mesh.ends(3 * triangle + k)[0]).collect();
         let corners = triangles.clone().map(corners_of).collect();
         let mut roadmap = Roadmap::new(Measure::from(Metric::Euclidean));
-        let (mut sides, mut middles) = (Vec::new(), vec![NONE; 3 * mesh.triangles()]);
+        let (mut sides, mut middles) = (Vec::new(), vec![NO_ENTRY; 3 * mesh.triangles()]);
         for side in 0..3 * mesh.triangles() as u32 {
             if let Some(twin) = mesh.twin(side).filter(|&twin| side < twin) {
                 let [right, left] = mesh.ends(side);
@@ -140,22 +140,22 @@ impl TrianglesMap {
     }
 
     /// Returns the path that a search finds, and the configurations that it expanded, in order.
-    fn way(&self, terminals: &Terminals, how: RoadmapSearch) -> (Option<Way>, Vec<Configuration>) {
+    fn route(&self, terminals: &Terminals, how: RoadmapSearch) -> (Option<RoadmapPath>, Vec<Configuration>) {
         let (mesh, start) = (&self.mesh, terminals.start);
         let euclid = Measure::from(Metric::Euclidean);
         let node = |side: u32| NodeIndex::new(self.middles[side as usize] as usize);
         let first: Vec<u32> = mesh.triangles_at(start).collect();
-        let mut asked = self.roadmap.clone().asked(start);
-        let begin = asked.start;
+        let mut query_graph = self.roadmap.clone().query_graph(start);
+        let begin = query_graph.start;
         for side in first.iter().flat_map(|&triangle| mesh.portals(triangle)) {
-            asked.join(begin, node(side));
+            query_graph.join(begin, node(side));
         }
         // Of each goal the triangle and the part that it is of.
         let mut goals: Vec<(NodeIndex, u32, Segment)> = Vec::new();
         for &(triangle, part) in &terminals.parts {
             let mut join = |from: NodeIndex| {
-                let goal = asked.goal(part.nearest(euclid, asked.at(from)));
-                asked.join(from, goal);
+                let goal = query_graph.goal(part.nearest(euclid, query_graph.at(from)));
+                query_graph.join(from, goal);
                 goals.push((goal, triangle, part));
             };
             mesh.portals(triangle).for_each(|side| join(node(side)));
@@ -163,8 +163,8 @@ impl TrianglesMap {
                 join(begin);
             }
         }
-        let (way, expanded) = asked.search(how, terminals);
-        let way = way.map(|nodes| {
+        let (route, expanded) = query_graph.search(how, terminals);
+        let route = route.map(|nodes| {
             // The triangles that a node is on.
             let around = |node: NodeIndex| -> Vec<u32> {
                 if let Some(&side) = self.sides.get(node.index()) {
@@ -188,10 +188,10 @@ impl TrianglesMap {
             }
             let end = nodes[nodes.len() - 1];
             let part = goals.iter().find(|goal| goal.0 == end && Some(&goal.1) == channel.last()).map(|goal| goal.2);
-            let own: Vec<Point> = nodes.iter().map(|&node| asked.at(node)).collect();
+            let own: Vec<Point> = nodes.iter().map(|&node| query_graph.at(node)).collect();
             let goals = part.unwrap_or_else(|| Segment::point(own[own.len() - 1]));
-            Way { own, channel, portals, goals }
+            RoadmapPath { own, channel, portals, goals }
         });
-        (way, expanded)
+        (route, expanded)
     }
 }

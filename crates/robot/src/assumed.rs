@@ -1,6 +1,6 @@
 //! Assumed limits for missing ones, and their description.
 
-use cplan_core::model::TIME_TO_TOP_SPEED;
+use cplan_core::model::DEFAULT_TIME_TO_TOP_SPEED;
 use cplan_text::short;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -47,6 +47,6 @@ fn assumed_speed_note(whose: &str, value: f64, unit: &str) -> String {
 pub fn assumed_acceleration_note(whose: &str, value: f64, unit: &str) -> String {
     let value = short(value);
     format!(
-        "{whose}: no acceleration limit given; {value} {unit}/s2 assumed (top speed in {TIME_TO_TOP_SPEED} s), only for timing"
+        "{whose}: no acceleration limit given; {value} {unit}/s2 assumed (top speed in {DEFAULT_TIME_TO_TOP_SPEED} s), only for timing"
     )
 }

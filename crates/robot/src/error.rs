@@ -136,24 +136,24 @@ impl From<Diagnostic> for InputError {
 }
 
 /// Greatest number of diagnostics that are shown; the rest are counted, because the first ones usually cause them.
-const SHOWN: usize = 8;
+const MAX_SHOWN_DIAGNOSTICS: usize = 8;
 
 fn listed(diagnostics: &[Diagnostic]) -> String {
-    let mut lines: Vec<String> = diagnostics.iter().take(SHOWN).map(ToString::to_string).collect();
-    if diagnostics.len() > SHOWN {
-        lines.push(format!("... and {} more", diagnostics.len() - SHOWN));
+    let mut lines: Vec<String> = diagnostics.iter().take(MAX_SHOWN_DIAGNOSTICS).map(ToString::to_string).collect();
+    if diagnostics.len() > MAX_SHOWN_DIAGNOSTICS {
+        lines.push(format!("... and {} more", diagnostics.len() - MAX_SHOWN_DIAGNOSTICS));
     }
     lines.join("\n")
 }
 
 /// Greatest number of names in a list; the rest are counted, because nobody reads them, and each diagnostic may have
 /// its own list.
-const NAMED: usize = 64;
+const MAX_LISTED_NAMES: usize = 64;
 
 /// Writes names in quotes, separated by commas, for messages.
 pub fn quoted<S: AsRef<str>>(names: impl IntoIterator<Item = S>) -> String {
     let mut all = names.into_iter();
-    let mut names: Vec<String> = all.by_ref().take(NAMED).map(|n| format!("\"{}\"", n.as_ref())).collect();
+    let mut names: Vec<String> = all.by_ref().take(MAX_LISTED_NAMES).map(|n| format!("\"{}\"", n.as_ref())).collect();
     let more = all.count();
     if more > 0 {
         names.push(format!("... and {more} more"));

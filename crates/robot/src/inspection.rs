@@ -3,7 +3,7 @@
 use super::error::InputError;
 use cplan_core::model::{OutlineSource, Scene};
 use cplan_geometry::Point;
-use cplan_handling::Course;
+use cplan_handling::ObstacleTrajectory;
 use nalgebra::Vector3;
 use serde::Serialize;
 use std::path::PathBuf;
@@ -55,7 +55,7 @@ pub struct Inspection {
     pub scene: Option<Scene>,
     /// The trajectories of the scene's loose obstacles.
     #[serde(skip)]
-    pub courses: Vec<Course>,
+    pub courses: Vec<ObstacleTrajectory>,
     /// Paths of the files that were read: the URDF, the files of its xacro, its meshes, and those of the world.
     #[serde(skip)]
     pub files: Vec<PathBuf>,

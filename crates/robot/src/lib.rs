@@ -34,11 +34,11 @@ pub use inspection::{
     BodyEntry, Frame, Inspection, JointEntry, LimitEntry, LimitSource, LinkEntry, OutlineEntry, PairEntry, PlaneEntry,
     RateEntry, RateSource, ReachEntry, Role, SelfObstacleEntry,
 };
-pub use quantity::{LARGEST, Number, Numbers, PerJoint, Quantity, Written};
+pub use quantity::{MAX_LENGTH, Number, Numbers, PerJoint, Quantity, Written};
 pub use report::RobotReport;
 pub use robot_file::RobotFile;
 pub use robot_table::RobotTable;
-pub use schema::{AngleOrLength, HeldAs, Positive, Two};
+pub use schema::{AngleOrLength, HeldAs, NumberPair, Positive};
 pub use settings::RobotSettings;
 pub use source::{Cursor, Position, Source, read_bounded, read_bytes, read_recorded};
 pub use stroke::StrokeTable;

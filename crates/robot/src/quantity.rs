@@ -31,7 +31,7 @@ pub type PerJoint<T> = BTreeMap<Spanned<String>, T>;
 
 /// Greatest length or coordinate, metres: beyond it products of coordinates lose the last micrometre, and no arm is
 /// that large.
-pub const LARGEST: f64 = 1e6;
+pub const MAX_LENGTH: f64 = 1e6;
 
 impl<'de> Deserialize<'de> for Quantity {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
@@ -68,17 +68,17 @@ impl Source {
     /// Returns the value of a number of this file; `what` names it in the message.
     ///
     /// # Errors
-    /// If it is not finite, or beyond [`LARGEST`].
+    /// If it is not finite, or beyond [`MAX_LENGTH`].
     pub fn finite(&self, number: &Number, what: &str) -> Result<f64, Diagnostic> {
         let value = *number.get_ref();
         if !value.is_finite() {
             let diagnostic = self.diagnostic_at(number.span(), format!("{what}: {value} is not a finite number"));
             return Err(diagnostic.help("write a number"));
         }
-        if value.abs() > LARGEST {
-            let message = format!("{what}: {value} is too large (at most {LARGEST:e})");
+        if value.abs() > MAX_LENGTH {
+            let message = format!("{what}: {value} is too large (at most {MAX_LENGTH:e})");
             let help = format!(
-                "lengths are in metres, angles in radians, from -{LARGEST:e} to {LARGEST:e}: put the origin of all coordinates near the arm"
+                "lengths are in metres, angles in radians, from -{MAX_LENGTH:e} to {MAX_LENGTH:e}: put the origin of all coordinates near the arm"
             );
             return Err(self.diagnostic_at(number.span(), message).help(help));
         }

@@ -1,7 +1,7 @@
 //! The world file's `[robot]` table.
 
 use crate::quantity::{Number, Numbers, PerJoint, Written};
-use crate::schema::{AngleOrLength, HeldAs, Positive, Two};
+use crate::schema::{AngleOrLength, HeldAs, NumberPair, Positive};
 use crate::stroke::StrokeTable;
 use crate::wrist::WristTable;
 use schemars::JsonSchema;
@@ -15,7 +15,7 @@ use toml::Spanned;
 #[schemars(rename = "robot")]
 pub struct RobotTable {
     /// Position of the robot's root frame in the world, m; by default [0, 0].
-    #[schemars(with = "Option<Two>")]
+    #[schemars(with = "Option<NumberPair>")]
     pub at: Option<Numbers>,
     /// Angle of its root frame, rad; by default 0.
     #[schemars(with = "Option<AngleOrLength>")]

@@ -1,7 +1,7 @@
 //! Types that represent fields in the JSON schema of files in TOML.
 
 /// Two numbers.
-pub type Two = [f64; 2];
+pub type NumberPair = [f64; 2];
 
 /// Defines a type that represents the values of a field in a schema: its documentation, its name and its own schema.
 /// The calling crate must depend on `schemars`.

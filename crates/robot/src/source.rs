@@ -30,7 +30,7 @@ pub struct Source {
     /// The xacro files from which the text was expanded. Places in the text are reported as places in them.
     #[serde(skip)]
     expansion: Option<Arc<Expansion>>,
-    /// Position of every [`MILE`]th byte, computed on first use.
+    /// Position of every [`LINE_INDEX_INTERVAL`]th byte, computed on first use.
     #[serde(skip)]
     milestones: OnceLock<Vec<Position>>,
 }
@@ -75,14 +75,14 @@ impl Cursor<'_> {
 
 /// Greatest size of a file, bytes. Real files, meshes included, stay far below; this stops the reading of endless
 /// devices.
-const LARGEST_FILE: u64 = 256 << 20;
+const MAX_FILE_BYTES: u64 = 256 << 20;
 
 /// Reads a file, with the error of the system.
 ///
 /// # Errors
 /// I/O errors, and a file larger than 256 MiB.
 pub fn read_bounded(path: &Path) -> io::Result<Vec<u8>> {
-    read_at_most(path, LARGEST_FILE)
+    read_at_most(path, MAX_FILE_BYTES)
 }
 
 fn read_at_most(path: &Path, most: u64) -> io::Result<Vec<u8>> {
@@ -97,10 +97,10 @@ fn read_at_most(path: &Path, most: u64) -> io::Result<Vec<u8>> {
 
 /// Greatest size of a recording, bytes: enough for hours at a thousand samples a second as written by cplan. Its values
 /// take up to three times as much memory.
-const LARGEST_RECORDING: u64 = 2 << 30;
+const MAX_RECORDING_BYTES: u64 = 2 << 30;
 
 /// Number of bytes between places whose line and column are stored.
-const MILE: usize = 4096;
+const LINE_INDEX_INTERVAL: usize = 4096;
 
 /// Reads a file.
 ///
@@ -118,7 +118,7 @@ pub fn read_bytes(path: &Path) -> Result<Vec<u8>, InputError> {
 pub fn read_recorded(path: &Path) -> Result<Vec<u8>, InputError> {
     let help = "record fewer samples (cplan's --step SECONDS sets the time between them), or cut the recording into parts and verify \
                 each with --anywhere";
-    read_at_most(path, LARGEST_RECORDING).map_err(|error| unreadable(path, &error, help).into())
+    read_at_most(path, MAX_RECORDING_BYTES).map_err(|error| unreadable(path, &error, help).into())
 }
 
 fn unreadable(path: &Path, error: &io::Error, too_large: &str) -> Diagnostic {
@@ -249,10 +249,11 @@ impl Source {
         let offset = offset.min(self.text.len());
         let milestones = self.milestones.get_or_init(|| {
             let mut cursor = self.cursor();
-            (0..=self.text.len()).step_by(MILE).map(|at| cursor.position(at)).collect()
+            (0..=self.text.len()).step_by(LINE_INDEX_INTERVAL).map(|at| cursor.position(at)).collect()
         });
-        let passed = offset / MILE;
-        let mut cursor = Cursor { bytes: self.text.as_bytes(), read: passed * MILE, at: milestones[passed] };
+        let passed = offset / LINE_INDEX_INTERVAL;
+        let mut cursor =
+            Cursor { bytes: self.text.as_bytes(), read: passed * LINE_INDEX_INTERVAL, at: milestones[passed] };
         cursor.position(offset)
     }
 
@@ -332,7 +333,7 @@ mod tests {
     }
 
     #[test]
-    fn the_caret_stands_below_the_place() {
+    fn the_caret_is_below_the_place() {
         let s = source("first\n  radius = -1\n");
         let shown = s.diagnostic_at(17..19, "bad").to_string();
         assert_eq!(shown, "a.toml: line 2, column 12: bad\n  2 |   radius = -1\n    |            ^^");

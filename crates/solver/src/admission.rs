@@ -12,54 +12,54 @@ use cplan_core::space::{Configuration, Path, Segment, Topology};
 use std::f64::consts::TAU;
 
 /// A representation that may block ends which are free.
-pub(super) trait Admit {
+pub(super) trait EndAdmission {
     /// Returns true if a planner can begin or end at `q`.
     fn admits(&self, q: Configuration) -> bool;
 }
 
-impl Admit for Regions {
+impl EndAdmission for Regions {
     fn admits(&self, q: Configuration) -> bool {
         self.component(q).is_some()
     }
 }
 
-impl Admit for Grid {
+impl EndAdmission for Grid {
     fn admits(&self, q: Configuration) -> bool {
         !self.blocked[self.locate(q)]
     }
 }
 
-impl Admit for ZonedGrid {
+impl EndAdmission for ZonedGrid {
     fn admits(&self, q: Configuration) -> bool {
         self.grid.admits(q)
     }
 }
 
 /// Number of directions tried.
-const DIRECTIONS: usize = 64;
+const STAND_IN_DIRECTIONS: usize = 64;
 
 /// Number of steps tried in each direction, the shortest first. Each is twice as long as the one before.
-const STEPS: usize = 13;
+const STEPS_PER_DIRECTION: usize = 13;
 
 /// Shortest step, radians or metres. Far smaller than the steps that a margin of a thousandth of the reach requires.
-const SHORTEST: f64 = 1e-4;
+const SHORTEST_STEP: f64 = 1e-4;
 
 /// Returns `q` if the space admits it. Otherwise returns the end of the shortest certified straight motion from `q` to
 /// an admitted configuration, or `q` itself if no such motion is found.
-fn stand_in(scene: &Scene, space: &impl Admit, q: Configuration) -> Configuration {
+fn stand_in(scene: &Scene, space: &impl EndAdmission, q: Configuration) -> Configuration {
     if space.admits(q) {
         return q;
     }
     let direction = |k: usize| {
-        let (sin, cos) = (TAU * k as f64 / DIRECTIONS as f64).sin_cos();
+        let (sin, cos) = (TAU * k as f64 / STAND_IN_DIRECTIONS as f64).sin_cos();
         Configuration::new(cos, sin)
     };
-    for step in 0..STEPS {
-        let length = SHORTEST * (1_u32 << step) as f64;
-        for k in 0..DIRECTIONS {
+    for step in 0..STEPS_PER_DIRECTION {
+        let length = SHORTEST_STEP * (1_u32 << step) as f64;
+        for k in 0..STAND_IN_DIRECTIONS {
             let there = q + direction(k) * length;
-            let way = || certify(scene, Path::new(vec![q, there]), scene.workspace().clearance);
-            if space.admits(there) && way().is_ok() {
+            let direct = || certify(scene, Path::new(vec![q, there]), scene.workspace().clearance);
+            if space.admits(there) && direct().is_ok() {
                 return there;
             }
         }
@@ -68,10 +68,10 @@ fn stand_in(scene: &Scene, space: &impl Admit, q: Configuration) -> Configuratio
 }
 
 /// Number of samples on a free stretch of goals when testing whether the space admits any part of it.
-const LOOKS: usize = 17;
+const SAMPLES_PER_STRETCH: usize = 17;
 
 /// Largest number of stretches that get a stand-in. The longest stretches come first.
-const MOST_STRETCHES: usize = 8;
+const MAX_STRETCHES: usize = 8;
 
 /// Start and goals of a problem, with their stand-ins.
 pub(super) struct Ends {
@@ -84,12 +84,12 @@ pub(super) struct Ends {
 }
 
 /// Distance below which two ends are copies of each other: far above rounding, far below any distance that matters.
-const SAME: f64 = 1e-9;
+const COPY_DISTANCE: f64 = 1e-9;
 
 impl Ends {
     /// Replaces single goals that the space does not admit. The space usually admits some part of a goal segment.
     /// A free stretch without such a part gets a stand-in for its middle.
-    pub fn new(problem: &MotionProblem, space: &impl Admit) -> Self {
+    pub fn new(problem: &MotionProblem, space: &impl EndAdmission) -> Self {
         let (scene, start) = (problem.scene(), problem.start());
         let topology = scene.arm().topology();
         let mut goals: Vec<Segment> = Vec::new();
@@ -138,7 +138,7 @@ impl Ends {
     fn goal_reached(&self, path: &Path) -> Configuration {
         let end = path.goal();
         let of = |[stand_in, goal]: &[Configuration; 2]| {
-            (self.topology.distance(*stand_in, end) < SAME).then(|| end + (goal - stand_in))
+            (self.topology.distance(*stand_in, end) < COPY_DISTANCE).then(|| end + (goal - stand_in))
         };
         self.stand_ins.iter().find_map(of).unwrap_or(end)
     }
@@ -150,11 +150,13 @@ impl Ends {
 
 /// Returns the goals of a segment in the domain that must be queried one by one: the middles of free stretches that the
 /// space does not admit anywhere.
-fn middles_unknown(scene: &Scene, space: &impl Admit, piece: &Segment) -> Vec<Configuration> {
-    let knows = |stretch: &Segment| (0..LOOKS).any(|k| space.admits(stretch.at(k as f64 / (LOOKS - 1) as f64)));
+fn middles_unknown(scene: &Scene, space: &impl EndAdmission, piece: &Segment) -> Vec<Configuration> {
+    let knows = |stretch: &Segment| {
+        (0..SAMPLES_PER_STRETCH).any(|k| space.admits(stretch.at(k as f64 / (SAMPLES_PER_STRETCH - 1) as f64)))
+    };
     let mut unknown = free_stretches(scene, piece, scene.workspace().clearance);
     unknown.retain(|stretch| !knows(stretch));
     unknown.sort_by(|a, b| b.length().total_cmp(&a.length()));
-    unknown.truncate(MOST_STRETCHES);
+    unknown.truncate(MAX_STRETCHES);
     unknown.iter().map(|stretch| stretch.at(0.5)).collect()
 }

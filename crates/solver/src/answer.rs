@@ -96,7 +96,7 @@ impl From<String> for Unknown {
 
 /// Largest number of corners of a visibility graph that is drawn completely. Larger graphs are drawn only as far as
 /// they were searched, since more lines make a grey surface.
-const MOST_CORNERS: usize = 5_000;
+const MAX_DRAWN_CORNERS: usize = 5_000;
 
 impl<F: AsRef<BoundedPath>> Answer<F> {
     /// Returns the path, if one was found.
@@ -129,7 +129,7 @@ impl<F> Answer<F> {
     pub fn drawn(&self) -> Cow<'_, Trace> {
         if let (Trace::Roadmap { edges, whole: false }, Space::Regions(regions)) = (&self.run.trace, &self.space) {
             let map = Visibility::default().build(regions);
-            if map.corners() <= MOST_CORNERS {
+            if map.corners() <= MAX_DRAWN_CORNERS {
                 // Searched arcs may also end at start and goals, and may have the opposite direction.
                 let key = |[a, b]: [Configuration; 2]| [a[0], a[1], b[0], b[1]];
                 let directed = |[a, b]: [Configuration; 2]| if key([a, b]) <= key([b, a]) { [a, b] } else { [b, a] };

@@ -1,7 +1,7 @@
 //! Number of cells of a grid along its axes.
 
 use super::planner_errors::wrong_number;
-use super::setting::CELLS;
+use super::setting::ALLOWED_CELLS;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::str::FromStr;
@@ -9,13 +9,13 @@ use std::str::FromStr;
 /// Numbers of cells along the axes of the first and the second joint. As text: `256` or `128x512`. As data: a number or
 /// a pair.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(from = "Written", into = "Written")]
+#[serde(from = "CellCountsForm", into = "CellCountsForm")]
 pub struct CellCounts(pub [usize; 2]);
 
 /// Serialized form of cell counts.
 #[derive(Debug, Clone, Copy, Serialize, Deserialize)]
 #[serde(untagged)]
-enum Written {
+enum CellCountsForm {
     Each(usize),
     Pair([usize; 2]),
 }
@@ -30,20 +30,20 @@ impl CellCounts {
     /// Describes, in words, the error in the counts. `None` if they are valid.
     #[must_use]
     pub fn error(self) -> Option<String> {
-        self.0.into_iter().find_map(|n| wrong_number("cells", n, &CELLS))
+        self.0.into_iter().find_map(|n| wrong_number("cells", n, &ALLOWED_CELLS))
     }
 }
 
-impl From<Written> for CellCounts {
-    fn from(written: Written) -> Self {
+impl From<CellCountsForm> for CellCounts {
+    fn from(written: CellCountsForm) -> Self {
         match written {
-            Written::Each(n) => Self::square(n),
-            Written::Pair(counts) => Self(counts),
+            CellCountsForm::Each(n) => Self::square(n),
+            CellCountsForm::Pair(counts) => Self(counts),
         }
     }
 }
 
-impl From<CellCounts> for Written {
+impl From<CellCounts> for CellCountsForm {
     fn from(CellCounts(counts): CellCounts) -> Self {
         if counts[0] == counts[1] { Self::Each(counts[0]) } else { Self::Pair(counts) }
     }
@@ -61,10 +61,10 @@ impl FromStr for CellCounts {
 
     fn from_str(text: &str) -> Result<Self, String> {
         let cure = || {
-            let (least, most) = (CELLS.start(), CELLS.end());
+            let (least, most) = (ALLOWED_CELLS.start(), ALLOWED_CELLS.end());
             format!("{text} is not in {least}..={most}, nor two such numbers, as 128x512, for the joints in turn")
         };
-        let count = |text: &str| text.parse::<usize>().ok().filter(|n| CELLS.contains(n)).ok_or_else(cure);
+        let count = |text: &str| text.parse::<usize>().ok().filter(|n| ALLOWED_CELLS.contains(n)).ok_or_else(cure);
         match text.split_once('x') {
             None => Ok(Self::square(count(text)?)),
             Some((a, b)) => Ok(Self([count(a)?, count(b)?])),

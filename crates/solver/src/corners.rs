@@ -11,11 +11,11 @@ use cplan_geometry::OpenList;
 
 /// Number of attempts. After each one, pieces that came too near to an obstacle are kept, and the rest is certified
 /// again.
-const TRIES: usize = 6;
+const MAX_ATTEMPTS: usize = 6;
 
 /// Longest extension of a piece, as a multiple of the length of the piece that it replaces. Without it, pieces that
 /// meet at a small angle would grow without limit.
-const FARTHEST: f64 = 8.0;
+const MAX_EXTENSION: f64 = 8.0;
 
 /// Returns `path` with fewer corners, longer by at most `budget`, and certified. `None` if no corner can be removed.
 ///
@@ -23,7 +23,7 @@ const FARTHEST: f64 = 8.0;
 pub(super) fn fewer_corners(scene: &Scene, path: &Path, metric: Metric, budget: f64) -> Option<CertifiedPath> {
     let topology = scene.arm().topology();
     let mut too_near = Vec::new();
-    for _ in 0..TRIES {
+    for _ in 0..MAX_ATTEMPTS {
         let fewer = drawn_out(&topology, path.waypoints(), metric, budget, &too_near);
         if fewer.len() == path.waypoints().len() {
             return None;
@@ -116,7 +116,7 @@ fn meeting([a, b, c, d]: [Configuration; 4]) -> Option<Configuration> {
     let turned = cross(first, second);
     let [along, back] = [cross(base, second) / turned, cross(base, first) / turned];
     let corner = b + first * along;
-    let near = |from: Configuration| (corner - from).norm() <= FARTHEST * base.norm();
+    let near = |from: Configuration| (corner - from).norm() <= MAX_EXTENSION * base.norm();
     (along >= 0.0 && back >= 0.0 && along.is_finite() && back.is_finite() && near(b) && near(c)).then_some(corner)
 }
 
@@ -144,14 +144,14 @@ mod tests {
             let (sin, cos) = (FRAC_PI_2 * k as f64 / chords as f64).sin_cos();
             Configuration::new(sin, cos)
         };
-        let mut way = vec![Configuration::new(-1.0, 1.0)];
-        way.extend((0..=chords).map(at));
-        way.push(Configuration::new(1.0, -1.0));
-        way
+        let mut waypoints = vec![Configuration::new(-1.0, 1.0)];
+        waypoints.extend((0..=chords).map(at));
+        waypoints.push(Configuration::new(1.0, -1.0));
+        waypoints
     }
 
-    fn length(way: &[Configuration]) -> f64 {
-        Metric::Euclidean.length(&Path::new(way.to_vec()))
+    fn length(waypoints: &[Configuration]) -> f64 {
+        Metric::Euclidean.length(&Path::new(waypoints.to_vec()))
     }
 
     #[test]
@@ -178,7 +178,7 @@ mod tests {
     }
 
     #[test]
-    fn corners_stay_within_limits_and_away_from_what_came_too_near() {
+    fn corners_stay_within_limits_and_clear() {
         let arc = quarter(8);
         let all = drawn_out(&WIDE, &arc, Metric::Euclidean, 10.0, &[]);
         assert_eq!(all, [arc[0], Configuration::new(1.0, 1.0), arc[arc.len() - 1]]);
@@ -195,7 +195,7 @@ mod tests {
     }
 
     #[test]
-    fn a_path_that_turns_both_ways_in_turn_stays_as_it_is() {
+    fn a_zigzag_stays_unchanged() {
         let zigzag: Vec<_> = (0..9).map(|k| Configuration::new(0.2 * f64::from(k), f64::from(k % 2) * 0.3)).collect();
         assert_eq!(drawn_out(&WIDE, &zigzag, Metric::Euclidean, 10.0, &[]), zigzag);
     }

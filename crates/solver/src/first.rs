@@ -1,7 +1,7 @@
 //! The planner `first`: a certified path or a proof, by [`decide`] alone.
 
+use super::decision::decide;
 use super::ladder::Request;
-use super::settle::decide;
 use super::{Answer, Method, Space, Stages};
 use cplan_core::check::{CertifiedPath, CheckedProof};
 use cplan_core::model::Outcome;

@@ -33,7 +33,7 @@ impl GridSpace {
 
     /// Returns the number of attempts until cells become smaller. Slices decide cells of one size by two methods.
     #[must_use]
-    pub fn levels_of_a_size(self) -> usize {
+    pub fn levels_per_size(self) -> usize {
         match self {
             Self::Rows => 2,
             Self::Centers | Self::Sampled => 1,
@@ -42,7 +42,7 @@ impl GridSpace {
 
     /// Returns the name for results. `None` for the default.
     #[must_use]
-    pub fn told(self) -> Option<&'static str> {
+    pub fn reported_name(self) -> Option<&'static str> {
         (self != Self::Rows).then(|| self.name())
     }
 }

@@ -1,9 +1,9 @@
 //! The ladder of refinement.
 
-use super::admission::{Admit, Ends};
+use super::admission::{EndAdmission, Ends};
 use super::bound::{Bound, bound};
-use super::rungs::{Described, grid_cells, polygons, zoned_cells};
-use super::settle::decide;
+use super::decision::decide;
+use super::rungs::{Describe, grid_cells, polygons, zoned_cells};
 use super::{Answer, BoundedPath, Options, Settings, Space, Stages, Unknown};
 use cplan_core::check::{CertifiedPath, CheckedProof, Rejection, certify};
 use cplan_core::cspace::{Grid, Regions, ZonedGrid, has_exact_polygons};
@@ -19,15 +19,15 @@ use cplan_text::percent;
 pub(super) const FIRST_BOXES: usize = 20_000;
 
 /// Lower bounds are refined until the path is known to be within this share of the optimum, or cannot be.
-pub(super) const CLOSE: f64 = 1e-4;
+pub(super) const CLOSE_GAP: f64 = 1e-4;
 
 /// Gap above which a path is planned again on finer levels, even if no gap was requested. A shorter path may lead
 /// through a passage that the first level closes. Such paths are rare: about one in a hundred.
-const WIDE: f64 = 0.05;
+const WIDE_GAP: f64 = 0.05;
 
 /// The last level for that. Each level is four times finer, so it shows passages down to a five-thousandth of the arm's
 /// reach.
-const LAST_LOOK: usize = 2;
+const LAST_LEVEL_FOR_GAP: usize = 2;
 
 /// Answers `problem` with the options' planner. Failed attempts are reported to `progress`.
 ///
@@ -103,7 +103,7 @@ fn climb<P: Planner>(
     build: impl Fn(usize) -> Option<P::Space>,
 ) -> Answer
 where
-    P::Space: Into<Space> + Described + Admit,
+    P::Space: Into<Space> + Describe + EndAdmission,
 {
     let (method, metric) = (options.planner.method(), options.planner.metric(problem.scene().arm()));
     let mut climb = Climb { problem, options, metric, level: 0, stages: Stages::default(), path: None };
@@ -121,7 +121,7 @@ where
         let clock = Instant::now();
         let ends = Ends::new(problem, &space);
         let run = match method {
-            _ if options.planner.optimises() => {
+            _ if options.planner.optimizes() => {
                 shortest_of_all(&ends, metric, |query| planner.query(&space, &map, query))
             }
             _ => planner.query(&space, &map, &ends.query),
@@ -139,7 +139,7 @@ where
         progress(&format!("{method}: {failure}"));
         history.push(failure);
         if level == 0 && climb.path.is_none() {
-            known = settle(problem, options.boxes.min(FIRST_BOXES), &mut climb.stages);
+            known = decide_feasibility(problem, options.boxes.min(FIRST_BOXES), &mut climb.stages);
             if let Some(Outcome::Infeasible(_)) = known {
                 break;
             }
@@ -152,7 +152,7 @@ where
     let path = climb.path.take();
     if path.is_none() && known.is_none() {
         progress(&format!("{method}: looking for a proof that there is no path"));
-        known = settle(problem, options.boxes, &mut climb.stages);
+        known = decide_feasibility(problem, options.boxes, &mut climb.stages);
     }
     let (run, space) = last.unwrap_or_else(|| unreachable!("the first level always has a space"));
     let why = || history.last().cloned().unwrap_or_default();
@@ -192,28 +192,28 @@ impl Climb<'_> {
     fn judge(&mut self, ends: &Ends, outcome: &Proposal) -> Option<String> {
         let proposal = match outcome {
             Proposal::Found(path) => path,
-            Proposal::NoPath => return self.unless_content("no path in it".into()),
-            Proposal::GaveUp(reason) => return self.unless_content(reason.clone()),
+            Proposal::NoPath => return self.reason_to_refine("no path in it".into()),
+            Proposal::GaveUp(reason) => return self.reason_to_refine(reason.clone()),
         };
         match self.certified(ends, proposal) {
             Ok(path) => {
                 self.keep(path);
                 let excess = self.bound().map_or_else(String::new, |bound| percent(bound.gap()));
-                self.unless_content(format!("its path is longer than the bound by {excess}"))
+                self.reason_to_refine(format!("its path is longer than the bound by {excess}"))
             }
             Err(rejection) => {
                 let why = explain(self.problem.scene(), rejection);
-                self.unless_content(format!("its path is not certified: {why}"))
+                self.reason_to_refine(format!("its path is not certified: {why}"))
             }
         }
     }
 
     /// Returns `failure`, unless there is a path and its gap is small enough: below the requested gap, or else not
     /// wide.
-    fn unless_content(&self, failure: String) -> Option<String> {
-        let gap = self.options.planner.gap().or((self.level < LAST_LOOK).then_some(WIDE));
+    fn reason_to_refine(&self, failure: String) -> Option<String> {
+        let gap = self.options.planner.gap().or((self.level < LAST_LEVEL_FOR_GAP).then_some(WIDE_GAP));
         // A search that does not optimise accepts this path.
-        let gap = gap.filter(|_| self.options.planner.optimises());
+        let gap = gap.filter(|_| self.options.planner.optimizes());
         let wants_more = self.bound().zip(gap).is_some_and(|(bound, gap)| bound.gap() > gap);
         (self.path.is_none() || wants_more).then_some(failure)
     }
@@ -235,7 +235,7 @@ impl Climb<'_> {
 
     /// Keeps a path if it is the best so far. Bounds it if the method looks for the optimum.
     fn keep(&mut self, certified: CertifiedPath) {
-        if !self.options.bounded || !self.options.planner.method().optimises() {
+        if !self.options.bounded || !self.options.planner.method().optimizes() {
             self.path = Some(certified.into());
             return;
         }
@@ -245,7 +245,7 @@ impl Climb<'_> {
         // The lower bound does not depend on the path, so it is computed once.
         let best = self.bound();
         let found = best.map_or_else(
-            || bound(self.problem, certified.path(), metric, gap.map_or(CLOSE, |gap| CLOSE.min(gap / 2.0))),
+            || bound(self.problem, certified.path(), metric, gap.map_or(CLOSE_GAP, |gap| CLOSE_GAP.min(gap / 2.0))),
             |best| Bound { upper, ..best },
         );
         self.stages.bound += clock.elapsed();
@@ -272,7 +272,11 @@ fn shortest_of_all(ends: &Ends, metric: Metric, query: impl Fn(&Query) -> Run) -
 }
 
 /// Decides whether there is a path at all, independent of a planner's space. `None` if that is not known.
-fn settle(problem: &MotionProblem, boxes: usize, stages: &mut Stages) -> Option<Outcome<CertifiedPath, CheckedProof>> {
+fn decide_feasibility(
+    problem: &MotionProblem,
+    boxes: usize,
+    stages: &mut Stages,
+) -> Option<Outcome<CertifiedPath, CheckedProof>> {
     let clock = Instant::now();
     let decided = decide(problem, boxes);
     stages.prove += clock.elapsed();

@@ -65,7 +65,7 @@ mod registry;
 mod replay;
 mod rungs;
 mod setting;
-mod settle;
+mod decision;
 mod shortest;
 mod subdivision;
 mod thinned;
@@ -73,15 +73,17 @@ mod thinned;
 pub use answer::{Answer, BoundedPath, Unknown};
 pub use bound::{Bound, bound};
 pub use cell_counts::CellCounts;
+pub use decision::{LARGE_PROOF_BOXES, decide};
 pub use field_cells::field_on_cells;
 pub use grid_space::GridSpace;
 pub use ladder::solve;
-pub use options::{LEVELS, NamedJoints, Options};
+pub use options::{ALLOWED_LEVELS, NamedJoints, Options};
 pub use planner::Planner;
 pub use registry::{Descriptor, Family, Method};
 pub use replay::{Phase, Replay, Shows, SlabBoxes, Sweeps};
-pub use setting::{CELLS, Criterion, FIRST_CELLS, MOST_MARGIN, NEAREST, SAMPLES, Setting, Settings};
-pub use settle::{LARGE_PROOF, decide};
+pub use setting::{
+    ALLOWED_CELLS, ALLOWED_NEIGHBORS, ALLOWED_SAMPLES, Criterion, DEFAULT_CELLS, MAX_MARGIN, Setting, Settings,
+};
 
 use cplan_core::cspace::{Grid, Regions};
 use std::ops::Add;

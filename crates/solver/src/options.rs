@@ -3,12 +3,12 @@
 use super::{Method, Planner};
 use cplan_core::model::{Arm, Joint};
 use cplan_dynamics::keep_efforts;
-use cplan_motion::{Drive, SHORTEST_INTERVAL};
+use cplan_motion::{Drive, MIN_INTERVAL};
 use serde::{Deserialize, Serialize};
 use std::ops::RangeInclusive;
 
 /// Allowed numbers of attempts.
-pub const LEVELS: RangeInclusive<usize> = 1..=12;
+pub const ALLOWED_LEVELS: RangeInclusive<usize> = 1..=12;
 
 /// Joints that ROS 2 messages name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
@@ -101,10 +101,10 @@ impl Options {
         let not_positive = |value: &f64| !value.is_finite() || *value <= 0.0;
         if let Some(error) = self.planner.error() {
             Some(error)
-        } else if !LEVELS.contains(&self.levels) {
-            Some(format!("levels: {} must be from {} to {}", self.levels, LEVELS.start(), LEVELS.end()))
-        } else if !(period.is_finite() && period >= SHORTEST_INTERVAL) {
-            Some(format!("period: {period} s must be finite and at least {SHORTEST_INTERVAL} s"))
+        } else if !ALLOWED_LEVELS.contains(&self.levels) {
+            Some(format!("levels: {} must be from {} to {}", self.levels, ALLOWED_LEVELS.start(), ALLOWED_LEVELS.end()))
+        } else if !(period.is_finite() && period >= MIN_INTERVAL) {
+            Some(format!("period: {period} s must be finite and at least {MIN_INTERVAL} s"))
         } else if blend.is_nan() || blend < 0.0 {
             Some(format!("blend: {blend} is not a radius"))
         } else if let Some(wrong) = tip_speed.into_iter().chain(jerks).find(not_positive) {

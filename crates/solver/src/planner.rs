@@ -138,8 +138,8 @@ impl Planner {
 
     /// Returns true if its search looks for the optimum.
     #[must_use]
-    pub fn optimises(&self) -> bool {
-        self.method.optimises() && self.settings.search.order.is_optimal()
+    pub fn optimizes(&self) -> bool {
+        self.method.optimizes() && self.settings.search.order.is_optimal()
     }
 
     /// Returns how the cells of its grid are decided, if it has one.
@@ -165,15 +165,15 @@ impl Serialize for Planner {
             return serializer.serialize_str(self.method.name());
         }
         let mut planner = serializer.serialize_map(Some(1))?;
-        planner.serialize_entry(self.method.name(), &Read(self))?;
+        planner.serialize_entry(self.method.name(), &ReadSettings(self))?;
         planner.end()
     }
 }
 
 /// The settings that a planner reads.
-struct Read<'a>(&'a Planner);
+struct ReadSettings<'a>(&'a Planner);
 
-impl Serialize for Read<'_> {
+impl Serialize for ReadSettings<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let Planner { method, settings } = self.0;
         let mut map = serializer.serialize_map(None)?;
@@ -249,7 +249,7 @@ mod tests {
     }
 
     #[test]
-    fn a_planner_keeps_the_defaults_of_what_it_does_not_read() {
+    fn unread_settings_keep_their_defaults() {
         let first = Planner::named(Method::First);
         assert_eq!(first.with_margin(0.0).with_cells(64).with_path(PathKind::Own).with_gap(0.1), first);
     }

@@ -1,6 +1,6 @@
 //! Errors of a planner's options, in words.
 
-use super::setting::{MOST_MARGIN, NEAREST, SAMPLES};
+use super::setting::{ALLOWED_NEIGHBORS, ALLOWED_SAMPLES, MAX_MARGIN};
 use super::{Criterion, Planner, Setting};
 use cplan_core::model::Preference;
 use cplan_core::planner::{GridSearch, PathKind};
@@ -49,11 +49,11 @@ impl Planner {
             Setting::Gap => {
                 let gap = settings.gap?;
                 let blind = || "gap: only a search for the shortest path can close a gap".to_owned();
-                not_positive("gap", gap).or_else(|| (!self.optimises()).then(blind))
+                not_positive("gap", gap).or_else(|| (!self.optimizes()).then(blind))
             }
             Setting::Margin => wrong_margin(settings.margin),
-            Setting::Samples => wrong_number("samples", settings.samples, &SAMPLES),
-            Setting::Nearest => wrong_number("nearest", settings.nearest, &NEAREST),
+            Setting::Samples => wrong_number("samples", settings.samples, &ALLOWED_SAMPLES),
+            Setting::Nearest => wrong_number("nearest", settings.nearest, &ALLOWED_NEIGHBORS),
             Setting::Forward if settings.forward && settings.grid_search == GridSearch::Wave => {
                 Some("forward: the search `wave` labels cells with their steps to the goals and begins there".into())
             }
@@ -73,6 +73,6 @@ pub(super) fn wrong_number(name: &str, n: usize, range: &RangeInclusive<usize>) 
 }
 
 fn wrong_margin(margin: f64) -> Option<String> {
-    (!(0.0..=MOST_MARGIN).contains(&margin))
-        .then(|| format!("margin: {margin} must be from 0 to {MOST_MARGIN} (of the arm's reach)"))
+    (!(0.0..=MAX_MARGIN).contains(&margin))
+        .then(|| format!("margin: {margin} must be from 0 to {MAX_MARGIN} (of the arm's reach)"))
 }

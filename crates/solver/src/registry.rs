@@ -1,7 +1,7 @@
 //! The planners. To add one, add an entry to the table at the end of this file.
 
 use super::ladder::{Request, by_visibility, on_cells, on_polygons, on_zoned_cells};
-use super::setting::{FIRST_CELLS, Setting, Settings};
+use super::setting::{DEFAULT_CELLS, Setting, Settings};
 use super::{Answer, CellCounts, first, shortest, subdivision};
 use Setting::{
     Cells, Criterion, Field, Forward, Gap, Graph, GridSearch, Margin, Nearest, Neighborhood, Path, Samples, Search,
@@ -87,7 +87,7 @@ impl Method {
 
     /// Returns true if the planner looks for the optimum of a metric, and bounds its path's distance from it.
     #[must_use]
-    pub fn optimises(self) -> bool {
+    pub fn optimizes(self) -> bool {
         self.reads(Gap)
     }
 }
@@ -133,15 +133,15 @@ macro_rules! planners {
     };
 }
 
-const TAUT: &[PathKind] = &[PathKind::Taut];
-const OWN_AND_TAUT: &[PathKind] = &[PathKind::Own, PathKind::Taut];
+const TAUT_PATHS: &[PathKind] = &[PathKind::Taut];
+const OWN_AND_TAUT_PATHS: &[PathKind] = &[PathKind::Own, PathKind::Taut];
 
 // In this order: the default, roadmap planners, field planners, planners that judge the scene itself.
 planners! {
     Shortest: "The shortest path, from exact slices, with a proven bound on the optimum; or a proof of infeasibility" {
         name: "shortest",
         family: Family::Exact,
-        paths: TAUT,
+        paths: TAUT_PATHS,
         settings: &[Criterion, Gap, Margin],
         defaults: Settings::default,
         solve: shortest::solve,
@@ -149,7 +149,7 @@ planners! {
     Visibility: "Visibility graph: the shortest path, with a proven bound on the optimum" {
         name: Visibility::NAME,
         family: Family::Roadmap,
-        paths: TAUT,
+        paths: TAUT_PATHS,
         settings: &[Criterion, Gap, Margin, Search, Graph],
         defaults: Settings::default,
         solve: by_visibility,
@@ -165,7 +165,7 @@ planners! {
     Triangles: "Triangles of free space: a channel of them, and the funnel path through it" {
         name: Triangles::NAME,
         family: Family::Roadmap,
-        paths: OWN_AND_TAUT,
+        paths: OWN_AND_TAUT_PATHS,
         settings: &[Path, Margin, Search],
         defaults: Settings::default,
         solve: |request| on_polygons(request, |s, _| Triangles { path: s.path, search: s.search }),
@@ -173,7 +173,7 @@ planners! {
     Voronoi: "Voronoi diagram: the path whose least distance from obstacles, in joint space, is greatest" {
         name: Voronoi::NAME,
         family: Family::Roadmap,
-        paths: OWN_AND_TAUT,
+        paths: OWN_AND_TAUT_PATHS,
         settings: &[Path, Margin, Search],
         // Its own path keeps far from obstacles; a taut path does not.
         defaults: || Settings { path: PathKind::Own, ..Settings::default() },
@@ -182,7 +182,7 @@ planners! {
     Prm: "Probabilistic roadmap: random configurations, each joined to the nearest that it sees" {
         name: Prm::NAME,
         family: Family::Roadmap,
-        paths: OWN_AND_TAUT,
+        paths: OWN_AND_TAUT_PATHS,
         settings: &[Samples, Nearest, Seed, Path, Margin, Search],
         defaults: Settings::default,
         solve: |request| on_polygons(request, |s, level| {
@@ -192,10 +192,10 @@ planners! {
     Wavefront: "Manhattan wavefront on a grid" {
         name: Wavefront::NAME,
         family: Family::Field,
-        paths: OWN_AND_TAUT,
+        paths: OWN_AND_TAUT_PATHS,
         settings: &[GridSearch, Ties, Forward, Neighborhood, Space, Path, Cells],
         // With a given number, cells are not made square in joint space.
-        defaults: || Settings { cells: Some(CellCounts::square(FIRST_CELLS)), ..Settings::default() },
+        defaults: || Settings { cells: Some(CellCounts::square(DEFAULT_CELLS)), ..Settings::default() },
         solve: |request| on_cells(request, |s, _| Wavefront {
             search: s.grid_search,
             ties: s.ties,
@@ -207,7 +207,7 @@ planners! {
     Harmonic: "Harmonic potential on a grid" {
         name: Harmonic::NAME,
         family: Family::Field,
-        paths: OWN_AND_TAUT,
+        paths: OWN_AND_TAUT_PATHS,
         settings: &[Field, Space, Path, Cells],
         // The path of interest is the one that follows the field.
         defaults: || Settings { path: PathKind::Own, ..Settings::default() },
@@ -219,7 +219,7 @@ planners! {
     Subdivision: "Subdivision into boxes: a path with room around it, or a proof of infeasibility" {
         name: "subdivision",
         family: Family::Exact,
-        paths: OWN_AND_TAUT,
+        paths: OWN_AND_TAUT_PATHS,
         settings: &[Path],
         defaults: Settings::default,
         solve: subdivision::solve,
@@ -227,7 +227,7 @@ planners! {
     First: "The first certified path found, or a proof of infeasibility: the quickest answer" {
         name: "first",
         family: Family::Exact,
-        paths: TAUT,
+        paths: TAUT_PATHS,
         settings: &[],
         defaults: Settings::default,
         solve: first::solve,

@@ -93,15 +93,15 @@ pub struct Sweeps {
 }
 
 /// Largest number of slabs, and of pairs of shapes, for a replay: some tens of milliseconds of work.
-const SLABS: usize = 2_000;
-const PAIRS: usize = 4096;
+const MAX_REPLAY_SLABS: usize = 2_000;
+const MAX_REPLAY_PAIRS: usize = 4096;
 
 /// Smallest width of a box in a replay, as a share of the joint's range. Narrower boxes would be less than a pixel.
-const INVISIBLE: f64 = 1.0 / 1024.0;
+const MIN_BOX_WIDTH: f64 = 1.0 / 1024.0;
 
 /// Number of frames of a field, and of cells of each frame along an axis.
-const FRAMES: usize = 24;
-const CELLS: usize = 48;
+const FIELD_FRAMES: usize = 24;
+const FRAME_CELLS: usize = 48;
 
 impl Replay {
     /// Computes the replay of an answer to a problem with these options.
@@ -112,10 +112,10 @@ impl Replay {
         match &answer.outcome {
             Outcome::Found(found) => phases.of_path(problem, options, answer, found.as_ref()),
             Outcome::Infeasible(proof) => phases.add(
-                proof.stuck().len(),
+                proof.collision_boxes().len(),
                 format!(
                     "{} of colliding configurations separate start and goal: there is no path",
-                    boxes(proof.stuck().len())
+                    boxes(proof.collision_boxes().len())
                 ),
                 Shows::Proof,
             ),
@@ -227,16 +227,17 @@ impl Phases {
     /// Adds the slabs that decide whether there is a path.
     fn of_slabs(&mut self, problem: &MotionProblem) {
         let scene = problem.scene();
-        if scene.pairs().len() > PAIRS {
+        if scene.pairs().len() > MAX_REPLAY_PAIRS {
             return;
         }
         let clearance = scene.workspace().clearance;
-        let all = slab_boxes(scene, problem.start(), problem.goals(), clearance, SLABS);
+        let all = slab_boxes(scene, problem.start(), problem.goals(), clearance, MAX_REPLAY_SLABS);
         let extents = scene.arm().topology().ranges.map(|axis| axis.extent());
         let sides = |(cell, _): &(cplan_core::check::Cell, Occupancy)| {
             [0, 1].map(|k| (cell.upper[k] - cell.lower[k]) / extents[k])
         };
-        let mut seen: Vec<_> = all.into_iter().filter(|one| sides(one).iter().all(|&side| side >= INVISIBLE)).collect();
+        let mut seen: Vec<_> =
+            all.into_iter().filter(|one| sides(one).iter().all(|&side| side >= MIN_BOX_WIDTH)).collect();
         // Slabs of one level have equal widths. The sort is stable, so slabs of one level stay in order from left to
         // right.
         seen.sort_by_key(|one| (1.0 / sides(one)[0]).log2().round() as i64);
@@ -244,8 +245,8 @@ impl Phases {
         for (cell, occupancy) in &seen {
             let kind = match occupancy {
                 Occupancy::Free => &mut found.free,
-                Occupancy::Stuck => &mut found.stuck,
-                Occupancy::Mixed => &mut found.mixed,
+                Occupancy::Colliding => &mut found.stuck,
+                Occupancy::Undecided => &mut found.mixed,
             };
             kind.push([cell.lower.into(), cell.upper.into()]);
         }
@@ -305,22 +306,22 @@ fn sweeps<F>(problem: &MotionProblem, options: &Options, answer: &Answer<F>) -> 
     let equation = equation.on(&ZonedGrid::new((**grid).clone(), problem.scene()), stencil).ok()?;
     let stopping = Stopping { measure, below: tolerance, max_sweeps };
     let shape = domain.cells();
-    let step = shape.map(|n| n.div_ceil(CELLS).max(1));
+    let step = shape.map(|n| n.div_ceil(FRAME_CELLS).max(1));
     let cells = [0, 1].map(|k| shape[k].div_ceil(step[k]));
     let sampled = |values: &[f64]| {
         let at = (0..cells[0]).flat_map(|i| (0..cells[1]).map(move |j| i * step[0] * shape[1] + j * step[1]));
         at.map(|cell| values[cell].max(0.0).ln()).collect::<Vec<f64>>()
     };
     // The first sweeps change the most, so the distance between frames grows.
-    let wanted = |k: usize| (total as f64).powf(k as f64 / (FRAMES - 1) as f64).round() as usize;
+    let wanted = |k: usize| (total as f64).powf(k as f64 / (FIELD_FRAMES - 1) as f64).round() as usize;
     let (mut frames, mut earlier, mut seen) = (Vec::new(), 0, 0);
-    let watch = &mut |watched: cplan_fields::Watched| {
+    let watch = &mut |watched: cplan_fields::SweepSnapshot| {
         if watched.sweep == 0 {
             earlier = seen;
             return;
         }
         seen = earlier + watched.sweep;
-        if frames.len() < FRAMES && (seen >= wanted(frames.len()) || seen == total) {
+        if frames.len() < FIELD_FRAMES && (seen >= wanted(frames.len()) || seen == total) {
             frames.push((seen, sampled(watched.values)));
         }
     };

@@ -1,6 +1,6 @@
 //! The representation of each level: successively finer approximations of one configuration space.
 
-use super::setting::FIRST_CELLS;
+use super::setting::DEFAULT_CELLS;
 use super::{CellCounts, GridSpace, Space};
 use cplan_core::cspace::{
     Grid, Proves, Regions, ZonedGrid, exact_regions, grid_from_slices, has_exact_polygons, outer_grid, regions,
@@ -9,32 +9,32 @@ use cplan_core::cspace::{
 use cplan_core::model::{Arm, MotionProblem};
 
 /// Largest number of cells along an axis: with more than 2048 x 2048 cells, fields take minutes.
-const MOST_CELLS: usize = 2048;
+const MAX_CELLS: usize = 2048;
 
 /// Largest number of collision checks of a sampled grid, some ten seconds of work. Finer grids that need more do not
 /// exist.
-const MOST_CHECKS: usize = 1 << 30;
+const MAX_CHECKS: usize = 1 << 30;
 
 /// Share of a sliding joint's stroke that counts as reach if the arm's reach is smaller, as for a gantry's slender
 /// tool.
-const STROKE: f64 = 0.1;
+const STROKE_SHARE: f64 = 0.1;
 
 /// Number of turns of the universal cover on either side of the start in which planning takes place.
-const PERIODS: usize = 1;
+const TURNS_PER_SIDE: usize = 1;
 
 /// Largest number of pairs of shapes from which polygons are made on the first level: one or two seconds of work. With
 /// more, the margin is increased ...
-const FIRST_PAIRS: usize = 6144;
+const MAX_FIRST_PAIRS: usize = 6144;
 
 /// ... by this factor, at most this number of times.
-const WIDER: (f64, usize) = (2.0, 6);
+const MARGIN_INCREASE: (f64, usize) = (2.0, 6);
 
 /// Largest number of pairs of shapes on finer levels. With more, the level does not exist.
-const MOST_PAIRS: usize = 16_384;
+const MAX_PAIRS: usize = 16_384;
 
 /// The first margin after exact polygons, as a share of the arm's reach. Paths among exact polygons usually touch them,
 /// and these paths must be within the usual gap of the shortest.
-const AFTER_EXACT: f64 = 4e-5;
+const MARGIN_AFTER_EXACT: f64 = 4e-5;
 
 /// Returns the polygons of a level. With a first margin of 0, the first level has the exact polygons, if the arm has
 /// any; all others are grown. `None` if there is no finer level.
@@ -43,7 +43,7 @@ pub(super) fn polygons(problem: &MotionProblem, first: f64, level: usize) -> Opt
         return grown_polygons(problem, first, level);
     }
     match level.checked_sub(usize::from(has_exact_polygons(problem.scene()))) {
-        Some(level) => grown_polygons(problem, AFTER_EXACT, level),
+        Some(level) => grown_polygons(problem, MARGIN_AFTER_EXACT, level),
         None => exact_regions(problem.scene()),
     }
 }
@@ -53,15 +53,15 @@ pub(super) fn polygons(problem: &MotionProblem, first: f64, level: usize) -> Opt
 fn grown_polygons(problem: &MotionProblem, first: f64, level: usize) -> Option<Regions> {
     let scene = problem.scene();
     let few = |margin: f64, most: usize| scene.pairs().len() <= most || traced_pairs(scene, margin) <= most;
-    let (mut margin, (factor, times)) = (margin(problem, first, level), WIDER);
+    let (mut margin, (factor, times)) = (margin(problem, first, level), MARGIN_INCREASE);
     for _ in 0..times {
         let first = margin * 4_f64.powi(level as i32);
-        if few(first, FIRST_PAIRS) {
+        if few(first, MAX_FIRST_PAIRS) {
             break;
         }
         margin *= factor;
     }
-    (level == 0 || few(margin, MOST_PAIRS)).then(|| regions(scene, margin, problem.start(), PERIODS))
+    (level == 0 || few(margin, MAX_PAIRS)).then(|| regions(scene, margin, problem.start(), TURNS_PER_SIDE))
 }
 
 /// Returns the level's margin, metres.
@@ -72,12 +72,12 @@ fn margin(problem: &MotionProblem, first: f64, level: usize) -> f64 {
 /// Returns the length to which margins are relative: the arm's reach, or a share of a sliding joint's stroke.
 pub(super) fn extent(arm: &Arm) -> f64 {
     let strokes = arm.joints.iter().filter(|joint| !joint.joint_type.is_revolute()).map(|joint| joint.range.extent());
-    strokes.map(|stroke| STROKE * stroke).fold(arm.reach(), f64::max)
+    strokes.map(|stroke| STROKE_SHARE * stroke).fold(arm.reach(), f64::max)
 }
 
 /// Ratio of the axes' ranges up to which a field's cells are square. Beyond it, the axis with the smaller range would
 /// get too few cells.
-const MOST_OBLONG: f64 = 16.0;
+const MAX_SQUARE_RATIO: f64 = 16.0;
 
 /// Returns the cells of a level. Their number along each axis doubles with every second level. On the first of two
 /// levels of one size, the free cells are free throughout. If these are too few, the second level uses cells with free
@@ -92,7 +92,7 @@ pub(super) fn grid_cells(
     first: Option<CellCounts>,
     level: usize,
 ) -> Option<Grid> {
-    let shape = finer(problem, space, first.unwrap_or(CellCounts::square(FIRST_CELLS)), level)?;
+    let shape = finer(problem, space, first.unwrap_or(CellCounts::square(DEFAULT_CELLS)), level)?;
     let shape = if first.is_some() { shape } else { square_in_joint_space(problem, shape[0] as f64) };
     Some(grid(problem, space, level, shape))
 }
@@ -100,7 +100,7 @@ pub(super) fn grid_cells(
 /// Returns the numbers of cells along the axes, `n * n` in total, that make cells square.
 fn square_in_joint_space(problem: &MotionProblem, n: f64) -> [usize; 2] {
     let [a, b] = problem.scene().arm().topology().ranges.map(|axis| axis.extent());
-    let ratio = (a / b).clamp(1.0 / MOST_OBLONG, MOST_OBLONG).sqrt();
+    let ratio = (a / b).clamp(1.0 / MAX_SQUARE_RATIO, MAX_SQUARE_RATIO).sqrt();
     [n * ratio, n / ratio].map(|cells| cells.round().max(1.0) as usize)
 }
 
@@ -122,7 +122,7 @@ fn finer(problem: &MotionProblem, space: GridSpace, CellCounts(first): CellCount
         GridSpace::Sampled => (level, problem.scene().pairs().len()),
     };
     let [a, b] = first.map(|n| n << finer);
-    let is_few = || a.max(b) <= MOST_CELLS && a * b <= MOST_CHECKS / checks.max(1);
+    let is_few = || a.max(b) <= MAX_CELLS && a * b <= MAX_CHECKS / checks.max(1);
     (finer == 0 || is_few()).then_some([a, b])
 }
 
@@ -136,24 +136,24 @@ fn grid(problem: &MotionProblem, space: GridSpace, level: usize, shape: [usize; 
 }
 
 /// A space with a short description.
-pub(super) trait Described {
+pub(super) trait Describe {
     fn describe(&self) -> String;
 }
 
-impl Described for Regions {
+impl Describe for Regions {
     fn describe(&self) -> String {
         format!("polygons ({})", self.proves)
     }
 }
 
-impl Described for Grid {
+impl Describe for Grid {
     fn describe(&self) -> String {
         let kind = if self.proves == Proves::Sampled { " by their centres" } else { "" };
         format!("{} x {} cells{kind}", self.cells[0], self.cells[1])
     }
 }
 
-impl Described for ZonedGrid {
+impl Describe for ZonedGrid {
     fn describe(&self) -> String {
         self.grid.describe()
     }

@@ -13,19 +13,19 @@ use serde_json::Value;
 use std::ops::RangeInclusive;
 
 /// Upper limit of margins, as a share of the arm's reach. The lower limit is 0.
-pub const MOST_MARGIN: f64 = 0.1;
+pub const MAX_MARGIN: f64 = 0.1;
 
 /// Default of the first number of cells along an axis.
-pub const FIRST_CELLS: usize = 256;
+pub const DEFAULT_CELLS: usize = 256;
 
 /// Allowed first numbers of cells along an axis.
-pub const CELLS: RangeInclusive<usize> = 8..=2048;
+pub const ALLOWED_CELLS: RangeInclusive<usize> = 8..=2048;
 
 /// Allowed first numbers of samples.
-pub const SAMPLES: RangeInclusive<usize> = 1..=100_000;
+pub const ALLOWED_SAMPLES: RangeInclusive<usize> = 1..=100_000;
 
 /// Allowed numbers of neighbours to which each sample is connected.
-pub const NEAREST: RangeInclusive<usize> = 1..=1000;
+pub const ALLOWED_NEIGHBORS: RangeInclusive<usize> = 1..=1000;
 
 /// Criterion for short paths.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]

@@ -7,36 +7,36 @@
 //! Polygons, graphs and grids are built only if that fails, or for gantries, whose C-obstacles are polygons. There, one
 //! visibility graph gives the path and another one the bound.
 
-use super::bound::{Bound, FEW_POLYGONS, lower_bound, motions};
+use super::bound::{Bound, MAX_UNITED_PAIRS, lower_bound, motions};
 use super::corners::fewer_corners;
+use super::decision::decide;
 use super::first::answer;
-use super::ladder::{CLOSE, FIRST_BOXES, Request, by_visibility};
-use super::settle::decide;
+use super::ladder::{CLOSE_GAP, FIRST_BOXES, Request, by_visibility};
 use super::{Answer, BoundedPath, Method, Options, Stages};
 use cplan_core::check::{CertifiedPath, certify};
 use cplan_core::model::{MotionProblem, Outcome};
 use cplan_core::planner::{Size, Trace};
 use cplan_interrupt::Instant;
-use cplan_proofs::{Motions, Proposed, Refused, short_motion};
+use cplan_proofs::{MotionQuery, ProposedPath, RefusalReason, short_motion};
 use std::time::Duration;
 
 /// Extra clearance to try, as fractions of the arm's reach times the gap, one after the other.
-const KEPT: [f64; 4] = [0.25, 0.06, 0.015, 0.004];
+const CLEARANCE_FRACTIONS: [f64; 4] = [0.25, 0.06, 0.015, 0.004];
 
 /// Largest extra clearance, as a fraction of the arm's reach, for any gap.
-const MOST_KEPT: f64 = 0.01;
+const MAX_EXTRA_CLEARANCE: f64 = 0.01;
 
 /// With more pairs of shapes than this there is only one attempt, ...
-const FEW_PAIRS: usize = 1000;
+const MAX_PAIRS_FOR_RETRIES: usize = 1000;
 
 /// ... and with more than this there is no attempt.
-const MOST_PAIRS: usize = 20_000;
+const MAX_PAIRS: usize = 20_000;
 
 /// Fraction of the gap that the bound may leave open.
-const PART: f64 = 0.5;
+const BOUND_FRACTION: f64 = 0.5;
 
 /// Fraction of the remaining gap that removing corners may cost.
-const SPENT: f64 = 0.9;
+const SLACK_FRACTION: f64 = 0.9;
 
 /// Answers a request with an approximately shortest path. A visibility graph plans as well if slabs leave it undecided
 /// whether there is a path, or if the path is not proven to be within the gap. Then the better of both paths is the
@@ -48,7 +48,7 @@ pub(super) fn solve(Request { problem, options, progress }: Request) -> Answer {
     let stages = Stages { query: clock.elapsed(), ..Stages::default() };
     if problem.scene().arm().is_gantry()
         && let Outcome::Found(_) = first
-        && problem.scene().pairs().len() <= FEW_POLYGONS
+        && problem.scene().pairs().len() <= MAX_UNITED_PAIRS
         && let Some(answer) = among_polygons(problem, options, stages)
     {
         return answer;
@@ -57,14 +57,14 @@ pub(super) fn solve(Request { problem, options, progress }: Request) -> Answer {
     let (own, by_graph) = match first {
         Outcome::Infeasible(_) => return answer(Method::Shortest, first, stages),
         // With this many pieces polygons, which cover them by fewer, are the better method.
-        Outcome::Found(_) if problem.scene().pairs().len() > MOST_PAIRS => {
+        Outcome::Found(_) if problem.scene().pairs().len() > MAX_PAIRS => {
             let by_graph = by_graph();
             let own = answer(Method::Shortest, first, stages);
             (own, by_graph)
         }
         Outcome::Found(path) => {
             let own = shorter(problem, options, path, stages);
-            if is_content(&own, options) {
+            if meets_gap(&own, options) {
                 return own;
             }
             (own, by_graph())
@@ -90,18 +90,19 @@ pub(super) fn solve(Request { problem, options, progress }: Request) -> Answer {
 
 /// The first margin of gantries' polygons, as a share of the gap, unless the planner's is smaller. Paths farther from
 /// corners give faster motions. If the margin is too large for the gap, it is quartered.
-const MARGIN: f64 = 0.4;
+const MARGIN_FRACTION: f64 = 0.4;
 
 /// Answers for a gantry, whose C-obstacles are polygons: with the shortest path among polygons grown so little that it
 /// is within the gap. `None` if it is not.
 fn among_polygons(problem: &MotionProblem, options: &Options, stages: Stages) -> Option<Answer> {
-    let (scene, gap) = (problem.scene(), options.planner.gap().unwrap_or(CLOSE));
-    let planner = options.planner.with_gap(gap).with_margin(options.planner.settings().margin.min(MARGIN * gap));
+    let (scene, gap) = (problem.scene(), options.planner.gap().unwrap_or(CLOSE_GAP));
+    let planner =
+        options.planner.with_gap(gap).with_margin(options.planner.settings().margin.min(MARGIN_FRACTION * gap));
     let options = &Options { planner, ..*options };
     let mut answer = by_visibility(Request { problem, options, progress: &mut |_| () });
     answer.stages = answer.stages + stages;
     let path = answer.outcome.found()?;
-    if !is_content(&answer, options) {
+    if !meets_gap(&answer, options) {
         return None;
     }
     let (metric, clock) = (planner.metric(scene.arm()), Instant::now());
@@ -115,17 +116,17 @@ fn among_polygons(problem: &MotionProblem, options: &Options, stages: Stages) ->
 }
 
 /// Returns true if the answer needs no improvement.
-fn is_content(answer: &Answer, options: &Options) -> bool {
-    !options.bounded || answer.bound().is_some_and(|bound| bound.gap() <= options.planner.gap().unwrap_or(CLOSE))
+fn meets_gap(answer: &Answer, options: &Options) -> bool {
+    !options.bounded || answer.bound().is_some_and(|bound| bound.gap() <= options.planner.gap().unwrap_or(CLOSE_GAP))
 }
 
 /// Returns the answer that starts from a first path, and replaces it by a shorter one if one is found and certified.
 fn shorter(problem: &MotionProblem, options: &Options, first: CertifiedPath, mut stages: Stages) -> Answer {
     let (scene, planner) = (problem.scene(), options.planner);
-    let (metric, gap) = (planner.metric(scene.arm()), planner.gap().unwrap_or(CLOSE));
+    let (metric, gap) = (planner.metric(scene.arm()), planner.gap().unwrap_or(CLOSE_GAP));
     let motions = motions(problem, metric);
     let mut bounding =
-        Bounding { motions, gap, is_asked: options.bounded, lower: 0.0, beside: 0.0, took: Duration::ZERO };
+        PathBounding { motions, gap, is_asked: options.bounded, lower: 0.0, beside: 0.0, took: Duration::ZERO };
     let clock = Instant::now();
     let (mut upper, mut path, mut free) = (metric.length(first.path()), first, Vec::new());
     if path.path().waypoints().len() == 2 {
@@ -133,24 +134,24 @@ fn shorter(problem: &MotionProblem, options: &Options, first: CertifiedPath, mut
         bounding.bound(upper, &[]);
     }
     // Among thousands of pieces an attempt may take a second.
-    let attempts = if scene.pairs().len() <= FEW_PAIRS { KEPT.len() } else { 1 };
-    for share in &KEPT[..attempts] {
+    let attempts = if scene.pairs().len() <= MAX_PAIRS_FOR_RETRIES { CLEARANCE_FRACTIONS.len() } else { 1 };
+    for share in &CLEARANCE_FRACTIONS[..attempts] {
         if bounding.is_close(upper) {
             break;
         }
-        let kept = (share * gap).min(MOST_KEPT) * scene.arm().reach();
+        let kept = (share * gap).min(MAX_EXTRA_CLEARANCE) * scene.arm().reach();
         let mut tries = 0;
-        let judge = |Proposed { path: way, slices, is_shortest }: Proposed| {
-            let length = metric.length(&way);
-            let certificate = || certify(scene, way.clone(), motions.clearance).map_err(Refused::By);
+        let judge = |ProposedPath { path: proposal, slices, is_shortest }: ProposedPath| {
+            let length = metric.length(&proposal);
+            let certificate = || certify(scene, proposal.clone(), motions.clearance).map_err(RefusalReason::By);
             // The first proposed path is usually good, and then only the one with fewer corners needs a certificate.
             tries += 1;
             let certified = if tries > 1 { Some(certificate()?) } else { None };
             bounding.bound(length, &slices);
             if !is_shortest && !bounding.is_close(length) {
-                return Err(Refused::TooLong);
+                return Err(RefusalReason::TooLong);
             }
-            let fewer = fewer_corners(scene, &way, metric, bounding.room(length));
+            let fewer = fewer_corners(scene, &proposal, metric, bounding.room(length));
             fewer.or(certified).map_or_else(certificate, Ok)
         };
         let Some(found) = short_motion(&motions, kept, upper, judge) else { continue };
@@ -184,8 +185,8 @@ fn shorter(problem: &MotionProblem, options: &Options, first: CertifiedPath, mut
 }
 
 /// The lower bound on the shortest path known so far.
-struct Bounding<'a> {
-    motions: Motions<'a>,
+struct PathBounding<'a> {
+    motions: MotionQuery<'a>,
     /// The gap to reach.
     gap: f64,
     /// True if a bound is requested. If false, the lower bound stays 0.
@@ -198,14 +199,14 @@ struct Bounding<'a> {
     took: Duration,
 }
 
-impl Bounding<'_> {
+impl PathBounding<'_> {
     /// Computes a bound for a path of length `upper`, unless that path is known to be close, or its bound was computed
     /// before.
     fn bound(&mut self, upper: f64, slices: &[f64]) {
         if self.is_asked && upper != self.beside && !self.is_close(upper) {
             let clock = Instant::now();
             self.beside = upper;
-            self.lower = self.lower.max(lower_bound(&self.motions, upper, PART * self.gap, slices));
+            self.lower = self.lower.max(lower_bound(&self.motions, upper, BOUND_FRACTION * self.gap, slices));
             self.took += clock.elapsed();
         }
     }
@@ -224,5 +225,5 @@ impl Bounding<'_> {
 /// Returns by how much a path of length `upper` may become longer to remove corners. Without a lower bound, a share of
 /// the requested gap.
 fn room(upper: f64, lower: Option<f64>, gap: f64) -> f64 {
-    SPENT * lower.map_or(gap / 2.0 * upper, |lower| lower * (1.0 + gap) - upper)
+    SLACK_FRACTION * lower.map_or(gap / 2.0 * upper, |lower| lower * (1.0 + gap) - upper)
 }

@@ -1,7 +1,7 @@
 //! Planning by subdivision of the configuration space.
 
+use super::decision::checked;
 use super::ladder::{Request, explain};
-use super::settle::checked;
 use super::{Answer, Method, Space, Stages, Unknown};
 use cplan_core::check::CertifiedPath;
 use cplan_core::check::{Rejection, certify};
@@ -86,5 +86,5 @@ fn trace(exploration: &Exploration) -> Trace {
         let boxes = exploration.boxes.iter().filter(|(_, occupancy)| *occupancy == kind);
         boxes.map(|(cell, _)| [cell.lower.into(), cell.upper.into()]).collect()
     };
-    Trace::Boxes { free: of(Occupancy::Free), stuck: of(Occupancy::Stuck), mixed: of(Occupancy::Mixed) }
+    Trace::Boxes { free: of(Occupancy::Free), stuck: of(Occupancy::Colliding), mixed: of(Occupancy::Undecided) }
 }

@@ -5,14 +5,14 @@ use cplan_geometry::{Convex, Point};
 use std::collections::HashMap;
 
 /// A problem with some of the pieces of its obstacles.
-pub(super) struct Thinned {
+pub(super) struct ThinnedProblem {
     /// The problem.
     pub problem: MotionProblem,
     /// For each obstacle, the original indices of its remaining pieces, and the original number of pieces.
     kept: Vec<(Vec<usize>, usize)>,
 }
 
-impl Thinned {
+impl ThinnedProblem {
     /// Keeps only the largest of the pieces whose bounds are equal on a lattice with this spacing, metres, and that
     /// lean the same way.
     ///
@@ -35,7 +35,7 @@ impl Thinned {
     }
 
     /// Returns the original pair for a pair of the thinned scene.
-    pub fn in_truth(&self, pair: Pair) -> Pair {
+    pub fn original_pair(&self, pair: Pair) -> Pair {
         // Links of the robot keep all their pieces.
         let Some((kept, all)) = self.kept.get(pair.obstacle) else { return pair };
         // Shapes derived from the pieces for a level payload are numbered after them, once or several times for each

@@ -56,7 +56,7 @@ pub(super) fn steps(text: &str) -> Result<Vec<Step>, String> {
 
 /// A number in a text.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Found {
+pub(super) struct FoundNumber {
     /// Position in the text.
     pub at: Range<usize>,
     /// True if it is written without a fraction, as counts must be.
@@ -64,7 +64,7 @@ pub(super) struct Found {
 }
 
 /// Keys that a robot or an obstacle has by default, with their default values.
-const SILENT: [(&str, &str); 2] = [("at", "[0.0, 0.0]"), ("angle", "0.0")];
+const DEFAULT_KEYS: [(&str, &str); 2] = [("at", "[0.0, 0.0]"), ("angle", "0.0")];
 
 /// Returns the text of a world with this number written out, if it is a default of robots and obstacles; otherwise the
 /// same text.
@@ -74,7 +74,7 @@ pub(super) fn written_out(text: &str, steps: &[Step]) -> String {
         [Step::Name(obstacle), _, Step::Name(key), ..] if obstacle == "obstacle" => (&steps[..2], key),
         _ => return text.to_owned(),
     };
-    let Some((_, silent)) = SILENT.iter().find(|(silent, _)| silent == key) else { return text.to_owned() };
+    let Some((_, silent)) = DEFAULT_KEYS.iter().find(|(silent, _)| silent == key) else { return text.to_owned() };
     // Tables are written in several ways: what puts the number where it belongs is right.
     let candidates =
         [inside(text, table, key, silent), below(text, table, key, silent), above(text, table, key, silent)];
@@ -171,14 +171,14 @@ fn missing(here: &DeRef, step: &Step) -> String {
 ///
 /// # Errors
 /// The reason, if there is no number.
-pub(super) fn in_world(text: &str, steps: &[Step]) -> Result<Found, String> {
+pub(super) fn in_world(text: &str, steps: &[Step]) -> Result<FoundNumber, String> {
     let document = DeTable::parse(text).map_err(|error| error.message().to_owned())?;
     match descend(document.get_ref(), document.span(), steps)? {
-        (DeRef::Value(DeValue::Float(_)), at) => Ok(Found { at, is_whole: false }),
-        (DeRef::Value(DeValue::Integer(_)), at) => Ok(Found { at, is_whole: true }),
+        (DeRef::Value(DeValue::Float(_)), at) => Ok(FoundNumber { at, is_whole: false }),
+        (DeRef::Value(DeValue::Integer(_)), at) => Ok(FoundNumber { at, is_whole: true }),
         // An angle such as "30deg".
         (DeRef::Value(DeValue::String(text)), at) if text.trim_end().ends_with("deg") => {
-            Ok(Found { at, is_whole: false })
+            Ok(FoundNumber { at, is_whole: false })
         }
         (DeRef::Array(_), _) => Err("it is a list: name an entry, as in [0]".into()),
         (DeRef::Table(_), _) => Err("it is a table: name a key".into()),
@@ -194,14 +194,14 @@ pub(super) fn entry_in(text: &str, steps: &[Step]) -> Option<Range<usize>> {
 
 /// Returns true if an address is that of an angle or of a joint's value.
 pub(super) fn is_angle(address: &str) -> bool {
-    const ANGLES: [&str; 7] = ["angle", "joints", "fixed", "limits", "rpy", "lower", "upper"];
+    const ANGLE_KEYS: [&str; 7] = ["angle", "joints", "fixed", "limits", "rpy", "lower", "upper"];
     let steps = steps(address).unwrap_or_default();
     let mut names = steps.iter().rev().filter_map(|step| match step {
         Step::Name(name) => Some(name.as_str()),
         Step::Number(_) => None,
     });
     // The name of a joint may be the last.
-    names.by_ref().take(2).any(|name| ANGLES.contains(&name))
+    names.by_ref().take(2).any(|name| ANGLE_KEYS.contains(&name))
 }
 
 /// Addresses of all numbers of a world file, and of those that it leaves unsaid; without `world.`.
@@ -276,11 +276,11 @@ fn numbers_of_element(element: roxmltree::Node, path: &str, found: &mut Vec<Stri
 }
 
 /// Addresses that are compared with a wrong one, at most: maps and drawings have very many.
-const COMPARED: usize = 10_000;
+const MAX_COMPARED_ADDRESSES: usize = 10_000;
 
 /// Returns the known address closest to this one.
 pub(super) fn nearest(address: &str, known: Vec<String>) -> Option<String> {
-    known.into_iter().take(COMPARED).min_by_key(|known| edits(address, known))
+    known.into_iter().take(MAX_COMPARED_ADDRESSES).min_by_key(|known| edits(address, known))
 }
 
 /// Returns the Levenshtein distance: the number of insertions, deletions and replacements of characters.
@@ -303,7 +303,7 @@ fn edits(a: &str, b: &str) -> usize {
 ///
 /// # Errors
 /// The reason, if there is no number.
-pub(super) fn in_urdf(text: &str, steps: &[Step]) -> Result<Found, String> {
+pub(super) fn in_urdf(text: &str, steps: &[Step]) -> Result<FoundNumber, String> {
     let document = roxmltree::Document::parse(text).map_err(|error| error.to_string())?;
     let mut here = document.root_element();
     let mut steps = steps.iter().peekable();
@@ -320,7 +320,7 @@ pub(super) fn in_urdf(text: &str, steps: &[Step]) -> Result<Found, String> {
             let at = words.get(number).ok_or_else(|| format!("{name} has {} entries", words.len()))?;
             let at = range.start + at.start..range.start + at.end;
             text[at.clone()].parse::<f64>().map_err(|_| format!("{} is not a number", &text[at.clone()]))?;
-            return Ok(Found { at, is_whole: false });
+            return Ok(FoundNumber { at, is_whole: false });
         }
         let mut children = here.children().filter(|child| child.has_tag_name(name.as_str()));
         let which = match steps.peek() {
@@ -387,7 +387,7 @@ mod tests {
     }
 
     #[test]
-    fn places_that_are_not_said_are_written_out() {
+    fn default_values_are_written_out() {
         for (address, key) in
             [("obstacle.\"a post\".at[1]", "at"), ("obstacle.b.angle", "angle"), ("robot.at[0]", "at")]
         {

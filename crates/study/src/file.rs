@@ -14,13 +14,13 @@ use std::path::Path;
 use toml::Spanned;
 
 /// Layouts of a study at the most.
-const MOST_LAYOUTS: usize = 20_000_000;
+const MAX_LAYOUTS: usize = 20_000_000;
 
 /// How words such as `--planner=first` are read; they are those of the main job.
 pub type ReadOptions<'a> = &'a dyn Fn(&[String]) -> Result<(Options, Overrides), String>;
 
 /// How a file that a study names is had.
-type Open<'a> = &'a dyn Fn(Named, Option<&str>) -> Result<Source, InputError>;
+type OpenFile<'a> = &'a dyn Fn(NamedFile, Option<&str>) -> Result<Source, InputError>;
 
 /// Knows the file for messages.
 struct Reader<'a> {
@@ -33,7 +33,7 @@ struct Reader<'a> {
 /// Everything that is wrong with them, with line, column and cure.
 pub(super) fn load(path: &Path, read_options: ReadOptions) -> Result<Study, InputError> {
     let study = Source::read(path)?;
-    let beside = |which: Named, name: Option<&str>| {
+    let beside = |which: NamedFile, name: Option<&str>| {
         let missing = || {
             let (key, example) = which.words();
             study
@@ -42,8 +42,8 @@ pub(super) fn load(path: &Path, read_options: ReadOptions) -> Result<Study, Inpu
         };
         let path = path.with_file_name(name.ok_or_else(missing)?);
         match which {
-            Named::Robot => RobotFile::from(path).read(),
-            Named::World => Source::read(&path),
+            NamedFile::Robot => RobotFile::from(path).read(),
+            NamedFile::World => Source::read(&path),
         }
     };
     read(&study, read_options, &beside)
@@ -51,12 +51,12 @@ pub(super) fn load(path: &Path, read_options: ReadOptions) -> Result<Study, Inpu
 
 /// A file that a study names.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Named {
+pub(super) enum NamedFile {
     Robot,
     World,
 }
 
-impl Named {
+impl NamedFile {
     /// The key that names it, and an example.
     fn words(self) -> (&'static str, &'static str) {
         match self {
@@ -67,11 +67,11 @@ impl Named {
 }
 
 /// Reads a study from its text, and what it names through `open`.
-pub(super) fn read(source: &Source, read_options: ReadOptions, open: Open) -> Result<Study, InputError> {
+pub(super) fn read(source: &Source, read_options: ReadOptions, open: OpenFile) -> Result<Study, InputError> {
     let reader = Reader { source };
     let file = reader.parse()?;
-    let urdf = reader.named(Named::Robot, file.robot.as_ref(), open)?;
-    let world = reader.named(Named::World, file.world.as_ref(), open)?;
+    let urdf = reader.named(NamedFile::Robot, file.robot.as_ref(), open)?;
+    let world = reader.named(NamedFile::World, file.world.as_ref(), open)?;
     let (options, overrides) = match &file.options {
         None => (Options::default(), Overrides::default()),
         Some(words) => read_options(words.get_ref()).map_err(|why| reader.options(words, &why))?,
@@ -145,9 +145,9 @@ impl Reader<'_> {
     fn design(&self, file: &StudyFile, parameters: &[Parameter], seed: u64) -> Result<Design, Diagnostic> {
         let drawn = parameters.iter().position(|parameter| matches!(parameter.values, Values::Drawn { .. }));
         let draws = self.draws(file, drawn)?;
-        let design = Design::new(parameters, draws, seed).filter(|design| design.count() <= MOST_LAYOUTS);
+        let design = Design::new(parameters, draws, seed).filter(|design| design.count() <= MAX_LAYOUTS);
         design.ok_or_else(|| {
-            let message = format!("the values make more than {MOST_LAYOUTS} layouts");
+            let message = format!("the values make more than {MAX_LAYOUTS} layouts");
             self.source.diagnostic(message).help("list fewer values, or draw some of them")
         })
     }
@@ -186,13 +186,13 @@ impl Reader<'_> {
 
     /// What is wrong with the options, on a line.
     fn options(&self, words: &Spanned<Vec<String>>, why: &str) -> Diagnostic {
-        let said: Vec<&str> = why.lines().map(str::trim).filter(|line| !line.is_empty()).collect();
+        let reasons: Vec<&str> = why.lines().map(str::trim).filter(|line| !line.is_empty()).collect();
         let help = "`options` are planning options (`cplan help plan`); give files to `cplan study` itself";
-        self.wrong(words.span(), format!("options: {}", said.join("; ")), help)
+        self.wrong(words.span(), format!("options: {}", reasons.join("; ")), help)
     }
 
     /// A file that the study names.
-    fn named(&self, which: Named, name: Option<&Text>, open: Open) -> Result<Source, InputError> {
+    fn named(&self, which: NamedFile, name: Option<&Text>, open: OpenFile) -> Result<Source, InputError> {
         let named = name.map(|name| name.get_ref().as_str());
         open(which, named).map_err(|error| match (name, error.diagnostics()) {
             (Some(name), [only]) => {
@@ -316,7 +316,7 @@ impl Reader<'_> {
         match (&file.draws, drawn) {
             (None, None) => Ok(1),
             (Some(draws), Some(_)) => match *draws.get_ref() {
-                n @ 1.. if n <= MOST_LAYOUTS as u64 => Ok(n as usize),
+                n @ 1.. if n <= MAX_LAYOUTS as u64 => Ok(n as usize),
                 n => Err(self.wrong(draws.span(), format!("{n} draws"), "give it 1 to 20 million")),
             },
             (Some(draws), None) => Err(self.wrong(
@@ -392,7 +392,7 @@ impl Reader<'_> {
                 Err(self.wrong(layouts.span(), "a search needs an objective", "objective = \"least duration\""))
             }
             _ if !has_room => Err(self.wrong(layouts.span(), "no parameter has more than one value", "widen a range")),
-            n @ 1.. if n <= MOST_LAYOUTS as u64 => Ok(n as usize),
+            n @ 1.. if n <= MAX_LAYOUTS as u64 => Ok(n as usize),
             n => Err(self.wrong(layouts.span(), format!("{n} layouts"), "give it 1 to 20 million")),
         }
     }

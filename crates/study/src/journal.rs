@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 use thiserror::Error;
 
 /// Rows are on disk after this time.
-const DELAY: Duration = Duration::from_millis(200);
+const MAX_WRITE_DELAY: Duration = Duration::from_millis(200);
 
 /// Why rows cannot be kept.
 #[derive(Debug, Error)]
@@ -39,7 +39,7 @@ pub enum JournalError {
 
 /// The inputs that determine the rows.
 #[derive(Debug, PartialEq, Serialize, Deserialize)]
-struct Head {
+struct JournalHeader {
     cplan: String,
     study: String,
     world: String,
@@ -80,7 +80,7 @@ impl Journal {
                 break;
             }
             if length == 0 {
-                match serde_json::from_slice::<Head>(&line) {
+                match serde_json::from_slice::<JournalHeader>(&line) {
                     Ok(found) if found == head && !fresh => {}
                     Ok(_) if fresh => break,
                     _ => return Err(JournalError::Other { path: path.to_owned() }),
@@ -122,7 +122,7 @@ impl Journal {
     pub fn add(&mut self, row: &Row) -> Result<(), JournalError> {
         let mut written = serde_json::to_writer(&mut self.file, row).map_err(io::Error::from);
         written = written.and_then(|()| self.file.write_all(b"\n"));
-        if self.written.elapsed() >= DELAY {
+        if self.written.elapsed() >= MAX_WRITE_DELAY {
             written = written.and_then(|()| self.file.flush());
             self.written = Instant::now();
         }
@@ -146,13 +146,13 @@ impl Journal {
     }
 }
 
-fn head_text(head: &Head) -> String {
+fn head_text(head: &JournalHeader) -> String {
     serde_json::to_string(head).unwrap_or_default() + "\n"
 }
 
 impl Study {
-    fn head(&self) -> Head {
+    fn head(&self) -> JournalHeader {
         let [world, urdf] = [&self.world, &self.urdf].map(|template| template.source().text().to_owned());
-        Head { cplan: env!("CARGO_PKG_VERSION").into(), study: self.source.text().into(), world, urdf }
+        JournalHeader { cplan: env!("CARGO_PKG_VERSION").into(), study: self.source.text().into(), world, urdf }
     }
 }

@@ -43,7 +43,7 @@ use cplan_parallel::{caught, in_order};
 use cplan_robot::{InputError, Source};
 use cplan_solver::{Options, solve};
 use cplan_world::{LoadedScene, Overrides};
-use file::Named;
+use file::NamedFile;
 use overlap::overlap;
 use parameter::Design;
 use std::ops::Range;
@@ -109,7 +109,7 @@ impl Study {
     /// Every defect, with line, column and hint.
     pub fn from_sources([study, urdf, world]: [Source; 3], read_options: ReadOptions) -> Result<Self, InputError> {
         file::read(&study, read_options, &|which, _| {
-            Ok(if which == Named::Robot { urdf.clone() } else { world.clone() })
+            Ok(if which == NamedFile::Robot { urdf.clone() } else { world.clone() })
         })
     }
 
@@ -180,7 +180,7 @@ impl Study {
     /// # Errors
     /// Same as [`Study::problem`], and reasons for which planning is refused.
     pub fn plan(&self, values: &[f64]) -> Result<Plan, String> {
-        let problem = self.problem(values).map_err(|error| told(&error))?;
+        let problem = self.problem(values).map_err(|error| describe_error(&error))?;
         plan(&problem, &self.options).map_err(|error| error.to_string())
     }
 
@@ -205,8 +205,8 @@ impl Study {
     }
 
     /// Plans with these values and measures the result.
-    fn judged(&self, values: &[f64]) -> Result<Judged, String> {
-        let problem = self.problem(values).map_err(|error| told(&error))?;
+    fn judged(&self, values: &[f64]) -> Result<LayoutResult, String> {
+        let problem = self.problem(values).map_err(|error| describe_error(&error))?;
         if let Some(lack) = self.options.planner.lack(&problem.scene().workspace().preferences) {
             return Err(lack);
         }
@@ -232,9 +232,9 @@ impl Study {
 }
 
 /// The ending of planning, the reason if there is no motion, and the measured values.
-type Judged = (Ending, Option<String>, Vec<Option<f64>>);
+type LayoutResult = (Ending, Option<String>, Vec<Option<f64>>);
 
 /// Formats the first defect on one line, without its place in files that exist only for one layout.
-fn told(error: &InputError) -> String {
+fn describe_error(error: &InputError) -> String {
     error.diagnostics().first().map_or_else(|| error.to_string(), |first| first.message.clone())
 }

@@ -4,7 +4,7 @@ use cplan_core::model::Obstacle;
 use cplan_geometry::{Bounds, BoxTree, Convex, separation};
 
 /// Depths up to this, metres, are touching: what numbers in files and moving shapes round.
-const TOUCHING: f64 = 1e-9;
+const TOUCHING_DEPTH: f64 = 1e-9;
 
 /// Describes two obstacles that overlap `now`, in a layout, but not `before`, in the files. Examines only pairs in which at least one
 /// differs from the files.
@@ -27,7 +27,7 @@ pub(super) fn overlap(before: &[Obstacle], now: &[Obstacle]) -> Option<String> {
 
 /// Returns true if two obstacles share more than boundary points at some height, and neither rests on the other.
 fn are_in_each_other(a: &Obstacle, b: &Obstacle) -> bool {
-    if !(a.heights.object_surely_meets(b.heights) && b.heights.object_surely_meets(a.heights)) {
+    if !(a.heights.object_definitely_meets(b.heights) && b.heights.object_definitely_meets(a.heights)) {
         return false;
     }
     // Maps have many pieces.
@@ -36,7 +36,7 @@ fn are_in_each_other(a: &Obstacle, b: &Obstacle) -> bool {
     a.pieces.iter().any(|piece| {
         near.clear();
         tree.meeting(&piece.bounds(), &mut near);
-        near.iter().any(|&k| separation(piece, &b.pieces[k as usize]).distance < -TOUCHING)
+        near.iter().any(|&k| separation(piece, &b.pieces[k as usize]).distance < -TOUCHING_DEPTH)
     })
 }
 
@@ -55,7 +55,7 @@ fn meet(a: &Bounds, b: &Bounds) -> bool {
 mod tests {
     use super::*;
     use cplan_core::model::Heights;
-    use cplan_core::space::Draws;
+    use cplan_core::space::SplitMix64;
 
     fn square(name: &str, at: [f64; 2]) -> Obstacle {
         let corners = [[-0.5, -0.5], [0.5, -0.5], [0.5, 0.5], [-0.5, 0.5]];
@@ -64,8 +64,8 @@ mod tests {
 
     /// Squares of side 1 overlap where their middles are nearer than that along both axes, discs by the distance of their centres.
     #[test]
-    fn what_overlaps_is_what_middles_say() {
-        let mut numbers = Draws::nth(5, 0);
+    fn overlaps_agree_with_centres() {
+        let mut numbers = SplitMix64::nth(5, 0);
         let files = [square("a", [9.0, 0.0]), square("b", [0.0, 0.0])];
         let round = |name: &str, at: [f64; 2]| Obstacle::circle(name, at, 0.5).unwrap();
         let discs = [round("a", [9.0, 0.0]), round("b", [0.0, 0.0])];
@@ -76,18 +76,18 @@ mod tests {
                 0 => (numbers.unit() * 5.0).floor() * 0.5 - 1.0,
                 _ => numbers.unit() * 3.0 - 1.5,
             });
-            let said = overlap(&files, &[square("a", [x, y]), square("b", [0.0, 0.0])]);
-            assert_eq!(said.is_some(), x.abs() < 1.0 && y.abs() < 1.0, "{x} {y}");
+            let overlapping_pair = overlap(&files, &[square("a", [x, y]), square("b", [0.0, 0.0])]);
+            assert_eq!(overlapping_pair.is_some(), x.abs() < 1.0 && y.abs() < 1.0, "{x} {y}");
             let disc = overlap(&discs, &[round("a", [x, y]), round("b", [0.0, 0.0])]);
             assert_eq!(disc.is_some(), x.hypot(y) < 1.0, "{x} {y}");
-            overlapping[0] += usize::from(said.is_some());
+            overlapping[0] += usize::from(overlapping_pair.is_some());
             overlapping[1] += usize::from(disc.is_some());
         }
         assert!(overlapping.iter().all(|&n| n > 50 && n < 350), "{overlapping:?}");
     }
 
     #[test]
-    fn only_what_the_files_do_not_have_counts() {
+    fn overlaps_of_the_original_files_are_ignored() {
         let [a, b, c] = [square("a", [0.0, 0.0]), square("b", [0.5, 0.0]), square("c", [5.0, 0.0])];
         let files = [a.clone(), b.clone(), c.clone()];
         assert_eq!(overlap(&files, &files), None);

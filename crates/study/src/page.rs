@@ -10,13 +10,13 @@ use cplan_compare::{Align, Column, Picture, Table};
 use cplan_text::{counted, markup};
 
 /// Number of parameters whose pairs have maps.
-const MAPPED: usize = 4;
-/// Cells of a map along an axis of values that are drawn, or of more than [`LISTED`].
-const CELLS: usize = 24;
+const MAX_MAPPED_PARAMETERS: usize = 4;
+/// Cells of a map along an axis of values that are drawn, or of more than [`MAX_LISTED_CELLS`].
+const CELLS_PER_AXIS: usize = 24;
 /// Listed values that have cells of their own.
-const LISTED: usize = 48;
+const MAX_LISTED_CELLS: usize = 48;
 /// Points of a chart at the most.
-const POINTS: usize = 4000;
+const MAX_CHART_POINTS: usize = 4000;
 
 impl Study {
     /// Returns the page of these rows, with pictures of some layouts. The same rows give the same bytes.
@@ -35,11 +35,11 @@ impl Study {
             html += &section("Best layouts", &(table(&summary.best_table()) + &edges));
         }
         html += &pictured(pictures);
-        html + &foot(HOW)
+        html + &foot(METHOD_NOTE)
     }
 
     fn outcomes(&self, summary: &Summary) -> String {
-        let lines: Vec<&str> = HEADINGS.to_vec();
+        let lines: Vec<&str> = OUTCOME_HEADINGS.to_vec();
         let columns = lines
             .into_iter()
             .zip([Align::Left, Align::Right, Align::Left])
@@ -47,7 +47,7 @@ impl Study {
         let tally = Ending::ALL.into_iter().zip(summary.tally()).filter(|(_, count)| *count > 0);
         let mut rows: Vec<Vec<Option<String>>> =
             tally.map(|(ending, count)| vec![Some(ending.name().into()), Some(count.to_string()), None]).collect();
-        for (ending, reason, count) in summary.reasons().into_iter().take(REASONS) {
+        for (ending, reason, count) in summary.reasons().into_iter().take(MAX_REASONS) {
             rows.push(vec![Some(format!("\u{2026} {}", ending.name())), Some(count.to_string()), Some(reason)]);
         }
         // Causes are sentences, which are wrapped.
@@ -56,7 +56,7 @@ impl Study {
 
     /// Draws a map for each pair of parameters: where a motion exists, and the best value of the objective.
     fn maps(&self, summary: &Summary, rows: &[Row]) -> String {
-        let mapped = self.parameters.len().min(MAPPED);
+        let mapped = self.parameters.len().min(MAX_MAPPED_PARAMETERS);
         let pairs = (0..mapped).flat_map(|a| (a + 1..mapped).map(move |b| [a, b]));
         let maps: String = pairs.map(|pair| self.map(summary, rows, pair)).collect();
         if maps.is_empty() {
@@ -70,7 +70,7 @@ impl Study {
                 "<li><svg viewBox=\"0 0 12 12\"><rect width=\"12\" height=\"12\" fill=\"{color}\"/></svg> {text}</li>\n"
             )
         };
-        let keys: String = LEGEND.into_iter().map(key).collect();
+        let keys: String = MAP_LEGEND.into_iter().map(key).collect();
         let note = format!(
             "<p class=\"sub\">{what}the cross is the best of all.</p>\n<ul class=\"key signs\">\n{keys}</ul>\n"
         );
@@ -145,7 +145,7 @@ impl Study {
                 let [x, y] = place(at).map(number);
                 format!("<circle cx=\"{x}\" cy=\"{y}\" r=\"{radius}\"/>")
             };
-            let stride = dots.len().div_ceil(POINTS).max(1);
+            let stride = dots.len().div_ceil(MAX_CHART_POINTS).max(1);
             svg += "<g class=\"p0 dot\">";
             dots.iter().step_by(stride).for_each(|at| svg += &dot(*at, "1.5"));
             svg += "</g>\n<g class=\"p1 only\">";
@@ -165,50 +165,50 @@ impl Study {
 }
 
 /// Cells whose layouts are all proven to have no motion.
-const BARRED: &str = "#c25100";
+const INFEASIBLE_COLOR: &str = "#c25100";
 /// Cells in which some have a motion, but none meets the conditions.
-const UNFIT: &str = "#f2b8cf";
+const UNFIT_COLOR: &str = "#f2b8cf";
 /// Cells in which none has one, for whatever reason.
-const NOTHING: &str = "#9aa1a9";
+const NO_MOTION_COLOR: &str = "#9aa1a9";
 
 /// Meaning of the colours of a map, other than those of the objective.
-const LEGEND: [(&str, &str); 3] = [
-    (UNFIT, "a motion, but not one that meets the conditions"),
-    (BARRED, "proven infeasible, in all layouts"),
-    (NOTHING, "nothing to plan, or unknown"),
+const MAP_LEGEND: [(&str, &str); 3] = [
+    (UNFIT_COLOR, "a motion, but not one that meets the conditions"),
+    (INFEASIBLE_COLOR, "proven infeasible, in all layouts"),
+    (NO_MOTION_COLOR, "nothing to plan, or unknown"),
 ];
 
 /// Distance below which dots of two charts look equal, as a fraction of the chart.
-const ALIKE: f64 = 0.01;
+const DOT_DISTANCE: f64 = 0.01;
 
 fn are_alike(a: &[[f64; 2]], b: &[[f64; 2]]) -> bool {
-    let near = |(a, b): (&[f64; 2], &[f64; 2])| (0..2).all(|k| (a[k] - b[k]).abs() <= ALIKE);
+    let near = |(a, b): (&[f64; 2], &[f64; 2])| (0..2).all(|k| (a[k] - b[k]).abs() <= DOT_DISTANCE);
     a.len() == b.len() && a.iter().zip(b).all(near)
 }
 
 /// Left end and width of a scale of colours, pixels: those of the map above it.
-const SCALE: [f64; 2] = [78.0, 368.0];
+const SCALE_EXTENT: [f64; 2] = [78.0, 368.0];
 /// Colours that it has.
-const SHADES: usize = 64;
+const SCALE_SHADES: usize = 64;
 
 /// Describes the colours from the least to the greatest cost; `None` if the costs are equal.
 fn scale(objective: Objective, least: f64, greatest: f64) -> String {
     if greatest <= least || !(greatest - least).is_finite() {
         return String::new();
     }
-    let [left, width] = SCALE;
-    let shade_width = width / SHADES as f64;
+    let [left, width] = SCALE_EXTENT;
+    let shade_width = width / SCALE_SHADES as f64;
     let values = [least, greatest].map(|cost| objective.cost(cost));
     let axis = Axis::between(values[0].min(values[1]), values[0].max(values[1]));
     let mut svg =
         String::from("<svg class=\"chart\" viewBox=\"0 0 460 52\" role=\"img\" aria-label=\"Scale of colours\">\n");
-    for k in 0..SHADES {
+    for k in 0..SCALE_SHADES {
         svg += &format!(
             "<rect x=\"{}\" y=\"2\" width=\"{}\" height=\"12\" fill=\"{}\"/>",
             number(left + shade_width * k as f64),
             // Without seams.
             number(shade_width + 0.3),
-            shade((k as f64 + 0.5) / SHADES as f64)
+            shade((k as f64 + 0.5) / SCALE_SHADES as f64)
         );
     }
     for (value, text) in axis.ticks() {
@@ -224,12 +224,12 @@ fn scale(objective: Objective, least: f64, greatest: f64) -> String {
     )
 }
 
-const HEADINGS: [&str; 3] = ["outcome", "layouts", "why"];
+const OUTCOME_HEADINGS: [&str; 3] = ["outcome", "layouts", "why"];
 
 /// Reasons that are listed.
-const REASONS: usize = 12;
+const MAX_REASONS: usize = 12;
 
-const HOW: &str = "Every layout was planned in as by itself. <em>Found</em>: the whole continuous motion is certified free of collision. \
+const METHOD_NOTE: &str = "Every layout was planned in as by itself. <em>Found</em>: the whole continuous motion is certified free of collision. \
                    <em>Infeasible</em>: proven. <em>Refused</em>: there is nothing to plan, because start or goal is not free or out of \
                    reach, or a value makes no sense. Numbers in reasons are left out, so that layouts that fail alike count together.";
 
@@ -263,11 +263,11 @@ impl Bins {
         let [from, to] = parameter.values.range();
         match &parameter.values {
             // Each value in the middle of its cell.
-            Values::Stepped { count, .. } if *count <= LISTED && to > from => {
+            Values::Stepped { count, .. } if *count <= MAX_LISTED_CELLS && to > from => {
                 let half = (to - from) / (count - 1) as f64 / 2.0;
                 Self { from: from - half, to: to + half, count: *count }
             }
-            _ if to > from => Self { from, to, count: CELLS },
+            _ if to > from => Self { from, to, count: CELLS_PER_AXIS },
             _ => Self { from: from - 0.5, to: to + 0.5, count: 1 },
         }
     }
@@ -318,9 +318,9 @@ impl Cell {
         let color = match self.cost {
             Some(cost) if greatest > least => shade((cost - least) / (greatest - least)),
             Some(_) => shade(0.0),
-            None if self.found > 0 => UNFIT.to_owned(),
-            None if self.infeasible == self.layouts => BARRED.to_owned(),
-            None => NOTHING.to_owned(),
+            None if self.found > 0 => UNFIT_COLOR.to_owned(),
+            None if self.infeasible == self.layouts => INFEASIBLE_COLOR.to_owned(),
+            None => NO_MOTION_COLOR.to_owned(),
         };
         Some((color, text))
     }
@@ -329,11 +329,12 @@ impl Cell {
 /// Returns a colour from dark blue at 0 to yellow at 1, with increasing lightness: readable with colour blindness and
 /// in grey.
 fn shade(share: f64) -> String {
-    const STOPS: [[f64; 3]; 5] =
+    const COLOR_STOPS: [[f64; 3]; 5] =
         [[68.0, 1.0, 84.0], [59.0, 82.0, 139.0], [33.0, 145.0, 140.0], [94.0, 201.0, 98.0], [253.0, 231.0, 37.0]];
-    let at = share.clamp(0.0, 1.0) * (STOPS.len() - 1) as f64;
-    let first = (at as usize).min(STOPS.len() - 2);
-    let mixed = |k: usize| STOPS[first][k] + (STOPS[first + 1][k] - STOPS[first][k]) * (at - first as f64);
+    let at = share.clamp(0.0, 1.0) * (COLOR_STOPS.len() - 1) as f64;
+    let first = (at as usize).min(COLOR_STOPS.len() - 2);
+    let mixed =
+        |k: usize| COLOR_STOPS[first][k] + (COLOR_STOPS[first + 1][k] - COLOR_STOPS[first][k]) * (at - first as f64);
     let [r, g, b] = [0, 1, 2].map(|k| mixed(k).round() as u8);
     format!("#{r:02x}{g:02x}{b:02x}")
 }

@@ -1,6 +1,6 @@
 //! Parameters of a study, and their values.
 
-use cplan_core::space::Draws;
+use cplan_core::space::SplitMix64;
 
 /// A number that differs from layout to layout.
 #[derive(Debug, Clone, PartialEq)]
@@ -135,7 +135,7 @@ impl Design {
                 }
                 Values::Drawn { from, to, latin } => {
                     // A sequence of its own for each parameter, so that another one beside it changes no draws.
-                    let mut numbers = Draws::nth(seed, number as u64);
+                    let mut numbers = SplitMix64::nth(seed, number as u64);
                     let shares = if *latin {
                         stratified(draws, &mut numbers)
                     } else {
@@ -167,7 +167,7 @@ impl Design {
 }
 
 /// Returns one number in each of `count` equal parts of `[0, 1)`, in random order.
-fn stratified(count: usize, numbers: &mut Draws) -> Vec<f64> {
+fn stratified(count: usize, numbers: &mut SplitMix64) -> Vec<f64> {
     let mut shares: Vec<f64> = (0..count).map(|part| (part as f64 + numbers.unit()) / count as f64).collect();
     // Fisher and Yates.
     for i in (1..count).rev() {

@@ -11,7 +11,7 @@ use parquet::schema::types::Type;
 use std::sync::Arc;
 
 /// Rows per row group, the unit that readers load at once.
-const GROUP: usize = 1 << 16;
+const ROWS_PER_GROUP: usize = 1 << 16;
 
 /// A column of the table.
 enum Cells {
@@ -50,7 +50,7 @@ impl Study {
         let properties =
             WriterProperties::builder().set_created_by(format!("cplan {}", env!("CARGO_PKG_VERSION"))).build();
         let mut writer = SerializedFileWriter::new(Vec::new(), Arc::new(schema), Arc::new(properties))?;
-        for rows in rows.chunks(GROUP) {
+        for rows in rows.chunks(ROWS_PER_GROUP) {
             let mut group = writer.next_row_group()?;
             for cells in self.cells(rows) {
                 let Some(mut column) = group.next_column()? else { break };

@@ -4,16 +4,16 @@ use super::Study;
 use super::measure::Objective;
 use super::row::Row;
 use super::swarm::minimize;
-use cplan_core::space::Draws;
+use cplan_core::space::SplitMix64;
 use cplan_parallel::in_order;
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 
 /// Layouts of a generation, if the search may try ten times as many.
-const SWARM: usize = 40;
+const GENERATION_SIZE: usize = 40;
 
 /// Cost of a layout that does not count.
-const NOTHING: f64 = f64::INFINITY;
+const EXCLUDED_COST: f64 = f64::INFINITY;
 
 impl Study {
     /// Returns the cost of a row for the search, of which less is better; infinite for a layout without a motion or
@@ -21,7 +21,7 @@ impl Study {
     #[must_use]
     pub fn cost(&self, row: &Row) -> f64 {
         let value = |objective: Objective| Some(objective.cost(row.measured[self.column(objective.measure)?]?));
-        self.objective.filter(|_| row.fits).and_then(value).unwrap_or(NOTHING)
+        self.objective.filter(|_| row.fits).and_then(value).unwrap_or(EXCLUDED_COST)
     }
 
     /// Continues the search from `known` rows, those of all layouts of the study, on several threads. Passes each row
@@ -37,7 +37,7 @@ impl Study {
         jobs: usize,
         each: impl FnMut(Row) -> Result<(), E>,
     ) -> Result<(), E> {
-        let swarm = (self.searched / 10).clamp(1, SWARM);
+        let swarm = (self.searched / 10).clamp(1, GENERATION_SIZE);
         let mut generations = self.searched / swarm;
         if generations == 0 || self.objective.is_none() {
             return Ok(());
@@ -45,7 +45,7 @@ impl Study {
         let costs = known.iter().map(|row| (key(&row.values), self.cost(row))).collect();
         let mut landscape = Landscape { study: self, done, jobs, first: known.len(), each, costs, tried: 0 };
         let rooms: Vec<[f64; 2]> = self.parameters.iter().map(|parameter| parameter.values.room()).collect();
-        let mut numbers = Draws::nth(self.seed, u64::MAX);
+        let mut numbers = SplitMix64::nth(self.seed, u64::MAX);
         let mut places = self.best_places(known, swarm);
         if places.len() < swarm {
             // Drawn places fill the swarm, which takes a generation.
@@ -99,7 +99,7 @@ impl<F> Landscape<'_, F> {
         for values in &layouts {
             // Places of listed values are often the same, and so are those at the ends of ranges.
             if let Entry::Vacant(entry) = costs.entry(key(values)) {
-                entry.insert(NOTHING);
+                entry.insert(EXCLUDED_COST);
                 new.push(values);
             }
         }
@@ -113,7 +113,7 @@ impl<F> Landscape<'_, F> {
             *tried += 1;
             each(row)
         })?;
-        Ok(layouts.iter().map(|values| costs.get(&key(values)).copied().unwrap_or(NOTHING)).collect())
+        Ok(layouts.iter().map(|values| costs.get(&key(values)).copied().unwrap_or(EXCLUDED_COST)).collect())
     }
 }
 

@@ -4,23 +4,23 @@ use super::Study;
 use super::measure::Measure;
 use super::parameter::{Parameter, Values};
 use super::row::{Ending, Row};
-use cplan_compare::{Align, Column, Table, WIDTH};
+use cplan_compare::{Align, Column, MAX_TABLE_WIDTH, Table};
 use cplan_text::counted;
 use serde_json::{Value, json};
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
 
 /// Reasons that are listed.
-const REASONS: usize = 6;
+const MAX_REASONS: usize = 6;
 
 /// Fraction of a range that counts as its end.
-const EDGE: f64 = 0.05;
+const RANGE_END_SHARE: f64 = 0.05;
 
 /// Indentation of tables.
 const INDENT: &str = "  ";
 
 /// Layouts that are listed as the best, and as the worst.
-const BEST: usize = 5;
+const LISTED_LAYOUTS: usize = 5;
 
 /// Figures of all rows.
 #[derive(Debug, Clone)]
@@ -121,7 +121,7 @@ impl<'a> Summary<'a> {
                 Values::Stepped { from, to, .. } | Values::Drawn { from, to, .. } if from < to => [from, to],
                 _ => return None,
             };
-            let near = EDGE * (to - from);
+            let near = RANGE_END_SHARE * (to - from);
             let which = match *value {
                 value if to - value <= near => format!("of at most {to}"),
                 value if value - from <= near => format!("of at least {from}"),
@@ -164,21 +164,23 @@ impl<'a> Summary<'a> {
         let reasons = self.reasons();
         if !reasons.is_empty() {
             text += "why there is no motion:\n";
-            for (ending, reason, count) in reasons.iter().take(REASONS) {
+            for (ending, reason, count) in reasons.iter().take(MAX_REASONS) {
                 text += &format!("  {count:>8}  {}: {reason}\n", ending.name());
             }
-            let others: usize = reasons.iter().skip(REASONS).map(|(.., count)| count).sum();
+            let others: usize = reasons.iter().skip(MAX_REASONS).map(|(.., count)| count).sum();
             if others > 0 {
-                let kinds = counted(reasons.len() - REASONS, "other cause");
+                let kinds = counted(reasons.len() - MAX_REASONS, "other cause");
                 text += &format!("  {others:>8}  for {kinds}; see the table\n");
             }
         }
         if let (Some(objective), Some(_)) = (study.objective, self.best()) {
-            let table = |table: Table| if wide { table.to_text() } else { table.to_text_within(WIDTH - INDENT.len()) };
-            let best = table(self.table(self.ranked.iter().take(BEST)));
+            let table = |table: Table| {
+                if wide { table.to_text() } else { table.to_text_within(MAX_TABLE_WIDTH - INDENT.len()) }
+            };
+            let best = table(self.table(self.ranked.iter().take(LISTED_LAYOUTS)));
             text += &format!("best ({objective}):\n{}", indented(&best));
             self.edges().iter().for_each(|edge| text += &format!("  {edge}\n"));
-            if self.ranked.len() > BEST {
+            if self.ranked.len() > LISTED_LAYOUTS {
                 let worst = table(self.table(self.ranked.iter().rev().take(1)));
                 text += &format!("worst:\n{}", indented(&worst));
             }
@@ -221,7 +223,7 @@ impl<'a> Summary<'a> {
 
     /// Returns the best rows, up to the number that is listed.
     pub(super) fn best_table(&self) -> Table {
-        self.table(self.ranked.iter().take(2 * BEST))
+        self.table(self.ranked.iter().take(2 * LISTED_LAYOUTS))
     }
 
     fn table<'b>(&self, rows: impl Iterator<Item = &'b usize>) -> Table {
@@ -313,7 +315,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn reasons_are_told_by_their_first_cause() {
+    fn reasons_are_grouped_by_first_cause() {
         let hits = "the start (shoulder -0.9 rad, elbow 0.4 rad) is not free: link \"forearm\" hits obstacle \"crate, 2\", 0.0130 m deep; \
                     link \"upper arm\" hits obstacle \"b\", 0.2 m deep";
         assert_eq!(cause(hits), "the start is not free: link \"forearm\" hits obstacle \"crate, 2\"");
@@ -323,7 +325,7 @@ mod tests {
     }
 
     #[test]
-    fn reasons_differ_in_words_alone() {
+    fn reasons_are_compared_without_numbers() {
         let reasons = ["link \"arm 2\" is 0.012 m deep in \"post 3\" (1.5, -2e-3).", "proven: 17 boxes of it"];
         let without = reasons.map(without_numbers);
         assert_eq!(without[1], "proven: # boxes of it");

@@ -1,16 +1,16 @@
 //! Particle swarm optimisation (Kennedy and Eberhart 1995), with the weights of Clerc's standard swarm (2006).
 
-use cplan_core::space::Draws;
+use cplan_core::space::SplitMix64;
 use std::f64::consts::LN_2;
 
 /// Share of its speed that a particle keeps from one generation to the next; Clerc's value.
-const INERTIA: f64 = 0.5 / LN_2;
+const SPEED_SHARE: f64 = 0.5 / LN_2;
 
 /// Strongest pull towards a best place, as a multiple of the distance to it; Clerc's value.
-const PULL: f64 = 0.5 + LN_2;
+const MAX_PULL: f64 = 0.5 + LN_2;
 
 /// Greatest speed at the beginning, as a share of the room.
-const FIRST_SPEED: f64 = 0.2;
+const MAX_FIRST_SPEED: f64 = 0.2;
 
 /// A place that moves, and the best one that it has been at.
 struct Particle {
@@ -21,17 +21,17 @@ struct Particle {
 }
 
 impl Particle {
-    fn new((place, cost): (Vec<f64>, f64), rooms: &[[f64; 2]], numbers: &mut Draws) -> Self {
-        let speed = |[lower, upper]: &[f64; 2]| (upper - lower) * FIRST_SPEED * (2.0 * numbers.unit() - 1.0);
+    fn new((place, cost): (Vec<f64>, f64), rooms: &[[f64; 2]], numbers: &mut SplitMix64) -> Self {
+        let speed = |[lower, upper]: &[f64; 2]| (upper - lower) * MAX_FIRST_SPEED * (2.0 * numbers.unit() - 1.0);
         Self { speed: rooms.iter().map(speed).collect(), best: place.clone(), place, least: cost }
     }
 
     /// Moves on with some of its speed, pulled to its own best place and to that of all, and stops at the ends of the rooms.
-    fn move_on(&mut self, best_of_all: &[f64], rooms: &[[f64; 2]], numbers: &mut Draws) {
+    fn move_on(&mut self, best_of_all: &[f64], rooms: &[[f64; 2]], numbers: &mut SplitMix64) {
         for (k, [lower, upper]) in rooms.iter().enumerate() {
             let place = self.place[k];
-            let mut pull = |best: f64| PULL * numbers.unit() * (best - place);
-            self.speed[k] = INERTIA * self.speed[k] + pull(self.best[k]) + pull(best_of_all[k]);
+            let mut pull = |best: f64| MAX_PULL * numbers.unit() * (best - place);
+            self.speed[k] = SPEED_SHARE * self.speed[k] + pull(self.best[k]) + pull(best_of_all[k]);
             let next = place + self.speed[k];
             self.place[k] = next.clamp(*lower, *upper);
             // Clerc's rule: a particle that pushed on would stay at the end for generations.
@@ -61,7 +61,7 @@ pub(super) fn minimize<E>(
     rooms: &[[f64; 2]],
     known: Vec<(Vec<f64>, f64)>,
     generations: usize,
-    numbers: &mut Draws,
+    numbers: &mut SplitMix64,
     mut costs: impl FnMut(&[Vec<f64>]) -> Result<Vec<f64>, E>,
 ) -> Result<(), E> {
     let mut particles: Vec<Particle> = known.into_iter().map(|known| Particle::new(known, rooms, numbers)).collect();
@@ -85,7 +85,7 @@ mod tests {
 
     /// Returns all places that a swarm of twenty tries, in order, and their least cost.
     fn tried(seed: u64, cost: impl Fn(&[f64]) -> f64) -> (Vec<Vec<f64>>, f64) {
-        let mut numbers = Draws::new(seed);
+        let mut numbers = SplitMix64::new(seed);
         let known: Vec<(Vec<f64>, f64)> = (0..20)
             .map(|_| {
                 let place: Vec<f64> =
@@ -111,7 +111,7 @@ mod tests {
     }
 
     #[test]
-    fn it_finds_the_least_within_the_rooms_and_at_their_ends() {
+    fn the_swarm_finds_minima_inside_and_at_the_bounds() {
         for seed in 0..20 {
             let (all, least) = tried(seed, squared_distance([0.3, 4.0, -0.5]));
             assert!(least < 1e-6, "seed {seed}: {least}");
@@ -125,7 +125,7 @@ mod tests {
     }
 
     #[test]
-    fn it_comes_out_of_places_that_count_for_nothing() {
+    fn the_swarm_leaves_excluded_regions() {
         // Of half the rooms nothing is known but that they are bad.
         let cost =
             |place: &[f64]| if place[0] < -0.5 { f64::INFINITY } else { squared_distance([-0.5, 1.0, 0.0])(place) };
@@ -147,7 +147,7 @@ mod tests {
     fn it_ends_with_the_first_refusal() {
         let mut calls = 0;
         let known = vec![(vec![0.0, 1.0, 0.0], 1.0)];
-        let done = minimize(&ROOMS, known, 10, &mut Draws::new(1), |places| {
+        let done = minimize(&ROOMS, known, 10, &mut SplitMix64::new(1), |places| {
             calls += 1;
             if calls == 3 { Err("enough") } else { Ok(vec![1.0; places.len()]) }
         });

@@ -1,6 +1,6 @@
 //! A text with numbers that differ from layout to layout.
 
-use super::address::{Found, Step, all_in_urdf, all_in_world, in_urdf, in_world, nearest, steps, written_out};
+use super::address::{FoundNumber, Step, all_in_urdf, all_in_world, in_urdf, in_world, nearest, steps, written_out};
 use cplan_robot::Source;
 use std::fmt::Write;
 use std::ops::Range;
@@ -10,12 +10,12 @@ use std::ops::Range;
 pub(super) struct Template {
     source: Source,
     /// The numbers to fill in, in the order of the text.
-    holes: Vec<Hole>,
+    holes: Vec<Placeholder>,
 }
 
 /// A number that follows from a parameter's value.
 #[derive(Debug, Clone, PartialEq)]
-struct Hole {
+struct Placeholder {
     at: Range<usize>,
     is_whole: bool,
     setting: Setting,
@@ -76,11 +76,11 @@ impl Template {
         };
         let mut holes = Vec::with_capacity(settings.len());
         for (number, (steps, setting)) in settings.iter().enumerate() {
-            let Found { at, is_whole } = find(&text, steps).map_err(|why| (number, why))?;
-            if holes.iter().any(|hole: &Hole| hole.at == at) {
+            let FoundNumber { at, is_whole } = find(&text, steps).map_err(|why| (number, why))?;
+            if holes.iter().any(|hole: &Placeholder| hole.at == at) {
                 return Err((number, "it is set twice".into()));
             }
-            holes.push(Hole { at, is_whole, setting: *setting });
+            holes.push(Placeholder { at, is_whole, setting: *setting });
         }
         holes.sort_by_key(|hole| hole.at.start);
         let source = source.with_text(text);
@@ -102,7 +102,7 @@ impl Template {
         let text = self.source.text();
         let mut filled = String::with_capacity(text.len() + 16 * self.holes.len());
         let mut from = 0;
-        for Hole { at, is_whole, setting } in &self.holes {
+        for Placeholder { at, is_whole, setting } in &self.holes {
             filled.push_str(&text[from..at.start]);
             let number = setting.factor * values[setting.parameter] + setting.offset;
             // Counts are written without a fraction. A value that should be an integer but is not is refused when the

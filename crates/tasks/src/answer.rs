@@ -7,7 +7,7 @@ use cplan_core::model::{Outcome, Scene};
 use cplan_core::space::Path;
 use cplan_geometry::Pose;
 use cplan_handling::Step;
-use cplan_motion::Timed;
+use cplan_motion::TimedMotion;
 use cplan_motion::recorded::WristTurn;
 use cplan_movers::Timing;
 use std::sync::Arc;
@@ -56,7 +56,7 @@ pub struct Leg {
     /// The object that is carried during the motion.
     pub carried: Option<usize>,
     /// The motion, on a clock of its own.
-    pub timed: Arc<Timed>,
+    pub timed: Arc<TimedMotion>,
     /// Turn of the wrist, and the seconds that it takes.
     pub turn: Option<(WristTurn, f64)>,
     /// Lowering and raising of the tool, if the world has a stroke.

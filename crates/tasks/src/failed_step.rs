@@ -1,6 +1,6 @@
 //! The step of a task that fails.
 
-use super::legs::Refusal;
+use super::motion_cache::Refusal;
 use super::state::State;
 use cplan_core::check::CheckedProof;
 use cplan_core::model::{Arm, Joint, Scene};
@@ -9,10 +9,10 @@ use cplan_handling::Step;
 use std::sync::Arc;
 
 /// Largest number of start configurations that are named for one reason.
-const NAMED: usize = 4;
+const MAX_NAMED_STARTS: usize = 4;
 
 /// Number of decimals of joint values in words.
-const DIGITS: i32 = 4;
+const DECIMALS: i32 = 4;
 
 /// An IK solution at the target of a step that the arm cannot reach, or is not known to reach.
 #[derive(Debug, Clone, PartialEq)]
@@ -44,7 +44,7 @@ pub struct FailedStep {
 }
 
 /// A step that could not be done.
-pub(super) struct Refused<'a> {
+pub(super) struct RefusedStep<'a> {
     /// Number of steps done before it.
     pub depth: usize,
     /// The node of the search from which it was tried.
@@ -55,7 +55,7 @@ pub(super) struct Refused<'a> {
     pub refusal: Refusal,
 }
 
-impl Refused<'_> {
+impl RefusedStep<'_> {
     /// Returns the IK solution that cannot be reached, if there is one.
     pub fn unreached(&self) -> Option<RefusedIkSolution> {
         let Refusal { reason, proof, .. } = &self.refusal;
@@ -71,7 +71,7 @@ impl Refused<'_> {
 /// the one that was reached first. Also returns the node from which it was tried.
 pub(super) fn farthest<'s>(
     arm: &Arm,
-    refused: &[Refused],
+    refused: &[RefusedStep],
     state: impl Fn(usize) -> Option<&'s State>,
     scene: impl FnOnce(&State, &Step) -> Arc<Scene>,
 ) -> (FailedStep, usize) {
@@ -85,10 +85,10 @@ pub(super) fn farthest<'s>(
     let mut tried = Vec::new();
     for refused in same() {
         let Some(State { q, .. }) = state(refused.node) else { continue };
-        tried.push(Tried { from: *q, to: refused.ik_solution, reason: &refused.refusal.reason });
+        tried.push(TriedMotion { from: *q, to: refused.ik_solution, reason: &refused.refusal.reason });
     }
     let mut ik_solutions = Vec::new();
-    for unreached in same().filter(|refused| refused.node == node).filter_map(Refused::unreached) {
+    for unreached in same().filter(|refused| refused.node == node).filter_map(RefusedStep::unreached) {
         if !ik_solutions.contains(&unreached) {
             ik_solutions.push(unreached);
         }
@@ -99,7 +99,7 @@ pub(super) fn farthest<'s>(
 }
 
 /// A motion that was tried, and why it is refused.
-struct Tried<'a> {
+struct TriedMotion<'a> {
     from: Configuration,
     /// The IK solution. `None` if the target has none.
     to: Option<Configuration>,
@@ -108,7 +108,7 @@ struct Tried<'a> {
 
 /// Returns each reason once, with the motions that it holds for: `to joints (0.3, 1.2) rad and (1.5, -1.2) rad: ...`.
 /// Names the start configurations if the motions have several.
-fn reasons(arm: &Arm, tried: &[Tried]) -> Vec<String> {
+fn reasons(arm: &Arm, tried: &[TriedMotion]) -> Vec<String> {
     let several = tried.iter().any(|motion| motion.from != tried[0].from);
     let mut reasons: Vec<&str> = Vec::new();
     for motion in tried {
@@ -118,7 +118,7 @@ fn reasons(arm: &Arm, tried: &[Tried]) -> Vec<String> {
     }
     let explained = |reason: &str| {
         let mut motions: Vec<(Configuration, Vec<String>)> = Vec::new();
-        for Tried { from, to, .. } in tried.iter().filter(|motion| motion.reason == reason) {
+        for TriedMotion { from, to, .. } in tried.iter().filter(|motion| motion.reason == reason) {
             let Some(to) = to.map(|to| joints(arm, to)) else { continue };
             match motions.iter_mut().find(|(known, _)| known == from) {
                 Some((_, ends)) if ends.contains(&to) => {}
@@ -126,8 +126,8 @@ fn reasons(arm: &Arm, tried: &[Tried]) -> Vec<String> {
                 None => motions.push((*from, vec![to])),
             }
         }
-        let others = motions.len().saturating_sub(NAMED);
-        motions.truncate(NAMED);
+        let others = motions.len().saturating_sub(MAX_NAMED_STARTS);
+        motions.truncate(MAX_NAMED_STARTS);
         let words = motions.iter().map(|(from, ends)| {
             let beginning =
                 if several { format!("from joints {} to ", joints(arm, *from)) } else { "to joints ".into() };
@@ -144,7 +144,7 @@ fn reasons(arm: &Arm, tried: &[Tried]) -> Vec<String> {
 
 /// Formats joint values: `(0.3, 1.2) rad`, `(0.3 m, 1.2 rad)`.
 fn joints(arm: &Arm, q: Configuration) -> String {
-    let grains = 10_f64.powi(DIGITS);
+    let grains = 10_f64.powi(DECIMALS);
     // In words, zero has no sign.
     let [a, b] = [0, 1].map(|k| (q[k] * grains).round() / grains + 0.0);
     match arm.joints.each_ref().map(Joint::unit) {

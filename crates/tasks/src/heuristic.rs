@@ -43,8 +43,8 @@ impl Stop {
 
     /// Returns the least seconds of the motion to a configuration of the stop and of its dwell.
     fn seconds(&self, arm: &Arm, from: Option<Configuration>, place: usize) -> f64 {
-        let way = from.zip(self.at(place)).map_or(0.0, |(from, to)| least_time(arm, from, to, self.speed));
-        way + self.dwell
+        let travel = from.zip(self.at(place)).map_or(0.0, |(from, to)| least_time(arm, from, to, self.speed));
+        travel + self.dwell
     }
 }
 
@@ -61,7 +61,7 @@ pub(super) enum Stops {
 
 /// Least seconds to the end of a task after each item.
 #[derive(Debug, Clone)]
-enum After {
+enum RemainingSeconds {
     /// For a step: by the configuration at its stop.
     One(Vec<f64>),
     /// For a group in any order.
@@ -72,7 +72,7 @@ enum After {
 }
 
 /// Largest number of pairs of a group for which all subsets are tabulated: some hundred thousand numbers.
-const MOST_PAIRS: usize = 12;
+const MAX_TABULATED_PAIRS: usize = 12;
 
 /// Least seconds from within a group to the end of the task. Indexed by the set of pairs done (a bit each), the last of
 /// them, and the configuration at its stop.
@@ -88,24 +88,26 @@ struct Table {
 pub(super) struct Heuristic<'a> {
     arm: &'a Arm,
     stops: Vec<Stops>,
-    after: Vec<After>,
+    after: Vec<RemainingSeconds>,
 }
 
 impl<'a> Heuristic<'a> {
     /// Computes the heuristic in `O(n b^2)` for `n` steps with `b` IK solutions each, and `O(2^k k^2 b^2)` for a group
-    /// of `k` pairs up to [`MOST_PAIRS`], whose best order is found. For larger groups it is a weaker bound: each pick
+    /// of `k` pairs up to [`MAX_TABULATED_PAIRS`], whose best order is found. For larger groups it is a weaker bound: each pick
     /// is reached from the nearest place, and the longest of these motions is omitted, as the first pick needs none.
     pub fn new(task: &'a Task) -> Self {
         let stops = stops(task);
-        let mut heuristic = Self { arm: &task.arm, after: vec![After::Nothing; stops.len()], stops };
+        let mut heuristic = Self { arm: &task.arm, after: vec![RemainingSeconds::Nothing; stops.len()], stops };
         for item in (0..heuristic.stops.len()).rev() {
             heuristic.after[item] = match &heuristic.stops[item] {
-                Stops::One(stop) => {
-                    After::One((0..stop.count()).map(|place| heuristic.from(stop.at(place), item + 1)).collect())
+                Stops::One(stop) => RemainingSeconds::One(
+                    (0..stop.count()).map(|place| heuristic.from(stop.at(place), item + 1)).collect(),
+                ),
+                Stops::Pairs(pairs) if pairs.len() <= MAX_TABULATED_PAIRS => {
+                    RemainingSeconds::Pairs(heuristic.table(pairs, item))
                 }
-                Stops::Pairs(pairs) if pairs.len() <= MOST_PAIRS => After::Pairs(heuristic.table(pairs, item)),
-                Stops::Pairs(pairs) => After::Many(heuristic.at_least(pairs, item)),
-                Stops::Nothing => After::Nothing,
+                Stops::Pairs(pairs) => RemainingSeconds::Many(heuristic.at_least(pairs, item)),
+                Stops::Nothing => RemainingSeconds::Nothing,
             };
         }
         heuristic
@@ -115,11 +117,11 @@ impl<'a> Heuristic<'a> {
     pub fn remaining(&self, q: Configuration, progress: Progress) -> f64 {
         let Progress { item, done, half } = progress;
         match (self.stops.get(item), self.after.get(item), half) {
-            (Some(Stops::Pairs(pairs)), Some(After::Pairs(table)), Some(pair)) => {
+            (Some(Stops::Pairs(pairs)), Some(RemainingSeconds::Pairs(table)), Some(pair)) => {
                 let done = done as usize | 1 << pair;
                 self.over(&pairs[pair][1], Some(q), &table.placed[done][pair])
             }
-            (Some(Stops::Pairs(pairs)), Some(After::Pairs(table)), None) => {
+            (Some(Stops::Pairs(pairs)), Some(RemainingSeconds::Pairs(table)), None) => {
                 self.next_pair(pairs, table, Some(q), done as usize)
             }
             _ => self.from(Some(q), item),
@@ -129,9 +131,9 @@ impl<'a> Heuristic<'a> {
     /// Returns the least seconds from the beginning of an item to the end of the task.
     fn from(&self, q: Option<Configuration>, item: usize) -> f64 {
         match (self.stops.get(item), self.after.get(item)) {
-            (Some(Stops::One(stop)), Some(After::One(after))) => self.over(stop, q, after),
-            (Some(Stops::Pairs(pairs)), Some(After::Pairs(table))) => self.next_pair(pairs, table, q, 0),
-            (Some(Stops::Pairs(_)), Some(After::Many(least))) => *least,
+            (Some(Stops::One(stop)), Some(RemainingSeconds::One(after))) => self.over(stop, q, after),
+            (Some(Stops::Pairs(pairs)), Some(RemainingSeconds::Pairs(table))) => self.next_pair(pairs, table, q, 0),
+            (Some(Stops::Pairs(_)), Some(RemainingSeconds::Many(least))) => *least,
             (Some(_), _) => self.from(q, item + 1),
             (None, _) => 0.0,
         }
@@ -153,24 +155,24 @@ impl<'a> Heuristic<'a> {
     /// Returns a lower bound for a group in any order and the items after it.
     fn at_least(&self, pairs: &[[Stop; 2]], item: usize) -> f64 {
         let least = |values: &mut dyn Iterator<Item = f64>| values.fold(f64::INFINITY, f64::min);
-        let way = |from: &Stop, to: &Stop| {
+        let travel = |from: &Stop, to: &Stop| {
             let of = |at: usize| least(&mut (0..to.count()).map(|place| to.seconds(self.arm, from.at(at), place)));
             least(&mut (0..from.count()).map(of))
         };
-        let mut ways: Vec<f64> = (0..pairs.len())
+        let mut times: Vec<f64> = (0..pairs.len())
             .map(|pair| {
                 let others = (0..pairs.len()).filter(|other| *other != pair);
-                least(&mut others.map(|other| way(&pairs[other][1], &pairs[pair][0])))
+                least(&mut others.map(|other| travel(&pairs[other][1], &pairs[pair][0])))
             })
             .collect();
-        ways.sort_by(f64::total_cmp);
-        ways.pop();
-        let carried: f64 = pairs.iter().map(|[pick, place]| way(pick, place)).sum();
+        times.sort_by(f64::total_cmp);
+        times.pop();
+        let carried: f64 = pairs.iter().map(|[pick, place]| travel(pick, place)).sum();
         let ends = pairs.iter().flat_map(|[_, place]| (0..place.count()).map(|at| place.at(at)));
         let onward = least(&mut ends.map(|end| self.from(end, item + 1)));
         // The omitted motion includes the dwell at the first pick, so the least dwell is added.
         let dwell = pairs.iter().map(|[pick, _]| pick.dwell).fold(f64::INFINITY, f64::min);
-        ways.iter().sum::<f64>() + dwell + carried + onward
+        times.iter().sum::<f64>() + dwell + carried + onward
     }
 
     fn table(&self, pairs: &[[Stop; 2]], item: usize) -> Table {
@@ -195,12 +197,12 @@ impl<'a> Heuristic<'a> {
 
 /// Pose of an object as far as it does not depend on IK solutions: its origin, and its orientation if known.
 #[derive(Clone, Copy)]
-struct Lies {
+struct KnownPose {
     at: Point,
     angle: Option<f64>,
 }
 
-impl Lies {
+impl KnownPose {
     /// Returns the position of a point of the object, if it is known.
     fn place_of(&self, point: Point) -> Option<Point> {
         if point == Point::zeros() {
@@ -210,7 +212,7 @@ impl Lies {
     }
 }
 
-impl From<&Object> for Lies {
+impl From<&Object> for KnownPose {
     fn from(object: &Object) -> Self {
         let pose: &Pose = &object.at;
         Self { at: pose.translation, angle: Some(pose.rotation.angle()) }
@@ -220,10 +222,10 @@ impl From<&Object> for Lies {
 /// Returns the stops of all items.
 pub(super) fn stops(task: &Task) -> Vec<Stops> {
     // The place where a moving object will be picked is unknown.
-    let lies = |object: &Object| object.course.is_none().then(|| Lies::from(object));
-    let mut lies: Vec<Option<Lies>> = task.objects.iter().map(lies).collect();
+    let lies = |object: &Object| object.course.is_none().then(|| KnownPose::from(object));
+    let mut lies: Vec<Option<KnownPose>> = task.objects.iter().map(lies).collect();
     let mut held = None;
-    let mut stop = |step: &Step, lies: &mut [Option<Lies>]| {
+    let mut stop = |step: &Step, lies: &mut [Option<KnownPose>]| {
         let object = match step.action {
             Action::Pick { object, .. } => Some(object),
             Action::Place { .. } => held.map(|(object, _)| object),
@@ -238,7 +240,7 @@ pub(super) fn stops(task: &Task) -> Vec<Stops> {
             Stops::Pairs(pairs.iter().map(|pair| pair.each_ref().map(|step| stop(step, &mut lies))).collect())
         }
         Item::Renew(objects) => {
-            objects.iter().for_each(|&object| lies[object] = Some(Lies::from(&task.objects[object])));
+            objects.iter().for_each(|&object| lies[object] = Some(KnownPose::from(&task.objects[object])));
             Stops::Nothing
         }
     };
@@ -249,7 +251,7 @@ pub(super) fn stops(task: &Task) -> Vec<Stops> {
 fn targets(
     task: &Task,
     step: &Step,
-    lies: &mut [Option<Lies>],
+    lies: &mut [Option<KnownPose>],
     held: &mut Option<(usize, Point)>,
 ) -> Option<Vec<Configuration>> {
     let arm = &task.arm;
@@ -274,7 +276,7 @@ fn targets(
             };
             // This must be the same expression as in the state, so that the values are equal.
             let exact = turned.map(|angle| Pose::new(*at, angle).point(grasp));
-            let placed = Lies { at: *at, angle: turned };
+            let placed = KnownPose { at: *at, angle: turned };
             lies[object] = Some(placed);
             tip_to(exact.or_else(|| placed.place_of(grasp)))
         }
@@ -333,11 +335,11 @@ mod tests {
             let home = stop((1.2, 0.3), 0.1);
             let mut heuristic = Heuristic {
                 arm: &arm,
-                after: vec![After::Nothing, After::One(vec![0.0; home.count()])],
+                after: vec![RemainingSeconds::Nothing, RemainingSeconds::One(vec![0.0; home.count()])],
                 stops: vec![Stops::Pairs(pairs.clone()), Stops::One(home)],
             };
             let least = heuristic.at_least(&pairs, 0);
-            heuristic.after[0] = After::Pairs(heuristic.table(&pairs, 0));
+            heuristic.after[0] = RemainingSeconds::Pairs(heuristic.table(&pairs, 0));
             let best = heuristic.from(Some(Configuration::new(0.3, -1.0)), 0);
             prop_assert!(least <= best + 1e-12, "{least} {best}");
             prop_assert!(least > 0.0);

@@ -21,10 +21,10 @@ const ROUNDING: f64 = 1e-9;
 /// joints' top speeds. Each joint takes at least its own time; on a circle it takes the shorter direction.
 #[must_use]
 pub(super) fn least_time(arm: &Arm, from: Configuration, to: Configuration, speed: f64) -> f64 {
-    let way = arm.topology().displacement(from, to);
+    let displacement = arm.topology().displacement(from, to);
     let of = |k: usize| {
         let joint = &arm.joints[k];
-        rest_to_rest(way[k].abs(), joint.velocity * speed, joint.acceleration * speed * speed)
+        rest_to_rest(displacement[k].abs(), joint.velocity * speed, joint.acceleration * speed * speed)
     };
     of(0).max(of(1)) * (1.0 - ROUNDING)
 }

@@ -17,7 +17,7 @@
 //! - A level payload only translates with the tip. So its part is the tip, a point, and its obstacles are the Minkowski
 //!   differences of the obstacles' pieces and the payload's pieces. Planners, C-obstacles, certificates and proofs
 //!   therefore need no third link.
-//! - Against its supports, each corner of a payload's outline is moved inwards by the allowed penetration (`drawn_in`).
+//! - Against its supports, each corner of a payload's outline is moved inwards by the allowed penetration (`inset_union`).
 //!   No clearance is required there, so supports count as farther away by it in every distance (`Convex::receding`).
 //! - Motions are shared (`legs`) among worlds that differ only in objects which cannot be hit because of their heights.
 //!
@@ -48,7 +48,7 @@
 mod among_movers;
 mod answer;
 mod failed_step;
-mod legs;
+mod motion_cache;
 mod least_time;
 mod order;
 mod heuristic;

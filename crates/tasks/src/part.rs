@@ -6,7 +6,7 @@
 //! for longer.
 
 use super::heuristic::Heuristic;
-use super::legs::Legs;
+use super::motion_cache::MotionCache;
 use super::plan::{Found, limits};
 use super::search::{Ending, Search};
 use cplan_core::model::{Outcome, Shape};
@@ -15,10 +15,10 @@ use cplan_solver::Options;
 use std::collections::BTreeSet;
 
 /// Largest number of motions planned for one part.
-const MOTIONS: usize = 200;
+const MAX_PART_MOTIONS: usize = 200;
 
 /// Largest number of pairs of a part, so small that all their orders can be searched quickly.
-const MOST_PAIRS: usize = 4;
+const MAX_PART_PAIRS: usize = 4;
 
 /// Returns the answer that group `item` cannot be done, if that is proven. Tries the first of `pairs` alone, then with
 /// one other pair, and then all pairs if they are few.
@@ -34,16 +34,16 @@ pub(super) fn impossible(
     if task.items[..item].iter().any(|before| matches!(before, Item::AnyOrder(_))) {
         return None;
     }
-    let together = (2..MOST_PAIRS).contains(&others.len()).then(|| pairs.to_vec());
+    let together = (2..MAX_PART_PAIRS).contains(&others.len()).then(|| pairs.to_vec());
     let parts = [vec![first]].into_iter().chain(others.iter().map(|&other| vec![first, other])).chain(together);
     parts.into_iter().find_map(|part| {
         let alone = part_of(task, item, &part)?;
         let heuristic = Heuristic::new(&alone);
         // It needs its own legs, because its objects are different.
-        let mut legs = Legs::new(options);
+        let mut legs = MotionCache::new(options);
         let mut search = Search::new(&alone, &heuristic, &mut legs);
-        let ending = search.run(limits(&alone, MOTIONS), progress);
-        if ending != Ending::Dry {
+        let ending = search.run(limits(&alone, MAX_PART_MOTIONS), progress);
+        if ending != Ending::Exhausted {
             return None;
         }
         let mut found = Found::of(&mut search, ending, true);

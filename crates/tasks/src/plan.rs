@@ -4,7 +4,7 @@ use super::among_movers;
 use super::answer::{Leg, TaskAnswer, TaskMotion};
 use super::failed_step::FailedStep;
 use super::heuristic::Heuristic;
-use super::legs::Legs;
+use super::motion_cache::MotionCache;
 use super::order::{OrderSearch, Orders};
 use super::part;
 use super::search::{Ending, Limits, Search};
@@ -17,27 +17,27 @@ use std::collections::BTreeSet;
 
 /// Largest numbers of planned motions and expanded nodes while a search with a fixed order insists on the fastest
 /// choice: some seconds of work. Beyond them, weighted A* heads for the end.
-const MOST_MOTIONS: usize = 2_000;
-const MOST_EXPANDED: usize = 100_000;
+const MAX_MOTIONS: usize = 2_000;
+const MAX_EXPANDED: usize = 100_000;
 
 /// The same for free orders: about a second of work. Beyond it, one order is chosen.
 const FREE_MOTIONS: usize = 500;
 
 /// A chosen order is compared with the file's order, and improved with this many more motions and orders, unless it is
-/// within the factor `CLOSE` of the bound.
+/// within the factor `CLOSE_FACTOR` of the bound.
 const IMPROVING_MOTIONS: usize = 100;
 const IMPROVING_ORDERS: usize = 6;
-const CLOSE: f64 = 1.15;
+const CLOSE_FACTOR: f64 = 1.15;
 
 /// Additional nodes for each step of a task, since long tasks have more states.
 const EXPANDED_PER_STEP: usize = 16;
 
 /// A weighted search ends without an answer after this multiple of the first two numbers.
-const WEIGHTED_BUDGET: usize = 10;
+const WEIGHTED_BUDGET_FACTOR: usize = 10;
 
 /// Largest number of pairs in a group for which all orders are searched. The table of all subsets then has some
 /// thousand entries, and doubles with each further pair.
-const MOST_PAIRS: usize = 10;
+const MAX_FULLY_ORDERED_PAIRS: usize = 10;
 
 /// Plans a task: finds the fastest sequence of motions over all IK solutions at the targets, turns of the wrist, and
 /// orders that are free. [`TaskAnswer`] states the guarantees. Long computations are reported to `progress`.
@@ -47,25 +47,25 @@ const MOST_PAIRS: usize = 10;
 /// the planned motions, a still better order may be found.
 #[must_use]
 pub fn plan(task: &Task, options: &Options, progress: &mut dyn FnMut(&str)) -> TaskAnswer {
-    if task.has_movers() {
+    if task.has_moving_obstacles() {
         return among_movers::plan(task, options, progress);
     }
     let heuristic = Heuristic::new(task);
     let start = State::at_start(task);
     let lower_bound = heuristic.remaining(start.q, start.progress);
-    let planning = Planning { task, options, legs: Legs::new(options), lower_bound, expanded: 0, progress };
+    let planning = Planning { task, options, legs: MotionCache::new(options), lower_bound, expanded: 0, progress };
     let pairs = |item: &Item| if let Item::AnyOrder(pairs) = item { pairs.len() } else { 0 };
     match task.items.iter().map(pairs).max().unwrap_or(0) {
         0 => planning.in_order(&heuristic),
-        1..=MOST_PAIRS => planning.in_any_order(&heuristic),
-        _ => planning.in_settled_order(),
+        1..=MAX_FULLY_ORDERED_PAIRS => planning.in_any_order(&heuristic),
+        _ => planning.in_fixed_order(),
     }
 }
 
 struct Planning<'a, 'p> {
     task: &'a Task,
     options: &'a Options,
-    legs: Legs,
+    legs: MotionCache,
     lower_bound: f64,
     /// Number of nodes that all searches have expanded.
     expanded: usize,
@@ -76,10 +76,10 @@ impl Planning<'_, '_> {
     /// Answers a task without free orders.
     fn in_order(mut self, heuristic: &Heuristic) -> TaskAnswer {
         let mut search = Search::new(self.task, heuristic, &mut self.legs);
-        let mut ending = search.run(limits(self.task, MOST_MOTIONS), self.progress);
-        let exact = ending != Ending::Spent;
+        let mut ending = search.run(limits(self.task, MAX_MOTIONS), self.progress);
+        let exact = ending != Ending::OutOfBudget;
         if !exact {
-            ending = hurried(&mut search, self.task, WEIGHTED_BUDGET * MOST_MOTIONS, self.progress);
+            ending = hurried(&mut search, self.task, WEIGHTED_BUDGET_FACTOR * MAX_MOTIONS, self.progress);
         }
         let found = Found::of(&mut search, ending, exact);
         self.expanded += search.expanded();
@@ -90,32 +90,32 @@ impl Planning<'_, '_> {
     fn in_any_order(mut self, heuristic: &Heuristic) -> TaskAnswer {
         let mut search = Search::new(self.task, heuristic, &mut self.legs);
         let mut ending = search.run(limits(self.task, FREE_MOTIONS), self.progress);
-        if ending != Ending::Spent {
+        if ending != Ending::OutOfBudget {
             let found = Found::of(&mut search, ending, true);
             self.expanded += search.expanded();
             return self.answer(found);
         }
         self.expanded += search.expanded();
-        let found = self.settled();
+        let found = self.in_chosen_order();
         if !matches!(found.outcome, Outcome::Unknown(_)) {
             return self.answer(found);
         }
         // There may still be an order that the search for one has missed.
         let mut search = Search::new(self.task, heuristic, &mut self.legs);
-        ending = hurried(&mut search, self.task, MOST_MOTIONS, self.progress);
-        let last = Found::of(&mut search, ending, ending == Ending::Dry);
+        ending = hurried(&mut search, self.task, MAX_MOTIONS, self.progress);
+        let last = Found::of(&mut search, ending, ending == Ending::Exhausted);
         self.expanded += search.expanded();
-        self.answer(if ending == Ending::Spent { found } else { Found { exact: false, ..last } })
+        self.answer(if ending == Ending::OutOfBudget { found } else { Found { exact: false, ..last } })
     }
 
     /// Answers a task with more orders than can be searched.
-    fn in_settled_order(mut self) -> TaskAnswer {
-        let found = self.settled();
+    fn in_fixed_order(mut self) -> TaskAnswer {
+        let found = self.in_chosen_order();
         self.answer(found)
     }
 
     /// Plans the task in an order that is chosen.
-    fn settled(&mut self) -> Found {
+    fn in_chosen_order(&mut self) -> Found {
         let mut orders = Orders::of_file(self.task);
         let search = orders.search(&mut self.legs, self.progress);
         let mut best = match search {
@@ -125,14 +125,14 @@ impl Planning<'_, '_> {
         // The file's own order, unless it takes longer, hardly less, or is known not to work.
         let file = Orders::of_file(self.task);
         let below = best.as_ref().map_or(f64::INFINITY, |best| best.seconds);
-        if below > CLOSE * self.lower_bound
+        if below > CLOSE_FACTOR * self.lower_bound
             && file.order() != orders.order()
             && file.least_seconds() < below
             && file.promising(&mut self.legs)
         {
             let own = self.in_orders(&file, below);
             if own.is_done() {
-                orders.take_over(&file);
+                orders.adopt(&file);
                 best = Some(own);
             }
         }
@@ -154,7 +154,7 @@ impl Planning<'_, '_> {
         let mut tried = BTreeSet::from([orders.order()]);
         orders.learn_times(&self.task.arm, &best.legs);
         while tried.len() <= IMPROVING_ORDERS
-            && best.seconds > CLOSE * self.lower_bound
+            && best.seconds > CLOSE_FACTOR * self.lower_bound
             && self.legs.planned() < most
             && orders.improve(&mut self.legs)
         {
@@ -172,13 +172,13 @@ impl Planning<'_, '_> {
 
     /// Returns the fastest choice in these orders, if it takes less than `below` seconds.
     fn in_orders(&mut self, orders: &Orders, below: f64) -> Found {
-        let settled = orders.settled();
-        let heuristic = Heuristic::new(&settled);
-        let mut search = Search::new(&settled, &heuristic, &mut self.legs);
-        let limits = Limits { below, ..limits(&settled, MOST_MOTIONS) };
+        let in_chosen_order = orders.in_chosen_order();
+        let heuristic = Heuristic::new(&in_chosen_order);
+        let mut search = Search::new(&in_chosen_order, &heuristic, &mut self.legs);
+        let limits = Limits { below, ..limits(&in_chosen_order, MAX_MOTIONS) };
         let mut ending = search.run(limits, self.progress);
-        if ending == Ending::Spent && below.is_infinite() {
-            ending = hurried(&mut search, &settled, MOST_MOTIONS, self.progress);
+        if ending == Ending::OutOfBudget && below.is_infinite() {
+            ending = hurried(&mut search, &in_chosen_order, MAX_MOTIONS, self.progress);
         }
         let found = Found::of(&mut search, ending, false);
         self.expanded += search.expanded();
@@ -209,7 +209,7 @@ impl Found {
             let (legs, seconds) = (search.legs(node), search.seconds(node));
             return Self { outcome: Outcome::Found(()), legs, exact, seconds };
         }
-        if ending == Ending::Spent {
+        if ending == Ending::OutOfBudget {
             search.give_up();
         }
         let (failed, node, proven) = search.failure();
@@ -227,13 +227,13 @@ impl Found {
 
 /// Returns the limits of a search that insists on the fastest choice.
 pub(super) fn limits(task: &Task, motions: usize) -> Limits {
-    let expanded = MOST_EXPANDED + EXPANDED_PER_STEP * task.steps().count();
+    let expanded = MAX_EXPANDED + EXPANDED_PER_STEP * task.steps().count();
     Limits { motions, expanded, below: f64::INFINITY }
 }
 
 /// Runs the search as weighted A*, which heads for the end.
 fn hurried(search: &mut Search, task: &Task, motions: usize, progress: &mut dyn FnMut(&str)) -> Ending {
-    search.hurry();
+    search.use_weighted_astar();
     let once = limits(task, motions);
-    search.run(Limits { expanded: WEIGHTED_BUDGET * once.expanded, ..once }, progress)
+    search.run(Limits { expanded: WEIGHTED_BUDGET_FACTOR * once.expanded, ..once }, progress)
 }

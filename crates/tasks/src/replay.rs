@@ -1,7 +1,7 @@
 //! Replays of how the planner came to each motion of a task.
 
 use super::answer::{Leg, TaskAnswer};
-use super::legs::{of_legs, planned_again};
+use super::motion_cache::{of_legs, planned_again};
 use cplan_core::planner::Trace;
 use cplan_handling::Task;
 use cplan_solver::{Options, Phase, Replay, Shows};
@@ -30,16 +30,16 @@ impl TaskReplay {
     #[must_use]
     pub fn new(task: &Task, options: &Options, answer: &TaskAnswer) -> Self {
         let options = of_legs(options);
-        let mut told: Vec<&Leg> = Vec::new();
+        let mut reported: Vec<&Leg> = Vec::new();
         let legs = answer.legs.iter().map(|leg| {
             let same = |other: &&Leg| Arc::ptr_eq(&other.timed, &leg.timed) && other.scene == leg.scene;
-            told.iter().position(same).unwrap_or_else(|| {
-                told.push(leg);
-                told.len() - 1
+            reported.iter().position(same).unwrap_or_else(|| {
+                reported.push(leg);
+                reported.len() - 1
             })
         });
         let legs = legs.collect();
-        Self { motions: told.into_iter().map(|leg| MotionReplay::new(task, &options, leg)).collect(), legs }
+        Self { motions: reported.into_iter().map(|leg| MotionReplay::new(task, &options, leg)).collect(), legs }
     }
 }
 
@@ -86,7 +86,7 @@ mod tests {
 
     /// Each motion is planned again in the same way: the path is the same one, except for the last digits of its end.
     #[test]
-    fn the_run_that_is_told_is_the_run() {
+    fn the_replay_matches_the_run() {
         let (mut among_few, mut straight) = (0, 0);
         for (urdf, world) in [
             ("robots/rrbot_vertical.urdf", "workspaces/tasks/tower.toml"),
@@ -106,14 +106,18 @@ mod tests {
                 };
                 among_few += usize::from(problem.scene() != &*leg.scene);
                 let Outcome::Found(found) = &again.outcome else { panic!("{world}: no path") };
-                let (told, real) = (found.path().waypoints(), path.waypoints());
-                assert_eq!(told.len(), real.len(), "{world}, step {}", leg.step.number);
-                assert!(told.iter().zip(real).all(|(a, b)| (a - b).norm() < 1e-9), "{world}, step {}", leg.step.number);
+                let (reported, real) = (found.path().waypoints(), path.waypoints());
+                assert_eq!(reported.len(), real.len(), "{world}, step {}", leg.step.number);
+                assert!(
+                    reported.iter().zip(real).all(|(a, b)| (a - b).norm() < 1e-9),
+                    "{world}, step {}",
+                    leg.step.number
+                );
             }
             let replay = TaskReplay::new(&task, &options, &answer);
             assert_eq!(replay.legs.len(), answer.legs.len());
-            assert!(replay.legs.iter().all(|&told| told < replay.motions.len()));
-            assert!(replay.motions.iter().all(|told| told.replay.phases.last().unwrap().shows == Shows::Path));
+            assert!(replay.legs.iter().all(|&reported| reported < replay.motions.len()));
+            assert!(replay.motions.iter().all(|reported| reported.replay.phases.last().unwrap().shows == Shows::Path));
         }
         assert!(among_few > 3 && straight > 3, "{among_few} among few, {straight} straight");
     }

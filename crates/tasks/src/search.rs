@@ -4,10 +4,10 @@
 //! is known only after planning a motion, and most motions need not be planned.
 
 use super::answer::Leg;
-use super::failed_step::{FailedStep, Refused, farthest};
+use super::failed_step::{FailedStep, RefusedStep, farthest};
 use super::heuristic::Heuristic;
 use super::least_time::least_time;
-use super::legs::{Legs, Motion, Refusal};
+use super::motion_cache::{Motion, MotionCache, Refusal};
 use super::state::{Candidate, State};
 use super::stroke::least_rest;
 use cplan_geometry::OpenList;
@@ -17,10 +17,10 @@ use std::cmp::Reverse;
 use std::collections::BTreeSet;
 
 /// Weight of the heuristic in the weighted A* that heads for the end.
-const WEIGHT: f64 = 4.0;
+const HEURISTIC_WEIGHT: f64 = 4.0;
 
 /// Number of motions between two progress messages.
-const NEWS: usize = 50;
+const PROGRESS_INTERVAL: usize = 50;
 
 /// Limits at which a search stops.
 #[derive(Debug, Clone, Copy)]
@@ -39,9 +39,9 @@ pub(super) enum Ending {
     /// A node in which all steps are done.
     Done(usize),
     /// The search is exhausted.
-    Dry,
+    Exhausted,
     /// A limit was reached.
-    Spent,
+    OutOfBudget,
 }
 
 /// A node of the search: a sequence of steps that leads to a state.
@@ -66,7 +66,7 @@ enum Stage<'a> {
 pub(super) struct Search<'a, 'l> {
     task: &'a Task,
     heuristic: &'a Heuristic<'a>,
-    legs: &'l mut Legs,
+    legs: &'l mut MotionCache,
     /// Number of motions planned before this search.
     planned: usize,
     nodes: Vec<Node<'a>>,
@@ -76,14 +76,14 @@ pub(super) struct Search<'a, 'l> {
     /// Weight of the heuristic: above 1 it is weighted A*.
     weight: f64,
     /// Steps that could not be done.
-    refused: Vec<Refused<'a>>,
+    refused: Vec<RefusedStep<'a>>,
     /// True if no choice has been left out.
     complete: bool,
     expanded: usize,
 }
 
 impl<'a, 'l> Search<'a, 'l> {
-    pub fn new(task: &'a Task, heuristic: &'a Heuristic<'a>, legs: &'l mut Legs) -> Self {
+    pub fn new(task: &'a Task, heuristic: &'a Heuristic<'a>, legs: &'l mut MotionCache) -> Self {
         let mut search = Self {
             task,
             heuristic,
@@ -102,14 +102,14 @@ impl<'a, 'l> Search<'a, 'l> {
         search
     }
 
-    /// Continues the search up to the limits. The result is the fastest unless [`Search::hurry`] was called.
+    /// Continues the search up to the limits. The result is the fastest unless [`Search::use_weighted_astar`] was called.
     pub fn run(&mut self, limits: Limits, progress: &mut dyn FnMut(&str)) -> Ending {
-        let mut told = 0;
+        let mut reported = 0;
         while let Some((least, (_, index))) = self.open.pop() {
             checkpoint();
             let planned = self.legs.planned() - self.planned;
-            if planned >= told + NEWS {
-                told = planned;
+            if planned >= reported + PROGRESS_INTERVAL {
+                reported = planned;
                 progress(&format!("{} motions planned, {} states seen", self.legs.planned(), self.expanded));
             }
             if planned > limits.motions
@@ -118,10 +118,10 @@ impl<'a, 'l> Search<'a, 'l> {
             {
                 // The search may be continued with other limits.
                 self.open(index);
-                return Ending::Spent;
+                return Ending::OutOfBudget;
             }
             let Stage::Reached(state, _) = &self.nodes[index].stage else {
-                self.settle(index);
+                self.evaluate(index);
                 continue;
             };
             if !self.closed.insert(state.key(self.task)) {
@@ -133,7 +133,7 @@ impl<'a, 'l> Search<'a, 'l> {
             }
             self.expand(index);
         }
-        Ending::Dry
+        Ending::Exhausted
     }
 
     /// Returns the number of nodes expanded so far.
@@ -163,8 +163,8 @@ impl<'a, 'l> Search<'a, 'l> {
     }
 
     /// Gives up on the fastest choice: from now on the remaining time has a larger weight than the elapsed time.
-    pub fn hurry(&mut self) {
-        self.weight = WEIGHT;
+    pub fn use_weighted_astar(&mut self) {
+        self.weight = HEURISTIC_WEIGHT;
         self.open.drain().into_iter().for_each(|(_, index)| self.open(index));
     }
 
@@ -178,12 +178,12 @@ impl<'a, 'l> Search<'a, 'l> {
             let reason = format!("given up after {motions} motions and {states} states of the world");
             let refusal = Refusal::new(reason, false);
             let depth = self.nodes[node].depth;
-            self.refused.push(Refused { depth, node, step: candidates.step, ik_solution: None, refusal });
+            self.refused.push(RefusedStep { depth, node, step: candidates.step, ik_solution: None, refusal });
         }
     }
 
     /// Plans the motion to a node.
-    fn settle(&mut self, index: usize) {
+    fn evaluate(&mut self, index: usize) {
         let (Some(parent), Stage::Pending(candidate)) = (self.nodes[index].parent, &self.nodes[index].stage) else {
             return;
         };
@@ -198,7 +198,7 @@ impl<'a, 'l> Search<'a, 'l> {
                 (node.seconds, node.stage) = (seconds, Stage::Reached(Box::new(state), Some((candidate, motion))));
                 self.open(index);
             }
-            Err(refusal) => self.refused.push(Refused {
+            Err(refusal) => self.refused.push(RefusedStep {
                 depth: self.nodes[parent].depth,
                 node: parent,
                 step: candidate.step,
@@ -215,13 +215,19 @@ impl<'a, 'l> Search<'a, 'l> {
             self.complete &= candidates.all;
             if candidates.ways.is_empty() {
                 let refusal = Refusal::new("no IK solution within the joint limits reaches its target", candidates.all);
-                self.refused.push(Refused { depth, node: index, step: candidates.step, ik_solution: None, refusal });
+                self.refused.push(RefusedStep {
+                    depth,
+                    node: index,
+                    step: candidates.step,
+                    ik_solution: None,
+                    refusal,
+                });
             }
-            for way in candidates.ways {
-                let turn = way.turn.map_or(0.0, |turn| Legs::least_turn(self.task, turn));
-                let least = least_time(&self.task.arm, from, way.to, way.step.speed) + turn;
-                let least = least + least_rest(self.task, way.step, way.event.map(|event| event.object()));
-                let stage = Stage::Pending(way);
+            for candidate in candidates.ways {
+                let turn = candidate.turn.map_or(0.0, |turn| MotionCache::min_turn_seconds(self.task, turn));
+                let least = least_time(&self.task.arm, from, candidate.to, candidate.step.speed) + turn;
+                let least = least + least_rest(self.task, candidate.step, candidate.event.map(|event| event.object()));
+                let stage = Stage::Pending(candidate);
                 self.push(Node { parent: Some(index), depth: depth + 1, seconds: seconds + least, stage });
             }
         }

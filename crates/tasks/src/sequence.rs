@@ -27,7 +27,7 @@ impl Sequence {
             sequence.samples.push(end - motion.time.len()..=end - 1);
             rest = leg.rest();
         }
-        sequence.trajectory.stand(rest);
+        sequence.trajectory.append_rest(rest);
         sequence
     }
 

@@ -59,26 +59,26 @@ pub(super) struct Candidates<'a> {
 }
 
 /// Orientations that differ by less than this, radians, count as equal.
-const SAME_ANGLE: f64 = 1e-9;
+const ANGLE_TOLERANCE: f64 = 1e-9;
 
 /// Tolerance of poses and configurations, metres and radians, below which differences are rounding.
-const GRAIN: f64 = 1e-9;
+const POSE_TOLERANCE: f64 = 1e-9;
 
 /// Rounding of the orientations in which rigid payloads are released, radians. It is far below all tolerances, and far
 /// above the rounding of doubles. So repeated cycles return to the same world, bit for bit, and are planned once.
-const FINEST_TURN: f64 = 1e-12;
+const ORIENTATION_ROUNDING: f64 = 1e-12;
 
 impl State {
     pub fn at_start(task: &Task) -> Self {
         let state = Self {
             progress: Progress { item: 0, done: 0, half: None },
             q: task.start,
-            poses: task.objects.iter().map(Object::standing_at_first).collect(),
-            moving: task.moving_at_first().collect(),
+            poses: task.objects.iter().map(Object::initial_static_pose).collect(),
+            moving: task.initially_moving().collect(),
             held: None,
             released: None,
         };
-        state.settled(task)
+        state.renewed(task)
     }
 
     pub fn is_done(&self, task: &Task) -> bool {
@@ -87,7 +87,7 @@ impl State {
 
     /// Returns a key that distinguishes states, as far as later steps depend on the difference.
     pub fn key(&self, task: &Task) -> Vec<i64> {
-        let grains = |value: f64| (value / GRAIN).round() as i64;
+        let grains = |value: f64| (value / POSE_TOLERANCE).round() as i64;
         let Progress { item, done, half } = self.progress;
         let q = task.arm.topology().wrap(self.q);
         let mut key = vec![item as i64, done as i64, half.map_or(-1, |pair| pair as i64), grains(q[0]), grains(q[1])];
@@ -107,7 +107,7 @@ impl State {
     }
 
     /// Returns the state at a moment at which a moving object is picked, with the object at its place at that time.
-    pub fn stopped(&self, task: &Task, object: usize, time: f64) -> Self {
+    pub fn at_pick(&self, task: &Task, object: usize, time: f64) -> Self {
         let mut state = self.clone();
         Arc::make_mut(&mut state.poses)[object] = task.objects[object].course.as_ref().map(|course| course.pose(time));
         state.moving = self.moving.iter().copied().filter(|&other| other != object).collect();
@@ -182,7 +182,7 @@ impl State {
                         let reach = ik_solutions(arm, in_link.translation, *at, self.q);
                         for &to in &reach.configurations {
                             let turned = (arm.pose(1, to) * in_link).rotation.angle();
-                            let turned = (turned / FINEST_TURN).round() * FINEST_TURN;
+                            let turned = (turned / ORIENTATION_ROUNDING).round() * ORIENTATION_ROUNDING;
                             let pose = Pose::new(*at, turned);
                             add(to, None, Some(Event::Release { object, pose }), None);
                         }
@@ -205,18 +205,18 @@ impl State {
             }
         };
         // The turn could also be made during the motion.
-        let turns = ways.iter().any(|way| way.turn.is_some());
+        let turns = ways.iter().any(|candidate| candidate.turn.is_some());
         Candidates { step, ways, all: reach.all && !turns }
     }
 
     /// Returns the state after a candidate's step, with the arm at `q`, and with all renewals that come before the next
     /// step.
     pub fn after(&self, task: &Task, candidate: &Candidate, q: Configuration) -> Self {
-        self.left(task, candidate, q).settled(task)
+        self.after_step(task, candidate, q).renewed(task)
     }
 
     /// Returns the state directly after a candidate's step, with the arm at `q`, before any renewals.
-    pub fn left(&self, task: &Task, candidate: &Candidate, q: Configuration) -> Self {
+    pub fn after_step(&self, task: &Task, candidate: &Candidate, q: Configuration) -> Self {
         let mut poses = self.poses.clone();
         let mut after = Self { progress: candidate.progress, q, released: None, ..self.clone() };
         match candidate.event {
@@ -237,12 +237,12 @@ impl State {
 
     /// Returns true if objects will be renewed before the next step. Then the next motion does not begin in the world
     /// in which the last one ended.
-    pub fn is_unsettled(&self, task: &Task) -> bool {
+    pub fn needs_renewal(&self, task: &Task) -> bool {
         matches!(task.items.get(self.progress.item), Some(Item::Renew(_)))
     }
 
     /// Renews objects, if the task says so before the next step.
-    pub fn settled(mut self, task: &Task) -> Self {
+    pub fn renewed(mut self, task: &Task) -> Self {
         while let Some(Item::Renew(objects)) = task.items.get(self.progress.item) {
             let poses = Arc::make_mut(&mut self.poses);
             objects.iter().for_each(|&object| poses[object] = Some(task.objects[object].at));
@@ -298,11 +298,11 @@ fn following_place(task: &Task, item: usize) -> Option<&Step> {
 
 /// Returns true if two orientations are equal up to whole turns.
 pub(super) fn same_angle(a: f64, b: f64) -> bool {
-    normalized(a - b).abs() < SAME_ANGLE
+    normalized(a - b).abs() < ANGLE_TOLERANCE
 }
 
 /// Returns the orientation in `[-pi, pi)`. Values within rounding of `pi` become `-pi`.
 fn normalized(angle: f64) -> f64 {
     let turn = (angle + PI).rem_euclid(TAU) - PI;
-    if turn > PI - SAME_ANGLE { -PI } else { turn }
+    if turn > PI - ANGLE_TOLERANCE { -PI } else { turn }
 }

@@ -2,7 +2,7 @@
 
 use super::answer::Event;
 use super::least_time::rest_to_rest;
-use super::legs::{Refusal, unobstructed};
+use super::motion_cache::{Refusal, require_unobstructed};
 use super::state::{Candidate, State};
 use cplan_core::check::certify;
 use cplan_core::model::{Grip, Scene};
@@ -39,14 +39,14 @@ pub(super) fn stroke(task: &Task, from: &State, candidate: &Candidate) -> Result
     let Some(event) = candidate.event else { return Ok(None) };
     let Some(scene) = lowered(task, from, candidate, event) else { return Ok(None) };
     let when = if task.stroke.is_some() { "while the tool is lowered" } else { "lying there" };
-    unobstructed(&scene, candidate.to, when)?;
+    require_unobstructed(&scene, candidate.to, when)?;
     let there = Path::new(vec![candidate.to, candidate.to]);
     let certified = certify(&scene, there, scene.workspace().clearance);
     let certified = certified.map_err(|_| Refusal::new(format!("no proof that it is free {when} was found"), false))?;
     let Some(stroke) = &task.stroke else { return Ok(None) };
     let depth = stroke.depth(&task.objects[event.object()]);
-    let way = single(depth.abs(), stroke.velocity, stroke.acceleration);
-    let seconds = way.last().map_or(0.0, |[seconds, ..]| *seconds);
+    let motion = single(depth.abs(), stroke.velocity, stroke.acceleration);
+    let seconds = motion.last().map_or(0.0, |[seconds, ..]| *seconds);
     let (raised, lowered) = (stroke.joint.rest, stroke.lowered(depth));
     Ok(Some(ToolStroke { raised, lowered, seconds, clearance: certified.clearance() }))
 }
@@ -54,7 +54,7 @@ pub(super) fn stroke(task: &Task, from: &State, candidate: &Candidate) -> Result
 /// Returns the scene with the arm, and its payload, while the tool is lowered, if it is. A pick rises with its object,
 /// and a place is lowered with it. In the other direction the hand is empty, and meets no more obstacles.
 fn lowered(task: &Task, from: &State, candidate: &Candidate, event: Event) -> Option<Scene> {
-    let left = from.left(task, candidate, candidate.to);
+    let left = from.after_step(task, candidate, candidate.to);
     // The wrist turns after a pick, and before a place.
     let (with, turn) = if left.held.is_some() { (&left, 0) } else { (from, 1) };
     let payload = with.held.clone().map(|mut payload| {

@@ -1,6 +1,6 @@
 //! Base64.
 
-const LETTERS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+const ALPHABET: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
 /// Encodes bytes in Base64 (RFC 4648), with padding.
 #[must_use]
@@ -9,7 +9,7 @@ pub fn base64(bytes: &[u8]) -> String {
         let at = |k: usize| u32::from(three.get(k).copied().unwrap_or_default());
         let bits = at(0) << 16 | at(1) << 8 | at(2);
         let letter =
-            |k: usize| if k <= three.len() { LETTERS[(bits >> (18 - 6 * k)) as usize & 63] as char } else { '=' };
+            |k: usize| if k <= three.len() { ALPHABET[(bits >> (18 - 6 * k)) as usize & 63] as char } else { '=' };
         [0, 1, 2, 3].map(letter)
     };
     bytes.chunks(3).flat_map(group).collect()

@@ -4,7 +4,7 @@ use super::plain_line;
 use std::fmt::Write;
 
 /// Column in which the second column starts.
-pub const INDENT: usize = 11;
+pub const SECOND_COLUMN: usize = 11;
 
 /// Lines with a key in front. A key equal to that of the previous line is not repeated.
 #[derive(Debug, Default)]
@@ -18,7 +18,7 @@ impl Columns {
     pub fn add(&mut self, key: &str, line: &str) {
         let shown = if key == self.before { "" } else { key };
         // Writing to a string cannot fail.
-        let _ = writeln!(self.text, "{shown:<width$} {}", plain_line(line), width = INDENT - 1);
+        let _ = writeln!(self.text, "{shown:<width$} {}", plain_line(line), width = SECOND_COLUMN - 1);
         key.clone_into(&mut self.before);
     }
 

@@ -10,12 +10,12 @@ mod rounded;
 mod wrapped;
 
 pub use base64::base64;
-pub use columns::{Columns, INDENT};
+pub use columns::{Columns, SECOND_COLUMN};
 pub use markup::markup;
 pub use plain::plain_json;
 pub use plain::{plain, plain_line};
-pub use rounded::at_most;
-pub use rounded::{at_least, fixed, nonzero, percent, short, told_apart};
+pub use rounded::round_up;
+pub use rounded::{fixed, format_distinct, nonzero, percent, round_down, short};
 pub use wrapped::wrapped;
 
 /// Formats a count with its noun: `1 obstacle`, `3 obstacles`, `2 boxes`.
@@ -30,12 +30,13 @@ pub fn counted(count: usize, thing: &str) -> String {
 }
 
 /// Largest number of reasons that are listed. Further ones are counted.
-const LISTED: usize = 6;
+const MAX_LISTED_REASONS: usize = 6;
 
 /// Joins reasons, all of them if there are few: `a; b; and 12 more`.
 #[must_use]
 pub fn listed(reasons: &[String]) -> String {
-    let [first, more] = [&reasons[..reasons.len().min(LISTED)], &reasons[reasons.len().min(LISTED)..]];
+    let [first, more] =
+        [&reasons[..reasons.len().min(MAX_LISTED_REASONS)], &reasons[reasons.len().min(MAX_LISTED_REASONS)..]];
     let rest = (!more.is_empty()).then(|| format!("and {} more", more.len()));
     first.iter().cloned().chain(rest).collect::<Vec<_>>().join("; ")
 }
@@ -43,8 +44,8 @@ pub fn listed(reasons: &[String]) -> String {
 /// Does the same for separate lines.
 #[must_use]
 pub fn first_lines(lines: Vec<String>, more: impl Fn(usize) -> String) -> Vec<String> {
-    let rest = lines.len().saturating_sub(LISTED);
-    lines.into_iter().take(LISTED).chain((rest > 0).then(|| more(rest))).collect()
+    let rest = lines.len().saturating_sub(MAX_LISTED_REASONS);
+    lines.into_iter().take(MAX_LISTED_REASONS).chain((rest > 0).then(|| more(rest))).collect()
 }
 
 #[cfg(test)]

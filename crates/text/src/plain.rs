@@ -49,7 +49,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_acts_is_seen_and_the_rest_stays() {
+    fn control_characters_are_escaped() {
         assert_eq!(plain("a\u{1b}[31m\tb\nc\u{9b}d\u{202e}e\r"), "a\\u{1b}[31m\tb\nc\\u{9b}d\\u{202e}e\\r");
         assert_eq!(plain_line("a\nb\tc"), "a\\nb\\tc");
         let usual = "shoulder \u{2192} \u{e4}\u{f6}\u{fc} \u{5d0}\u{1f916}";

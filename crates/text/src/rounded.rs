@@ -1,7 +1,7 @@
 //! Numbers for people: short, distinct where they differ, and never beyond a proven bound.
 
 /// Numbers that need more decimals are written in full.
-const MOST_DECIMALS: usize = 12;
+const MAX_DECIMALS: usize = 12;
 
 /// Formats a number with fixed decimals. Zero has no sign.
 #[must_use]
@@ -23,10 +23,14 @@ pub fn nonzero(value: f64, decimals: usize) -> String {
 
 /// Formats numbers with these decimals, or with as many more as needed to make different numbers look different.
 #[must_use]
-pub fn told_apart<const N: usize>(values: [f64; N], decimals: usize) -> [String; N] {
-    let are_told = |texts: &[String; N]| (0..N).all(|i| (0..i).all(|j| values[i] == values[j] || texts[i] != texts[j]));
+pub fn format_distinct<const N: usize>(values: [f64; N], decimals: usize) -> [String; N] {
+    let are_distinct =
+        |texts: &[String; N]| (0..N).all(|i| (0..i).all(|j| values[i] == values[j] || texts[i] != texts[j]));
     let with = |decimals: usize| values.map(|value| fixed(value, decimals));
-    (decimals..=MOST_DECIMALS).map(with).find(are_told).unwrap_or_else(|| values.map(|value| (value + 0.0).to_string()))
+    (decimals..=MAX_DECIMALS)
+        .map(with)
+        .find(are_distinct)
+        .unwrap_or_else(|| values.map(|value| (value + 0.0).to_string()))
 }
 
 /// Rounds a number to six significant digits.
@@ -38,14 +42,14 @@ pub fn short(value: f64) -> f64 {
 /// Formats a number with fixed decimals, rounded down, so that a proven lower bound stays true as printed. A positive
 /// number that would look like zero gets two significant digits: `5.6e-7`.
 #[must_use]
-pub fn at_least(value: f64, decimals: usize) -> String {
+pub fn round_down(value: f64, decimals: usize) -> String {
     let text = shown(value, decimals, |shown| shown <= value, -1.0);
     if value > 0.0 && text.parse() == Ok(0.0) { two_digits_below(value) } else { text }
 }
 
 /// Formats a number with fixed decimals, rounded up.
 #[must_use]
-pub fn at_most(value: f64, decimals: usize) -> String {
+pub fn round_up(value: f64, decimals: usize) -> String {
     shown(value, decimals, |shown| shown >= value, 1.0)
 }
 
@@ -69,11 +73,11 @@ fn two_digits_below(value: f64) -> String {
 pub fn percent(share: f64) -> String {
     let percent = 100.0 * (share - 2.0 * f64::EPSILON).max(0.0);
     if percent == 0.0 || percent >= 0.01 {
-        return format!("{} %", at_most(percent, 2));
+        return format!("{} %", round_up(percent, 2));
     }
     // Two significant digits.
     let decimals = 1 - percent.log10().floor() as i32;
-    let shown = at_most(percent, decimals.unsigned_abs() as usize);
+    let shown = round_up(percent, decimals.unsigned_abs() as usize);
     shown.parse().map_or(shown.clone(), |shown: f64| format!("{shown:.1e}")) + " %"
 }
 
@@ -95,9 +99,9 @@ mod tests {
 
     #[test]
     fn by_hand() {
-        assert_eq!([at_least(1.66871, 3), at_most(1.66871, 3)], ["1.668", "1.669"]);
-        assert_eq!([at_least(7.627e-6, 6), at_least(4.0, 4), at_most(0.25, 2)], ["0.000007", "4.0000", "0.25"]);
-        assert_eq!([at_most(0.0301, 2), at_least(f64::INFINITY, 3)], ["0.04", "inf"]);
+        assert_eq!([round_down(1.66871, 3), round_up(1.66871, 3)], ["1.668", "1.669"]);
+        assert_eq!([round_down(7.627e-6, 6), round_down(4.0, 4), round_up(0.25, 2)], ["0.000007", "4.0000", "0.25"]);
+        assert_eq!([round_up(0.0301, 2), round_down(f64::INFINITY, 3)], ["0.04", "inf"]);
     }
 
     #[test]
@@ -118,17 +122,23 @@ mod tests {
         assert_eq!([fixed(-1e-9, 4), fixed(-0.0, 2), fixed(-0.1, 0), fixed(-0.1, 1)], ["0.0000", "0.00", "0", "-0.1"]);
         assert_eq!([nonzero(4.64e-7, 6), nonzero(-5.6e-7, 4), nonzero(-0.0, 2)], ["4.6e-7", "-5.6e-7", "0.00"]);
         assert_eq!([fixed(f64::NEG_INFINITY, 2), fixed(-20.0, 1)], ["-inf", "-20.0"]);
-        assert_eq!([at_least(5.6e-7, 6), at_least(5.68e-7, 6), at_least(9.96e-9, 6)], ["5.6e-7", "5.6e-7", "9.9e-9"]);
-        assert_eq!([at_least(1e-300, 4), at_least(0.0, 6), at_most(-1e-9, 6)], ["1.0e-300", "0.000000", "0.000000"]);
+        assert_eq!(
+            [round_down(5.6e-7, 6), round_down(5.68e-7, 6), round_down(9.96e-9, 6)],
+            ["5.6e-7", "5.6e-7", "9.9e-9"]
+        );
+        assert_eq!(
+            [round_down(1e-300, 4), round_down(0.0, 6), round_up(-1e-9, 6)],
+            ["1.0e-300", "0.000000", "0.000000"]
+        );
     }
 
     #[test]
     fn numbers_that_differ_look_different() {
-        assert_eq!(told_apart([-1e-6, 0.0, 1.0], 4), ["-0.000001", "0.000000", "1.000000"]);
-        assert_eq!(told_apart([0.4, 0.0, 0.4], 4), ["0.4000", "0.0000", "0.4000"]);
-        assert_eq!(told_apart([0.400_000_1, 0.0, 0.4], 4), ["0.4000001", "0.0000000", "0.4000000"]);
-        assert_eq!(told_apart([0.4_f64.next_up(), 0.4], 4), ["0.4000000000000001", "0.4"]);
-        assert_eq!(told_apart([-0.0, 0.0], 1), ["0.0", "0.0"]);
+        assert_eq!(format_distinct([-1e-6, 0.0, 1.0], 4), ["-0.000001", "0.000000", "1.000000"]);
+        assert_eq!(format_distinct([0.4, 0.0, 0.4], 4), ["0.4000", "0.0000", "0.4000"]);
+        assert_eq!(format_distinct([0.400_000_1, 0.0, 0.4], 4), ["0.4000001", "0.0000000", "0.4000000"]);
+        assert_eq!(format_distinct([0.4_f64.next_up(), 0.4], 4), ["0.4000000000000001", "0.4"]);
+        assert_eq!(format_distinct([-0.0, 0.0], 1), ["0.0", "0.0"]);
     }
 
     proptest! {
@@ -137,7 +147,7 @@ mod tests {
         #[test]
         fn two_digits_are_below_by_a_unit_of_the_second_at_most(exponent in -30.0..0.0_f64, decimals in 0..7_usize) {
             let value = 10_f64.powf(exponent);
-            let shown: f64 = at_least(value, decimals).parse().unwrap();
+            let shown: f64 = round_down(value, decimals).parse().unwrap();
             prop_assert!(0.0 < shown && shown <= value, "{value} {shown}");
             prop_assert!(value - shown <= 0.1001 * value || value >= 0.1_f64.powi(decimals as i32), "{value} {shown}");
         }
@@ -152,7 +162,7 @@ mod tests {
 
         #[test]
         fn they_enclose_by_a_unit_at_most(value in -1e3..1e3_f64, decimals in 0..7_usize) {
-            let [low, high] = [at_least(value, decimals), at_most(value, decimals)].map(|text| text.parse::<f64>().unwrap());
+            let [low, high] = [round_down(value, decimals), round_up(value, decimals)].map(|text| text.parse::<f64>().unwrap());
             let unit = 0.1_f64.powi(decimals as i32);
             prop_assert!(low <= value && value <= high && high - low <= 1.001 * unit, "{low} {value} {high}");
         }

@@ -6,26 +6,26 @@ use super::page;
 use super::view::View;
 
 /// Time between two pictures, in hundredths of a second: nearly 17 pictures per second.
-pub const DELAY: u16 = 6;
+pub const FRAME_DELAY: u16 = 6;
 
 /// Shortest and longest time in which the motion is shown, in seconds. Shorter motions are slowed down, longer ones
 /// sped up.
-const MOTION: [f64; 2] = [2.0, 3.5];
+const MOTION_TIMES: [f64; 2] = [2.0, 3.5];
 
-/// Time for which the last picture of a phase (`REST`) and the last picture of all (`END`) are shown, in hundredths of
+/// Time for which the last picture of a phase (`PHASE_DELAY`) and the last picture of all (`END_DELAY`) are shown, in hundredths of
 /// a second.
-const REST: u16 = 36;
-const END: u16 = 200;
+const PHASE_DELAY: u16 = 36;
+const END_DELAY: u16 = 200;
 
 /// A moment of the animation, and the time for which it is shown, in hundredths of a second.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Moment {
-    what: What,
+    what: MomentKind,
     pub delay: u16,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum What {
+enum MomentKind {
     /// A phase of the planner's run, and the fraction of it that has been shown.
     Thinking(usize, f64),
     /// A time of the motion, in seconds.
@@ -38,19 +38,19 @@ enum What {
 #[must_use]
 pub fn moments(view: &View) -> Vec<Moment> {
     let mut moments = Vec::new();
-    let frames = |seconds: f64| (seconds * 100.0 / f64::from(DELAY)).round().max(1.0) as usize;
+    let frames = |seconds: f64| (seconds * 100.0 / f64::from(FRAME_DELAY)).round().max(1.0) as usize;
     for (phase, now) in view.replay.iter().enumerate() {
         let count = frames(now.seconds);
-        let shown = (1..=count).map(|k| What::Thinking(phase, k as f64 / count as f64));
-        moments.extend(shown.map(|what| Moment { what, delay: DELAY }));
-        moments.last_mut().into_iter().for_each(|moment| moment.delay = REST);
+        let shown = (1..=count).map(|k| MomentKind::Thinking(phase, k as f64 / count as f64));
+        moments.extend(shown.map(|what| Moment { what, delay: FRAME_DELAY }));
+        moments.last_mut().into_iter().for_each(|moment| moment.delay = PHASE_DELAY);
     }
     if let Some(duration) = view.duration() {
-        let count = frames(duration.clamp(MOTION[0], MOTION[1]));
-        let shown = (0..=count).map(|k| What::Moving(duration * k as f64 / count as f64));
-        moments.extend(shown.map(|what| Moment { what, delay: DELAY }));
+        let count = frames(duration.clamp(MOTION_TIMES[0], MOTION_TIMES[1]));
+        let shown = (0..=count).map(|k| MomentKind::Moving(duration * k as f64 / count as f64));
+        moments.extend(shown.map(|what| Moment { what, delay: FRAME_DELAY }));
     }
-    moments.push(Moment { what: What::Still, delay: END });
+    moments.push(Moment { what: MomentKind::Still, delay: END_DELAY });
     moments
 }
 
@@ -58,9 +58,9 @@ pub fn moments(view: &View) -> Vec<Moment> {
 #[must_use]
 pub fn figure(view: &View, moment: Moment) -> Figure {
     let shown = match moment.what {
-        What::Thinking(phase, part) => &view.thinking(phase, part),
-        What::Moving(time) => &view.moving(time),
-        What::Still => view,
+        MomentKind::Thinking(phase, part) => &view.thinking(phase, part),
+        MomentKind::Moving(time) => &view.moving(time),
+        MomentKind::Still => view,
     };
     page::explained(shown, legend::keys(view))
 }

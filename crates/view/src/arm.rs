@@ -1,7 +1,7 @@
 //! The arm in one configuration, with its payload.
 
 use super::axes::Frame;
-use super::color::{self, ACCENT, BARRED, GREY, INK, PALE, Rgb, WHITE};
+use super::color::{self, ACCENT, BLOCKED, GREY, INK, PALE, Rgb, WHITE};
 use super::figure::{Item, Step, Style};
 use super::shapes::union;
 use super::view::PayloadView;
@@ -9,7 +9,7 @@ use cplan_core::model::Arm;
 use cplan_core::space::Configuration;
 
 /// Colours and lines of a pose.
-pub struct Look {
+pub struct ArmStyle {
     fill: Rgb,
     line: Rgb,
     width: f64,
@@ -18,19 +18,19 @@ pub struct Look {
 }
 
 /// The arm at the start of the motion.
-pub const START: Look = Look { fill: WHITE, line: INK, width: 1.4, opacity: 0.9, joints: true };
+pub const START_LOOK: ArmStyle = ArmStyle { fill: WHITE, line: INK, width: 1.4, opacity: 0.9, joints: true };
 /// The arm at the goal.
-pub const GOAL: Look = Look { fill: PALE, line: INK, width: 1.4, opacity: 0.9, joints: true };
+pub const GOAL_LOOK: ArmStyle = ArmStyle { fill: PALE, line: INK, width: 1.4, opacity: 0.9, joints: true };
 /// The arm at a goal that it cannot reach.
-pub const UNREACHED: Look = Look { fill: WHITE, line: BARRED, width: 1.2, opacity: 0.6, joints: false };
+pub const UNREACHED_LOOK: ArmStyle = ArmStyle { fill: WHITE, line: BLOCKED, width: 1.2, opacity: 0.6, joints: false };
 /// The arm at its current configuration.
-pub const NOW: Look = Look { fill: WHITE, line: ACCENT, width: 2.0, opacity: 1.0, joints: true };
+pub const CURRENT_LOOK: ArmStyle = ArmStyle { fill: WHITE, line: ACCENT, width: 2.0, opacity: 1.0, joints: true };
 /// The arm at a configuration along the path.
-pub const GHOST: Look = Look { fill: color::GHOST, line: GREY, width: 0.8, opacity: 0.7, joints: false };
+pub const GHOST_LOOK: ArmStyle = ArmStyle { fill: color::GHOST, line: GREY, width: 0.8, opacity: 0.7, joints: false };
 
 /// Draws the arm at `q`: its own outline, and above it the payload in the colour of the object.
 #[must_use]
-pub fn items(frame: &Frame, arm: &Arm, payload: Option<&PayloadView>, q: Configuration, look: &Look) -> Vec<Item> {
+pub fn items(frame: &Frame, arm: &Arm, payload: Option<&PayloadView>, q: Configuration, look: &ArmStyle) -> Vec<Item> {
     let body = Style::line(look.line, 2.0 * look.width).filled(look.fill).faded(look.opacity);
     let links = arm.links.iter().zip(arm.poses(q));
     let mut items: Vec<Item> =

@@ -211,12 +211,12 @@ fn decimal_step(least: f64) -> f64 {
 
 /// Returns the smallest step in degrees that divides a turn, or is a multiple of a turn, and is not below `least`.
 fn degree_step(least: f64) -> f64 {
-    const STEPS: [f64; 10] = [1.0, 2.0, 5.0, 10.0, 15.0, 30.0, 45.0, 90.0, 180.0, 360.0];
+    const DEGREE_STEPS: [f64; 10] = [1.0, 2.0, 5.0, 10.0, 15.0, 30.0, 45.0, 90.0, 180.0, 360.0];
     if least < 0.5 {
         return decimal_step(least);
     }
     let turns = || 360.0 * decimal_step(least / 360.0).ceil();
-    STEPS.into_iter().find(|&s| s >= least * (1.0 - 1e-9)).unwrap_or_else(turns)
+    DEGREE_STEPS.into_iter().find(|&s| s >= least * (1.0 - 1e-9)).unwrap_or_else(turns)
 }
 
 #[cfg(test)]

@@ -1,14 +1,14 @@
 //! Boxes of configurations: those of a subdivision, and those of a proof.
 
 use super::axes::Frame;
-use super::color::{EDGE, FREE, MIXED, PROOF, WHITE};
+use super::color::{EDGE, FREE, PROOF, UNDECIDED, WHITE};
 use super::figure::{Item, Rect, Step, Style, rectangle};
 use super::key::{Key, Sign};
 use super::view::Chain;
 use cplan_core::space::Configuration;
 
 /// Boxes narrower than this are drawn without sides, in pixels. The lines would hide everything else.
-const NARROW: f64 = 2.0;
+const MIN_OUTLINED_WIDTH: f64 = 2.0;
 
 fn rect([lower, upper]: [Configuration; 2], frame: &Frame) -> Rect {
     let ([x0, y0], [x1, y1]) = (frame.at(lower[0], lower[1]), frame.at(upper[0], upper[1]));
@@ -23,25 +23,28 @@ fn surface(boxes: &Chain, frame: &Frame, style: Style) -> Item {
 #[must_use]
 pub fn surfaces(free: &Chain, mixed: [&Chain; 2], frame: &Frame) -> Vec<Item> {
     let [mixed, rest] = mixed;
-    let all = [(free, FREE), (mixed, MIXED), (rest, MIXED)];
+    let all = [(free, FREE), (mixed, UNDECIDED), (rest, UNDECIDED)];
     all.map(|(boxes, color)| surface(boxes, frame, Style::fill(color))).into()
 }
 
 /// Draws the sides of boxes.
 #[must_use]
 pub fn sides(boxes: &Chain, frame: &Frame) -> Item {
-    let rects = boxes.pairs().map(|b| rect(b, frame)).filter(|r| r.width >= NARROW && r.height >= NARROW);
+    let rects = boxes
+        .pairs()
+        .map(|b| rect(b, frame))
+        .filter(|r| r.width >= MIN_OUTLINED_WIDTH && r.height >= MIN_OUTLINED_WIDTH);
     Item::Outline(rects.flat_map(rectangle).collect(), Style::line(EDGE, 0.5))
 }
 
 /// Returns the legend of a subdivision.
 #[must_use]
 pub fn keys() -> Vec<Key> {
-    vec![(Sign::Swatch(FREE), "free boxes".to_owned()), (Sign::Swatch(MIXED), "undecided boxes".to_owned())]
+    vec![(Sign::Swatch(FREE), "free boxes".to_owned()), (Sign::Swatch(UNDECIDED), "undecided boxes".to_owned())]
 }
 
 /// Horizontal distance between neighbouring lines of a hatch, in pixels.
-const HATCH: f64 = 7.0;
+const HATCH_DISTANCE: f64 = 7.0;
 
 /// Draws the boxes of a proof over the C-obstacles. They are hatched, and nothing else is.
 #[must_use]
@@ -65,9 +68,9 @@ pub fn hatched(rects: &[Rect]) -> Vec<Item> {
 fn hatch(rect: Rect) -> Vec<Step> {
     // On each line, x + y is a multiple of the distance.
     let (least, greatest) = (rect.x + rect.y, rect.right() + rect.bottom());
-    let lines = (least / HATCH).ceil() as i64..=(greatest / HATCH).floor() as i64;
+    let lines = (least / HATCH_DISTANCE).ceil() as i64..=(greatest / HATCH_DISTANCE).floor() as i64;
     let line = |k: i64| {
-        let sum = k as f64 * HATCH;
+        let sum = k as f64 * HATCH_DISTANCE;
         let (left, right) = ((sum - rect.bottom()).max(rect.x), (sum - rect.y).min(rect.right()));
         [Step::Move([left, sum - left]), Step::Line([right, sum - right])]
     };
@@ -105,13 +108,13 @@ mod tests {
                 let [Step::Move(a), Step::Line(b)] = pair[..] else { panic!("{pair:?}") };
                 for [x, y] in [a, b] {
                     let inside = x >= rect.x && x <= rect.right() && y >= rect.y && y <= rect.bottom();
-                    assert!(inside && ((x + y) / HATCH).fract().abs() < 1e-9, "{x} {y} in {rect:?}");
+                    assert!(inside && ((x + y) / HATCH_DISTANCE).fract().abs() < 1e-9, "{x} {y} in {rect:?}");
                 }
                 length += (b[0] - a[0]).hypot(b[1] - a[1]);
             }
             // The expected total length for lines at this distance, up to one line at each end.
-            let expected = width * height / (HATCH / std::f64::consts::SQRT_2);
-            assert!((length - expected).abs() < 2.0 * width.min(height) + HATCH, "{length} for {expected}");
+            let expected = width * height / (HATCH_DISTANCE / std::f64::consts::SQRT_2);
+            assert!((length - expected).abs() < 2.0 * width.min(height) + HATCH_DISTANCE, "{length} for {expected}");
         }
     }
 }

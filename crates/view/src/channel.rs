@@ -8,13 +8,13 @@ use super::view::Chain;
 
 /// Cells narrower than this are drawn with finer sides, in pixels. With normal sides, many such cells would make a
 /// moiré pattern.
-const NARROW: f64 = 5.0;
+const NARROW_CELL: f64 = 5.0;
 /// Radius of a point, in pixels.
-const RADIUS: f64 = 3.0;
+const POINT_RADIUS: f64 = 3.0;
 /// Height of the names of points, in pixels.
-const SIZE: f64 = 11.0;
+const NAME_SIZE: f64 = 11.0;
 /// Largest number of cells in a channel whose points have names.
-const NAMED: usize = 24;
+const MAX_NAMED_CELLS: usize = 24;
 
 /// Draws the surface of the channel.
 pub fn surface(cells: &[Chain], channel: &[usize], chart: &Chart) -> Item {
@@ -38,7 +38,7 @@ pub fn sides(cells: &[Chain], channel: &[usize], chart: &Chart) -> Vec<Item> {
 fn is_wide(Chain(corners): &Chain, chart: &Chart) -> bool {
     let columns = corners.iter().map(|q| chart.frame.at(q[0], q[1])[0]);
     let (low, high) = columns.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
-    high - low >= NARROW
+    high - low >= NARROW_CELL
 }
 
 /// Draws centres of cells (discs) and middles of portals (rings), named `C1`, `Q1`, `C2` and so on. If there are only a
@@ -47,33 +47,33 @@ pub fn points([centers, middles]: [&Chain; 2], chart: &Chart) -> Vec<Item> {
     let places = |points: &Chain| points.0.iter().map(|&q| chart.place(q)).collect::<Vec<[f64; 2]>>();
     let (centers, middles) = (places(centers), places(middles));
     let mut items: Vec<Item> = centers.iter().map(|&at| disc(at)).chain(middles.iter().map(|&at| ring(at))).collect();
-    if centers.len() > NAMED {
+    if centers.len() > MAX_NAMED_CELLS {
         return items;
     }
-    let mut taken: Vec<Rect> = centers.iter().chain(&middles).map(|&at| about(at, [2.0 * RADIUS; 2])).collect();
+    let mut taken: Vec<Rect> = centers.iter().chain(&middles).map(|&at| about(at, [2.0 * POINT_RADIUS; 2])).collect();
     let named = |letter: char, places: &[[f64; 2]]| -> Vec<(String, [f64; 2])> {
         places.iter().enumerate().map(|(k, &at)| (format!("{letter}{}", k + 1), at)).collect()
     };
     for (name, at) in named('Q', &middles).into_iter().chain(named('C', &centers)) {
-        let size = [text_width(&name, SIZE) + 2.0, SIZE + 1.0];
+        let size = [text_width(&name, NAME_SIZE) + 2.0, NAME_SIZE + 1.0];
         let around = [[1.0, -1.0], [1.0, 1.0], [-1.0, -1.0], [-1.0, 1.0]];
         let beside = |[x, y]: [f64; 2]| {
-            about([at[0] + x * (size[0] / 2.0 + RADIUS), at[1] + y * (size[1] / 2.0 + RADIUS)], size)
+            about([at[0] + x * (size[0] / 2.0 + POINT_RADIUS), at[1] + y * (size[1] / 2.0 + POINT_RADIUS)], size)
         };
         let is_free = |place: &Rect| within(place, &chart.frame.rect) && !taken.iter().any(|other| meet(place, other));
         let Some(place) = around.map(beside).into_iter().find(is_free) else { continue };
-        items.push(label([place.x + 1.0, place.bottom() - 2.0], name, SIZE, Anchor::Start, INK));
+        items.push(label([place.x + 1.0, place.bottom() - 2.0], name, NAME_SIZE, Anchor::Start, INK));
         taken.push(place);
     }
     items
 }
 
 fn disc(at: [f64; 2]) -> Item {
-    Item::Disc(at, RADIUS, Style::line(WHITE, 0.8).filled(INK))
+    Item::Disc(at, POINT_RADIUS, Style::line(WHITE, 0.8).filled(INK))
 }
 
 fn ring(at: [f64; 2]) -> Item {
-    Item::Disc(at, RADIUS, Style::line(INK, 1.4).filled(WHITE))
+    Item::Disc(at, POINT_RADIUS, Style::line(INK, 1.4).filled(WHITE))
 }
 
 fn about([x, y]: [f64; 2], [width, height]: [f64; 2]) -> Rect {

@@ -9,7 +9,7 @@ use cplan_core::space::{Configuration, Topology};
 use cplan_geometry::cross;
 
 /// Largest ratio of the ranges of two joints of one kind with which both axes have the same scale.
-const ONE_SCALE: f64 = 2.2;
+const MAX_ONE_SCALE_RATIO: f64 = 2.2;
 
 /// The whole joint space of an arm in a frame of the page.
 #[derive(Debug, Clone, Copy)]
@@ -99,7 +99,8 @@ fn units(arm: &Arm) -> [Unit; 2] {
 pub fn one_scale(arm: &Arm) -> Option<f64> {
     let [width, height] = arm.topology().ranges.map(|axis| axis.extent());
     let [first, second] = units(arm);
-    (first == second && width <= ONE_SCALE * height && height <= ONE_SCALE * width).then(|| height / width)
+    (first == second && width <= MAX_ONE_SCALE_RATIO * height && height <= MAX_ONE_SCALE_RATIO * width)
+        .then(|| height / width)
 }
 
 /// Returns the titles of the axes.

@@ -40,7 +40,7 @@ pub const GREY: Rgb = Rgb(0x5c, 0x63, 0x6b);
 /// Marks for orientation: the reach, ticks.
 pub const PALE: Rgb = Rgb(0xa3, 0xaa, 0xb2);
 /// Blocking obstacles, and goals out of reach.
-pub const BARRED: Rgb = Rgb(0xc2, 0x2e, 0x2e);
+pub const BLOCKED: Rgb = Rgb(0xc2, 0x2e, 0x2e);
 /// Boxes of proofs that there is no path.
 pub const PROOF: Rgb = Rgb(0xd9, 0x5f, 0x02);
 /// The arm at its current configuration, and lines of steepest ascent.
@@ -56,7 +56,7 @@ pub const CHANNEL: Rgb = Rgb(0xff, 0xf0, 0x70);
 /// Boxes of free configurations.
 pub const FREE: Rgb = Rgb(0xd3, 0xee, 0xda);
 /// Undecided boxes: grey, which no obstacle is.
-pub const MIXED: Rgb = Rgb(0xae, 0xb3, 0xbb);
+pub const UNDECIDED: Rgb = Rgb(0xae, 0xb3, 0xbb);
 /// Fixed links of the robot.
 pub const ROBOT: Rgb = Rgb(0x8a, 0x90, 0x98);
 /// Regions that fields avoid.
@@ -73,12 +73,12 @@ pub const TINTS: [(&str, Rgb); 15] = [
     ("faint", FAINT),
     ("ghost", GHOST),
     ("accent", ACCENT),
-    ("barred", BARRED),
+    ("barred", BLOCKED),
     ("proof", PROOF),
     ("edge", EDGE),
     ("channel", CHANNEL),
     ("free", FREE),
-    ("mixed", MIXED),
+    ("mixed", UNDECIDED),
     ("avoided", AVOIDED),
     ("preferred", PREFERRED),
 ];
@@ -92,7 +92,7 @@ pub fn tint(color: Rgb) -> String {
 
 /// Paul Tol's scheme "muted" (Technical Note SRON/EPS/TN/09-002, 2021), ordered so that neighbours in the list differ
 /// strongly.
-const MUTED: [Rgb; 9] = [
+const OBSTACLE_COLORS: [Rgb; 9] = [
     Rgb(0x88, 0xcc, 0xee),
     Rgb(0xcc, 0x66, 0x77),
     Rgb(0xdd, 0xcc, 0x77),
@@ -108,8 +108,8 @@ const MUTED: [Rgb; 9] = [
 /// deeper colours, so that 63 obstacles differ before the list begins again.
 #[must_use]
 pub fn obstacle(index: usize) -> Rgb {
-    let hue = MUTED[index % MUTED.len()];
-    match index / MUTED.len() % 7 {
+    let hue = OBSTACLE_COLORS[index % OBSTACLE_COLORS.len()];
+    match index / OBSTACLE_COLORS.len() % 7 {
         0 => hue,
         1 => hue.lighter(0.4),
         2 => hue.darker(0.3),
@@ -125,7 +125,7 @@ pub fn obstacle(index: usize) -> Rgb {
 /// paths differ.
 #[must_use]
 pub fn path(index: usize) -> (Rgb, &'static [f64]) {
-    const COLORS: [Rgb; 6] = [
+    const PATH_COLORS: [Rgb; 6] = [
         Rgb(0x00, 0x72, 0xb2),
         Rgb(0xd5, 0x5e, 0x00),
         Rgb(0x00, 0x9e, 0x73),
@@ -133,15 +133,15 @@ pub fn path(index: usize) -> (Rgb, &'static [f64]) {
         Rgb(0xc7, 0x8a, 0x00),
         Rgb(0x2b, 0x90, 0xc9),
     ];
-    const DASHES: [&[f64]; 6] = [&[], &[9.0, 4.0], &[3.0, 3.0], &[10.0, 3.0, 2.0, 3.0], &[5.0, 5.0], &[14.0, 4.0]];
-    (COLORS[index % COLORS.len()], DASHES[(index + index / COLORS.len()) % DASHES.len()])
+    const PATH_DASHES: [&[f64]; 6] = [&[], &[9.0, 4.0], &[3.0, 3.0], &[10.0, 3.0, 2.0, 3.0], &[5.0, 5.0], &[14.0, 4.0]];
+    (PATH_COLORS[index % PATH_COLORS.len()], PATH_DASHES[(index + index / PATH_COLORS.len()) % PATH_DASHES.len()])
 }
 
 /// Returns the colour for `value` from 0 (light) to 1 (dark) on a perceptually uniform scale: seaborn's "mako" without
 /// its darkest third, reversed, so that a dark path stays legible on it.
 #[must_use]
 pub fn scale(value: f64) -> Rgb {
-    const STOPS: [Rgb; 8] = [
+    const SCALE_STOPS: [Rgb; 8] = [
         Rgb(0xde, 0xf5, 0xe5),
         Rgb(0xa8, 0xe1, 0xbc),
         Rgb(0x60, 0xce, 0xac),
@@ -151,9 +151,9 @@ pub fn scale(value: f64) -> Rgb {
         Rgb(0x3b, 0x5d, 0x9a),
         Rgb(0x41, 0x3f, 0x80),
     ];
-    let at = value.clamp(0.0, 1.0) * (STOPS.len() - 1) as f64;
-    let below = (at as usize).min(STOPS.len() - 2);
-    STOPS[below].mixed(STOPS[below + 1], at - below as f64)
+    let at = value.clamp(0.0, 1.0) * (SCALE_STOPS.len() - 1) as f64;
+    let below = (at as usize).min(SCALE_STOPS.len() - 2);
+    SCALE_STOPS[below].mixed(SCALE_STOPS[below + 1], at - below as f64)
 }
 
 #[cfg(test)]
@@ -206,13 +206,13 @@ mod tests {
     }
 
     #[test]
-    fn surfaces_and_ghosts_can_be_told_apart_where_a_projector_is_weak() {
+    fn surfaces_and_ghosts_differ_on_weak_projectors() {
         let contrast = |a: Rgb, b: Rgb| {
             let [a, b] = [a, b].map(|color| luminance(color) + 0.05);
             a.max(b) / a.min(b)
         };
-        assert!(contrast(FREE, MIXED) >= 1.6, "{}", contrast(FREE, MIXED));
-        assert!(contrast(MIXED, WHITE) >= 1.6);
+        assert!(contrast(FREE, UNDECIDED) >= 1.6, "{}", contrast(FREE, UNDECIDED));
+        assert!(contrast(UNDECIDED, WHITE) >= 1.6);
         // The outline of a pose along the path.
         assert!(contrast(GREY.lighter(0.3), WHITE) >= 3.0);
     }

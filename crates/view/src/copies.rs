@@ -5,7 +5,7 @@ use cplan_core::space::Configuration;
 use std::f64::consts::TAU;
 
 /// Largest number of copies. With more turns in a panel of some 500 pixels, one turn would be half a pixel wide.
-const MOST_TURNS: f64 = 1000.0;
+const MAX_COPIES: f64 = 1000.0;
 
 /// The visible part of joint space, and the axes along which its content repeats.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -40,7 +40,7 @@ impl Window {
         }
         let first = ((window.0 - upper) / TAU).ceil();
         let last = ((window.1 - lower) / TAU).floor();
-        let count = (last - first).clamp(-1.0, MOST_TURNS) as i64;
+        let count = (last - first).clamp(-1.0, MAX_COPIES) as i64;
         (0..=count).map(|k| (first + k as f64) * TAU).collect()
     }
 

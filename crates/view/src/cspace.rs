@@ -4,15 +4,15 @@ use super::axes::Frame;
 use super::chart::{self, Chart};
 use super::color::{ACCENT, INK, Rgb, WHITE};
 use super::figure::{Item, Pen, Rect, Step, Style, lines};
-use super::shapes::DASH;
+use super::shapes::ABSENT_DASH;
 use super::view::{ContourView, NameView, PanelView, View, WorldView};
-use super::{boxes, labels, preferences, reach, stuck, tags, trace};
+use super::{blocking, boxes, labels, preferences, reach, tags, trace};
 
 /// Pen for goals along a segment.
-const GOALS: Pen = Pen { color: INK, width: 2.0, dash: &[1.5, 3.5] };
+const GOAL_SEGMENT_PEN: Pen = Pen { color: INK, width: 2.0, dash: &[1.5, 3.5] };
 
 /// Width of the markers of start and goals, in pixels.
-const MARKER: f64 = 16.0;
+const MARKER_WIDTH: f64 = 16.0;
 
 /// Draws the panel in this part of the page, with room for a scale of colours to the right of it.
 #[must_use]
@@ -39,11 +39,11 @@ pub fn items(view: &View, panel: &PanelView, chart: &Chart) -> Vec<Item> {
     inside.extend(view.still.reach.iter().flat_map(|reach| reach::in_cspace(reach, chart)));
     inside.extend(preferences::in_cspace(&world.regions, chart));
     inside.extend(boxes::proof(&world.proof, frame));
-    let stuck = view.still.stuck.iter().filter_map(|stuck| Some(stuck.at?.0));
-    let marked = view.ends(panel).into_iter().map(|(q, ..)| q).chain([panel.start.into()]).chain(stuck);
-    let markers = marked.map(|q| labels::about(chart.place(q), [MARKER; 2])).collect();
+    let blocking = view.still.stuck.iter().filter_map(|blocking| Some(blocking.at?.0));
+    let marked = view.ends(panel).into_iter().map(|(q, ..)| q).chain([panel.start.into()]).chain(blocking);
+    let markers = marked.map(|q| labels::about(chart.place(q), [MARKER_WIDTH; 2])).collect();
     inside.extend(names(world, frame, markers));
-    inside.extend(lines(view.goal_lines.iter().map(|goals| (chart.outline(&goals.0), GOALS))));
+    inside.extend(lines(view.goal_lines.iter().map(|goals| (chart.outline(&goals.0), GOAL_SEGMENT_PEN))));
     inside.extend(lines(paths.map(|path| (chart.outline(&path.points.0), path.pen()))));
     inside.extend(world.trace.iter().flat_map(|trace| trace::over_path(trace, chart)));
     let mut items = vec![Item::Clip(frame.rect, inside)];
@@ -61,7 +61,7 @@ pub fn items(view: &View, panel: &PanelView, chart: &Chart) -> Vec<Item> {
     {
         items.push(Item::Disc(chart.place(q.into()), 4.8, Style::line(WHITE, 1.2).filled(ACCENT)));
     }
-    items.extend(view.still.stuck.iter().flat_map(|stuck| stuck::in_cspace(stuck, chart)));
+    items.extend(view.still.stuck.iter().flat_map(|blocking| blocking::in_cspace(blocking, chart)));
     if view.is_task() && numbers.len() > 1 {
         items.extend(tags::items(&numbers, frame.rect, &[], &[]));
     }
@@ -115,7 +115,7 @@ fn blocked(color: Rgb) -> Style {
 
 /// Returns the style of the C-obstacle of an obstacle that link 2 may reach into.
 fn passable(color: Rgb) -> Style {
-    let style = Style::line(color.darker(0.25), 2.6).dashed(DASH).filled(color.lighter(0.85)).faded(0.85);
+    let style = Style::line(color.darker(0.25), 2.6).dashed(ABSENT_DASH).filled(color.lighter(0.85)).faded(0.85);
     Style { pen_below: true, ..style }
 }
 

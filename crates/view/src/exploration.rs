@@ -9,12 +9,12 @@ use cplan_world::{Occupancy, Sensor};
 use serde_json::{Value, json};
 
 const STYLE: &str = include_str!("assets/exploration.css");
-const CODE: &str = include_str!("assets/exploration.js");
+const SCRIPT: &str = include_str!("assets/exploration.js");
 
 /// Returns an exploration as one self-contained HTML file; `timed` adds the time that its decisions took.
 #[must_use]
 pub fn exploration_page(title: &str, scene: &Scene, sensor: &Sensor, done: &Exploration, timed: bool) -> String {
-    sealed(title, STYLE, "exploration", &data(title, scene, sensor, done, timed).to_string(), CODE)
+    sealed(title, STYLE, "exploration", &data(title, scene, sensor, done, timed).to_string(), SCRIPT)
 }
 
 fn data(title: &str, scene: &Scene, sensor: &Sensor, done: &Exploration, timed: bool) -> Value {

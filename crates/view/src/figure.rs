@@ -174,13 +174,13 @@ pub struct Figure {
 /// one before: nobody can see them, and files stay small.
 #[must_use]
 pub fn chain(spots: impl IntoIterator<Item = [f64; 2]>, closed: bool) -> Vec<Step> {
-    const INVISIBLE: f64 = 0.25;
+    const MIN_VISIBLE_SIZE: f64 = 0.25;
     let mut steps = Vec::new();
     let mut kept: Option<[f64; 2]> = None;
     let mut skipped = None;
     for spot in spots {
         match kept {
-            Some(last) if (spot[0] - last[0]).abs().max((spot[1] - last[1]).abs()) < INVISIBLE => {
+            Some(last) if (spot[0] - last[0]).abs().max((spot[1] - last[1]).abs()) < MIN_VISIBLE_SIZE => {
                 skipped = Some(spot);
             }
             _ => {

@@ -7,11 +7,11 @@ use super::view::FrameView;
 use cplan_geometry::{Vector, perpendicular};
 
 /// Length of an axis that lies in the plane, in pixels.
-const LENGTH: f64 = 52.0;
+const AXIS_LENGTH: f64 = 52.0;
 /// Axes whose projection onto the plane is a smaller fraction of their length than this are drawn as perpendicular to
 /// the plane.
-const STANDING: f64 = 0.1;
-const LETTERS: [&str; 3] = ["x", "y", "z"];
+const PERPENDICULAR_SHARE: f64 = 0.1;
+const AXIS_LETTERS: [&str; 3] = ["x", "y", "z"];
 
 /// Draws axes, letters and names.
 #[must_use]
@@ -26,14 +26,14 @@ fn one(panel: &Frame, frame: &FrameView) -> Vec<Item> {
         let (color, _) = color::path(k);
         // The page's y axis points down.
         let shadow = Vector::new(u, -v);
-        let text = |at: [f64; 2]| label(at, LETTERS[k], 14.0, Anchor::Middle, color);
-        if shadow.norm() < STANDING {
+        let text = |at: [f64; 2]| label(at, AXIS_LETTERS[k], 14.0, Anchor::Middle, color);
+        if shadow.norm() < PERPENDICULAR_SHARE {
             items.extend(standing(at, w > 0.0, Style::line(color, 1.8)));
             items.push(text([at[0] - 15.0, at[1] + 5.0]));
             continue;
         }
         let pen = Style::line(color, 2.4);
-        let tip = moved(at, shadow * LENGTH);
+        let tip = moved(at, shadow * AXIS_LENGTH);
         let back = shadow.normalize() * -9.0;
         let barb = |side: f64| moved(tip, back + perpendicular(back) * (0.45 * side));
         items.push(Item::Outline(vec![Step::Move(at), Step::Line(tip)], pen));
@@ -46,12 +46,12 @@ fn one(panel: &Frame, frame: &FrameView) -> Vec<Item> {
 
 /// Returns an arrow seen from its point (a dot) or from its feathers (a cross), in a circle.
 fn standing(at: [f64; 2], towards: bool, pen: Style) -> Vec<Item> {
-    const RADIUS: f64 = 7.0;
-    let ring = Item::Disc(at, RADIUS, pen.filled(WHITE));
+    const PERPENDICULAR_RADIUS: f64 = 7.0;
+    let ring = Item::Disc(at, PERPENDICULAR_RADIUS, pen.filled(WHITE));
     if towards {
         return vec![ring, Item::Disc(at, 2.2, Style::fill(INK))];
     }
-    let r = RADIUS * std::f64::consts::FRAC_1_SQRT_2;
+    let r = PERPENDICULAR_RADIUS * std::f64::consts::FRAC_1_SQRT_2;
     let stroke =
         |y: f64| Item::Outline(vec![Step::Move([at[0] - r, at[1] - y]), Step::Line([at[0] + r, at[1] + y])], pen);
     vec![ring, stroke(r), stroke(-r)]

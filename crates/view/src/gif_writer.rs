@@ -6,7 +6,7 @@
 
 use super::DrawError;
 use super::figure::{Figure, Item, Rect};
-use super::png_writer::{Rasteriser, blank};
+use super::png_writer::{Rasterizer, blank};
 use super::svg_writer;
 use cplan_interrupt::checkpoint;
 use gif::{DisposalMethod, Encoder, Frame, Repeat};
@@ -14,18 +14,18 @@ use std::borrow::Cow;
 use std::collections::HashMap;
 use tiny_skia::{Pixmap, PixmapPaint, Transform};
 
-/// Number of colours in the palette. One more index (`SAME`) marks unchanged pixels.
-const COLORS: usize = 255;
-const SAME: u8 = COLORS as u8;
+/// Number of colours in the palette. One more index (`UNCHANGED_INDEX`) marks unchanged pixels.
+const PALETTE_COLORS: usize = 255;
+const UNCHANGED_INDEX: u8 = PALETTE_COLORS as u8;
 
 /// Colours nearer than this are merged, as the sum of the squared differences of the three channels (0 to 255).
-const ALIKE: i32 = 48;
+const COLOR_DISTANCE: i32 = 48;
 
 /// Number of layers that are kept in case the next picture has them, too.
-const KEPT: usize = 8;
+const KEPT_LAYERS: usize = 8;
 
 /// Largest number of items by which a difference between two figures is assumed to shift the rest.
-const AHEAD: usize = 12;
+const MAX_SHIFT: usize = 12;
 
 type Color = [u8; 3];
 
@@ -43,7 +43,7 @@ pub fn write(
     width: f64,
     done: &mut dyn FnMut(),
 ) -> Result<Vec<u8>, DrawError> {
-    let mut painter = Painter { rasteriser: Rasteriser::new(), width, before: Vec::new(), layers: Vec::new() };
+    let mut painter = Painter { rasteriser: Rasterizer::new(), width, before: Vec::new(), layers: Vec::new() };
     let mut patches: Vec<Patch> = Vec::new();
     let mut last: Option<Vec<Color>> = None;
     let mut size = [0; 2];
@@ -64,7 +64,7 @@ pub fn write(
 
 /// Writes an SVG document as a GIF with a single picture, `width` pixels wide.
 pub fn still(svg: &str, width: f64) -> Result<Vec<u8>, DrawError> {
-    let picture = Rasteriser::new().wide(svg, width)?;
+    let picture = Rasterizer::new().wide(svg, width)?;
     let size = [picture.width(), picture.height()].map(|side| side as usize);
     let pixels = colors(&picture);
     encode(&[cut(&pixels, size, [0, 0, size[0], size[1]], 0)], size).map_err(|error| DrawError::Gif(error.to_string()))
@@ -95,7 +95,7 @@ fn cut(pixels: &[Color], [width, _]: [usize; 2], place: [usize; 4], delay: u16) 
 
 /// A painter that reuses the layers that the previous figures share.
 struct Painter {
-    rasteriser: Rasteriser,
+    rasteriser: Rasterizer,
     width: f64,
     before: Vec<Unit>,
     layers: Vec<(Vec<Unit>, Pixmap)>,
@@ -127,7 +127,7 @@ impl Painter {
                 self.layers.push((run.to_vec(), layer));
             }
         }
-        let superfluous = self.layers.len().saturating_sub(KEPT);
+        let superfluous = self.layers.len().saturating_sub(KEPT_LAYERS);
         self.layers.drain(..superfluous);
         self.before = units;
         Ok(picture)
@@ -169,7 +169,7 @@ fn runs(before: &[Unit], now: &[Unit]) -> Vec<(usize, bool)> {
     let mut is_same = vec![true; same];
     let (mut i, mut j) = (0, 0);
     while j < new.len() {
-        let skips = (0..2 * AHEAD).flat_map(|sum| (0..=sum).map(move |a| (a, sum - a)));
+        let skips = (0..2 * MAX_SHIFT).flat_map(|sum| (0..=sum).map(move |a| (a, sum - a)));
         let meets = |&(a, b): &(usize, usize)| old.get(i + a).is_some_and(|unit| new.get(j + b) == Some(unit));
         let (a, b) = skips.into_iter().find(meets).unwrap_or((0, new.len() - j));
         is_same.extend(vec![false; b]);
@@ -204,7 +204,7 @@ fn palette(patches: &[Patch]) -> Vec<Color> {
     colors.sort_unstable_by_key(|&(count, color)| (std::cmp::Reverse(count), color));
     let mut palette: Vec<Color> = Vec::new();
     for (_, color) in colors {
-        if palette.len() < COLORS && palette.iter().all(|&taken| distance(taken, color) > ALIKE) {
+        if palette.len() < PALETTE_COLORS && palette.iter().all(|&taken| distance(taken, color) > COLOR_DISTANCE) {
             palette.push(color);
         }
     }
@@ -216,23 +216,23 @@ fn encode(patches: &[Patch], [width, height]: [usize; 2]) -> Result<Vec<u8>, gif
     let mut known: HashMap<Color, u8> = HashMap::new();
     let nearest = |color: Color| (0..palette.len()).min_by_key(|&k| distance(palette[k], color)).unwrap_or(0) as u8;
     let mut table: Vec<u8> = palette.concat();
-    table.resize(3 * (COLORS + 1), 0);
+    table.resize(3 * (PALETTE_COLORS + 1), 0);
     let mut bytes = Vec::new();
     let mut encoder = Encoder::new(&mut bytes, width as u16, height as u16, &table)?;
     encoder.set_repeat(Repeat::Infinite)?;
-    let mut canvas = vec![SAME; width * height];
+    let mut canvas = vec![UNCHANGED_INDEX; width * height];
     for Patch { place: [left, top, across, down], pixels, delay } in patches {
         let mut buffer = Vec::with_capacity(pixels.len());
         for (k, &color) in pixels.iter().enumerate() {
             let index = *known.entry(color).or_insert_with(|| nearest(color));
             let there = &mut canvas[(top + k / across) * width + left + k % across];
-            buffer.push(if *there == index { SAME } else { index });
+            buffer.push(if *there == index { UNCHANGED_INDEX } else { index });
             *there = index;
         }
         encoder.write_frame(&Frame {
             delay: *delay,
             dispose: DisposalMethod::Keep,
-            transparent: Some(SAME),
+            transparent: Some(UNCHANGED_INDEX),
             left: *left as u16,
             top: *top as u16,
             width: *across as u16,
@@ -256,7 +256,7 @@ mod tests {
     }
 
     #[test]
-    fn runs_tell_what_was_there_before() {
+    fn runs_restore_the_previous_picture() {
         let units = |all: &[f64]| -> Vec<Unit> { all.iter().map(|&x| unit(x)).collect() };
         let before = units(&[1.0, 2.0, 3.0, 4.0, 5.0, 6.0]);
         assert_eq!(runs(&[], &before), [(6, false)]);

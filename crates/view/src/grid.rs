@@ -8,11 +8,11 @@ use super::view::{PanelView, View};
 use cplan_core::model::Arm;
 
 /// Gap between columns, for the values at their ends, and between rows, for the titles; in pixels.
-const GAP: [f64; 2] = [40.0, 36.0];
+const PANEL_GAPS: [f64; 2] = [40.0, 36.0];
 /// Greatest height of two panels one below the other, in pixels.
-const STACKED: f64 = 640.0;
+const MAX_STACKED_HEIGHT: f64 = 640.0;
 /// Ratio of height to width of a panel whose axes have different scales.
-const PROPORTION: f64 = 0.8;
+const PANEL_PROPORTION: f64 = 0.8;
 
 /// The arrangement of the panels.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -29,10 +29,10 @@ impl Grid {
     /// Chooses a number of columns with which the panels stay legible in this width.
     #[must_use]
     pub fn new(count: usize, arm: &Arm, width: f64) -> Self {
-        let proportion = chart::one_scale(arm).unwrap_or(PROPORTION).clamp(0.5, 1.2);
-        let room = |columns: usize| (width - GAP[0] * (columns - 1) as f64) / columns as f64;
+        let proportion = chart::one_scale(arm).unwrap_or(PANEL_PROPORTION).clamp(0.5, 1.2);
+        let room = |columns: usize| (width - PANEL_GAPS[0] * (columns - 1) as f64) / columns as f64;
         // Two low panels become wider if one is below the other.
-        let below = ((STACKED - GAP[1]) / 2.0 / proportion).min(room(1));
+        let below = ((MAX_STACKED_HEIGHT - PANEL_GAPS[1]) / 2.0 / proportion).min(room(1));
         let (columns, side) = match count {
             0..=1 => (1, room(1).min(530.0)),
             2 if below > room(2) => (1, below),
@@ -46,15 +46,15 @@ impl Grid {
     #[must_use]
     pub fn height(&self) -> f64 {
         let rows = self.count.div_ceil(self.columns) as f64;
-        rows * (self.size[1] + GAP[1]) - GAP[1]
+        rows * (self.size[1] + PANEL_GAPS[1]) - PANEL_GAPS[1]
     }
 
     fn area(&self, index: usize, [left, top]: [f64; 2]) -> Rect {
         let [width, height] = self.size;
         let (column, row) = ((index % self.columns) as f64, (index / self.columns) as f64);
-        let used = self.columns as f64 * (width + GAP[0]) - GAP[0];
-        let x = left + (self.width - used) / 2.0 + column * (width + GAP[0]);
-        Rect { x, y: top + row * (height + GAP[1]), width, height }
+        let used = self.columns as f64 * (width + PANEL_GAPS[0]) - PANEL_GAPS[0];
+        let x = left + (self.width - used) / 2.0 + column * (width + PANEL_GAPS[0]);
+        Rect { x, y: top + row * (height + PANEL_GAPS[1]), width, height }
     }
 
     /// Draws the panels. Values appear only at the left and at the lowest panel of each column, titles of the axes only
@@ -87,8 +87,8 @@ impl Grid {
 
 /// Draws the title above a frame.
 fn title(text: &str, frame: Rect) -> Item {
-    const SIZE: f64 = 14.0;
+    const TITLE_SIZE: f64 = 14.0;
     // Somewhat wider than the frame: on each side by less than half of the gap between neighbours.
-    let text = shortened(text, SIZE, frame.width + 24.0);
-    label([frame.x + frame.width / 2.0, frame.y - 9.0], text, SIZE, Anchor::Middle, INK)
+    let text = shortened(text, TITLE_SIZE, frame.width + 24.0);
+    label([frame.x + frame.width / 2.0, frame.y - 9.0], text, TITLE_SIZE, Anchor::Middle, INK)
 }

@@ -8,19 +8,19 @@ use super::view::around;
 use cplan_core::model::Shape;
 use cplan_geometry::Convex;
 
-const SIZE: f64 = 12.0;
+const NAME_SIZE: f64 = 12.0;
 /// Greatest width of a name, in pixels.
-const WIDEST: f64 = 160.0;
-/// Height of a name's box, and its distance (`GAP`) from the shape beside it, in pixels.
-const LINE: f64 = 15.0;
-const GAP: f64 = 4.0;
+const MAX_NAME_WIDTH: f64 = 160.0;
+/// Height of a name's box, and its distance (`NAME_GAP`) from the shape beside it, in pixels.
+const NAME_HEIGHT: f64 = 15.0;
+const NAME_GAP: f64 = 4.0;
 /// Side of the square in a wall's middle that its name refers to, in pixels.
-const WALL: f64 = 10.0;
+const WALL_SPOT_SIDE: f64 = 10.0;
 /// Largest fraction of a named area that its name may cover.
-const COVERED: f64 = 0.5;
+const MAX_COVERED_SHARE: f64 = 0.5;
 
 /// Places for a name: on its object, then above, below, beside and at the corners of it.
-const SIDES: [[f64; 2]; 9] =
+const NAME_PLACES: [[f64; 2]; 9] =
     [[0.0, 0.0], [0.0, -1.0], [0.0, 1.0], [1.0, 0.0], [-1.0, 0.0], [1.0, -1.0], [-1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
 
 /// A name, and the box of the shape that it names.
@@ -32,17 +32,18 @@ pub fn items(page: &Rect, names: &[Named]) -> Vec<Item> {
     let mut taken: Vec<Rect> = Vec::new();
     let mut items = Vec::new();
     for (name, of) in names {
-        let name = shortened(name, SIZE, WIDEST);
+        let name = shortened(name, NAME_SIZE, MAX_NAME_WIDTH);
         let size = size(&name);
         let middle = [of.x + of.width / 2.0, of.y + of.height / 2.0];
         let fits = size[0] <= of.width && size[1] <= of.height;
-        let boxes = SIDES.into_iter().skip(usize::from(!fits)).map(|side: [f64; 2]| {
-            let away = [0, 1].map(|k| side[k] * (size[k] / 2.0 + GAP + [of.width, of.height][k] / 2.0));
+        let boxes = NAME_PLACES.into_iter().skip(usize::from(!fits)).map(|side: [f64; 2]| {
+            let away = [0, 1].map(|k| side[k] * (size[k] / 2.0 + NAME_GAP + [of.width, of.height][k] / 2.0));
             about([middle[0] + away[0], middle[1] + away[1]], size)
         });
         let is_free = |b: &Rect| is_free(b, &taken, page);
         // It is better to hide a part of a large shape than all of a small one.
-        let share = |b: &Rect, other: &Rect| overlap(b, other) / (other.width * other.height).max(LINE * LINE);
+        let share =
+            |b: &Rect, other: &Rect| overlap(b, other) / (other.width * other.height).max(NAME_HEIGHT * NAME_HEIGHT);
         let hidden = |b: &Rect| {
             let others = names.iter().map(|(_, place)| place).filter(|place| *place != of);
             others.map(|place| share(b, place)).sum::<f64>()
@@ -61,10 +62,10 @@ pub fn inside(page: &Rect, markers: Vec<Rect>, names: impl IntoIterator<Item = (
     let mut taken = markers;
     let mut items = Vec::new();
     for (name, at, area) in names {
-        let name = shortened(&name, SIZE, WIDEST);
+        let name = shortened(&name, NAME_SIZE, MAX_NAME_WIDTH);
         let size = size(&name);
         let place = pushed(about(at, size), page);
-        if size[0] * size[1] <= COVERED * area && is_free(&place, &taken, page) {
+        if size[0] * size[1] <= MAX_COVERED_SHARE * area && is_free(&place, &taken, page) {
             items.extend(text(name, place));
             taken.push(place);
         }
@@ -78,7 +79,7 @@ pub fn place<'a>(frame: &Frame, shape: &Shape, pieces: impl IntoIterator<Item = 
     if let Shape::Polyline(points) = shape {
         let longest = points.windows(2).max_by(|a, b| (a[1] - a[0]).norm().total_cmp(&(b[1] - b[0]).norm()));
         if let Some([a, b]) = longest {
-            return about(frame.at((a.x + b.x) / 2.0, (a.y + b.y) / 2.0), [WALL; 2]);
+            return about(frame.at((a.x + b.x) / 2.0, (a.y + b.y) / 2.0), [WALL_SPOT_SIDE; 2]);
         }
     }
     let [x, y] = around(pieces);
@@ -96,7 +97,7 @@ pub fn beyond(name: &str, tip: [f64; 2], from: [f64; 2]) -> Rect {
     let away = [tip[0] - from[0], tip[1] - from[1]];
     let length = away[0].hypot(away[1]).max(f64::MIN_POSITIVE);
     let size = size(name);
-    about([0, 1].map(|k| tip[k] + away[k] / length * (size[k] / 2.0 + 2.0 * GAP)), size)
+    about([0, 1].map(|k| tip[k] + away[k] / length * (size[k] / 2.0 + 2.0 * NAME_GAP)), size)
 }
 
 /// Moves the box into the page.
@@ -107,7 +108,7 @@ fn pushed(place: Rect, page: &Rect) -> Rect {
 }
 
 fn size(name: &str) -> [f64; 2] {
-    [text_width(name, SIZE) + 6.0, LINE]
+    [text_width(name, NAME_SIZE) + 6.0, NAME_HEIGHT]
 }
 
 fn is_free(place: &Rect, taken: &[Rect], page: &Rect) -> bool {
@@ -117,7 +118,7 @@ fn is_free(place: &Rect, taken: &[Rect], page: &Rect) -> bool {
 fn text(name: String, place: Rect) -> [Item; 2] {
     let at = [place.x + place.width / 2.0, place.bottom() - 3.5];
     let paper = Item::Outline(rectangle(place), Style::fill(WHITE).faded(0.7));
-    [paper, label(at, name, SIZE, Anchor::Middle, INK)]
+    [paper, label(at, name, NAME_SIZE, Anchor::Middle, INK)]
 }
 
 #[cfg(test)]
@@ -155,11 +156,11 @@ mod tests {
     }
 
     #[test]
-    fn a_name_stands_beside_what_is_smaller() {
+    fn names_are_placed_beside_smaller_shapes() {
         let place = about([150.0, 150.0], [10.0, 10.0]);
         let items = items(&PAGE, &[("bottle".to_owned(), place)]);
         let Some(Item::Outline(steps, _)) = items.first() else { panic!("no paper") };
-        let paper = about([150.0, 150.0 - 5.0 - GAP - LINE / 2.0], size("bottle"));
+        let paper = about([150.0, 150.0 - 5.0 - NAME_GAP - NAME_HEIGHT / 2.0], size("bottle"));
         assert_eq!(*steps, rectangle(paper));
     }
 }

@@ -1,17 +1,17 @@
 //! The legend: the meaning of the signs.
 
-use super::color::{self, BARRED, GREY, INK, PALE};
+use super::color::{self, BLOCKED, GREY, INK, PALE};
 use super::figure::{Anchor, Item, Pen, Rect, Step, Style, label, rectangle, shortened, text_width};
 use super::flow::FieldLines;
 use super::key::{Key, KeyView, Layered, Sign};
-use super::view::{NAMED, ObstacleView, PathView, TraceView, View};
-use super::{boxes, channel, cspace, preferences, reach, shapes, stuck, trace};
+use super::view::{MAX_NAMED_OBSTACLES, ObstacleView, PathView, TraceView, View};
+use super::{blocking, boxes, channel, cspace, preferences, reach, shapes, trace};
 
 /// Height of a row, in pixels.
-pub const ROW: f64 = 21.0;
-const SIZE: f64 = 13.0;
-const SIGN: f64 = 26.0;
-const GAP: f64 = 26.0;
+pub const ROW_HEIGHT: f64 = 21.0;
+const TEXT_SIZE: f64 = 13.0;
+const SIGN_WIDTH: f64 = 26.0;
+const KEY_GAP: f64 = 26.0;
 
 /// Returns all signs of a picture with their meaning.
 #[must_use]
@@ -58,7 +58,7 @@ fn all(view: &View, still: bool) -> Vec<Layered> {
     }
     if view.unreached().next().is_some() {
         keys.push(always((Sign::Unreached, "not reached".to_owned())));
-        let pen = Pen { color: BARRED, width: 1.2, dash: &[] };
+        let pen = Pen { color: BLOCKED, width: 1.2, dash: &[] };
         keys.push(((Sign::Line(pen), "the arm there".to_owned()), &["poses"]));
     }
     let lines = if still { view.still.field_lines } else { FieldLines::default() };
@@ -68,7 +68,7 @@ fn all(view: &View, still: bool) -> Vec<Layered> {
     keys.extend(preferences::keys(&world.regions).into_iter().map(|key| -> Layered { (key, &["regions"]) }));
     let reach = view.still.reach.as_ref().map_or_else(Vec::new, reach::keys);
     keys.extend(reach.into_iter().map(|key| -> Layered { (key, &["access"]) }));
-    keys.extend(view.still.stuck.as_ref().map_or_else(Vec::new, stuck::keys).into_iter().map(always));
+    keys.extend(view.still.stuck.as_ref().map_or_else(Vec::new, blocking::keys).into_iter().map(always));
     keys.push(always((Sign::Line(Pen { color: PALE, width: 1.0, dash: &[2.0, 4.0] }), "reach".to_owned())));
     keys.extend(obstacles(world.obstacles.iter().filter(|obstacle| obstacle.lies())).into_iter().map(always));
     let movers: Vec<ObstacleView> = world.movers.iter().map(|mover| mover.at(0.0)).collect();
@@ -82,7 +82,7 @@ fn all(view: &View, still: bool) -> Vec<Layered> {
 #[must_use]
 pub fn obstacles<'a>(shown: impl Iterator<Item = &'a ObstacleView> + Clone) -> Vec<Key> {
     let count = shown.clone().count();
-    shown.filter(|_| count <= NAMED).map(|o| (Sign::Swatch(o.color), o.name.clone())).collect()
+    shown.filter(|_| count <= MAX_NAMED_OBSTACLES).map(|o| (Sign::Swatch(o.color), o.name.clone())).collect()
 }
 
 /// Returns the legend of the paths: by their names, or for a task with and without a payload.
@@ -100,7 +100,7 @@ fn paths(view: &View) -> Vec<Key> {
 }
 
 fn width(key: &Key) -> f64 {
-    SIGN + 8.0 + text_width(&key.1, SIZE)
+    SIGN_WIDTH + 8.0 + text_width(&key.1, TEXT_SIZE)
 }
 
 /// Breaks the keys into rows of this width.
@@ -111,8 +111,8 @@ pub fn layout(keys: Vec<Key>, room: f64) -> Vec<Vec<Key>> {
     for (sign, name) in keys {
         // Names of paths include the options of their planners.
         let share = if let Sign::Line(_) = sign { 3.0 } else { 5.0 };
-        let key = (sign, shortened(&name, SIZE, room / share));
-        let needed = width(&key) + GAP;
+        let key = (sign, shortened(&name, TEXT_SIZE, room / share));
+        let needed = width(&key) + KEY_GAP;
         let last = rows.len() - 1;
         if used + needed > room && !rows[last].is_empty() {
             rows.push(vec![key]);
@@ -130,13 +130,13 @@ pub fn layout(keys: Vec<Key>, room: f64) -> Vec<Vec<Key>> {
 pub fn items(rows: &[Vec<Key>], middle: f64, top: f64) -> Vec<Item> {
     let mut items = Vec::new();
     for (i, row) in rows.iter().enumerate() {
-        let total = row.iter().map(|k| width(k) + GAP).sum::<f64>() - GAP;
-        let (mut x, y) = (middle - total / 2.0, top + ROW * (i as f64 + 0.5));
+        let total = row.iter().map(|k| width(k) + KEY_GAP).sum::<f64>() - KEY_GAP;
+        let (mut x, y) = (middle - total / 2.0, top + ROW_HEIGHT * (i as f64 + 0.5));
         for key in row {
             items.extend(sign(&key.0, x, y));
-            let at = [x + SIGN + 8.0, y + 4.5];
-            items.push(label(at, &key.1, SIZE, Anchor::Start, INK));
-            x += width(key) + GAP;
+            let at = [x + SIGN_WIDTH + 8.0, y + 4.5];
+            items.push(label(at, &key.1, TEXT_SIZE, Anchor::Start, INK));
+            x += width(key) + KEY_GAP;
         }
     }
     items
@@ -144,12 +144,12 @@ pub fn items(rows: &[Vec<Key>], middle: f64, top: f64) -> Vec<Item> {
 
 fn sign(sign: &Sign, x: f64, y: f64) -> Vec<Item> {
     match sign {
-        Sign::Start => cspace::start_marker([x + SIGN - 9.0, y]),
-        Sign::Goal => cspace::goal_marker([x + SIGN - 9.0, y], true),
-        Sign::Unreached => cspace::goal_marker([x + SIGN - 9.0, y], false),
+        Sign::Start => cspace::start_marker([x + SIGN_WIDTH - 9.0, y]),
+        Sign::Goal => cspace::goal_marker([x + SIGN_WIDTH - 9.0, y], true),
+        Sign::Unreached => cspace::goal_marker([x + SIGN_WIDTH - 9.0, y], false),
         Sign::Line(pen) => {
             let style = Style { pen: Some(*pen), ..Style::line(pen.color, pen.width) };
-            vec![Item::Outline(vec![Step::Move([x, y]), Step::Line([x + SIGN, y])], style)]
+            vec![Item::Outline(vec![Step::Move([x, y]), Step::Line([x + SIGN_WIDTH, y])], style)]
         }
         Sign::Shade(part) => self::sign(&Sign::Swatch(color::scale(*part)), x, y),
         Sign::Swatch(color) => {
@@ -157,13 +157,13 @@ fn sign(sign: &Sign, x: f64, y: f64) -> Vec<Item> {
             vec![Item::Outline(rectangle(swatch(x, y)), style)]
         }
         Sign::Dashed(color) => {
-            vec![Item::Outline(rectangle(swatch(x, y)), Style::line(*color, 1.4).dashed(shapes::DASH))]
+            vec![Item::Outline(rectangle(swatch(x, y)), Style::line(*color, 1.4).dashed(shapes::ABSENT_DASH))]
         }
         Sign::Hatched => boxes::hatched(&[swatch(x, y)]),
-        Sign::Point { middle } => vec![channel::sign([x + SIGN - 8.0, y], *middle)],
+        Sign::Point { middle } => vec![channel::sign([x + SIGN_WIDTH - 8.0, y], *middle)],
     }
 }
 
 fn swatch(x: f64, y: f64) -> Rect {
-    Rect { x: x + SIGN - 16.0, y: y - 6.0, width: 16.0, height: 12.0 }
+    Rect { x: x + SIGN_WIDTH - 16.0, y: y - 6.0, width: 16.0, height: 12.0 }
 }

@@ -44,7 +44,7 @@ mod preferences;
 mod reach;
 mod shapes;
 mod steps;
-mod stuck;
+mod blocking;
 #[cfg(feature = "png")]
 mod svg_painter;
 mod svg_writer;
@@ -54,10 +54,10 @@ mod view;
 mod wave_numbers;
 mod workspace;
 
+pub use blocking::BlockingView;
 pub use exploration::exploration_page;
 pub use flow::FieldLines;
 pub use obstacles::{extent, obstacles, still_page};
-pub use stuck::Stuck;
 pub use view::{AxesFrame, Moments, Picture, TaskPicture, View, drawing, page, shell};
 
 /// The reason why there is no picture.

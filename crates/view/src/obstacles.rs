@@ -4,13 +4,13 @@ use super::axes::{Frame, Range, Unit};
 use super::color;
 use super::figure::Item;
 use super::key::{Key, Sign};
-use super::view::{Grain, ObstacleView, around};
+use super::view::{ObstacleView, RoundingSteps, around};
 use super::{labels, page, shapes, svg_writer};
 use cplan_core::model::Obstacle;
 use cplan_text::markup;
 
 /// Fraction of the extent that is left free on each side.
-const MARGIN: f64 = 0.04;
+const MARGIN_SHARE: f64 = 0.04;
 
 /// Draws obstacles as an SVG document, the largest first, each with its name if there is room. Obstacles of the same
 /// group share a colour; `groups` has the group of each. The first line is the title.
@@ -27,16 +27,16 @@ pub fn obstacles(title: &[String], obstacles: &[Obstacle], groups: &[&str]) -> S
     let sides = extent(obstacles);
     let lengths = sides.map(|(low, high)| high - low);
     let size = lengths.into_iter().fold(f64::MIN_POSITIVE, f64::max);
-    let [x, y] = sides.map(|(low, high)| (low - MARGIN * size, high + MARGIN * size));
+    let [x, y] = sides.map(|(low, high)| (low - MARGIN_SHARE * size, high + MARGIN_SHARE * size));
     let mut order: Vec<usize> = (0..obstacles.len()).collect();
     let areas: Vec<f64> =
         obstacles.iter().map(|obstacle| obstacle.pieces.iter().map(|piece| piece.area()).sum()).collect();
     order.sort_by(|&i, &j| areas[j].total_cmp(&areas[i]));
     let keys = known.iter().enumerate().map(|(i, name)| (Sign::Swatch(color::obstacle(i)), (*name).to_owned()));
-    let keys: Vec<Key> = keys.take(MOST_KEYS).collect();
+    let keys: Vec<Key> = keys.take(MAX_KEYS).collect();
     svg_writer::write(&page::alone(title, keys, (y.1 - y.0) / (x.1 - x.0), |area| {
         let frame = Frame::filling(area, x, y);
-        let view = |&i: &usize| ObstacleView::new(&obstacles[i], colors[i], Grain::within(size));
+        let view = |&i: &usize| ObstacleView::new(&obstacles[i], colors[i], RoundingSteps::within(size));
         let mut items = frame.grid([Unit::Meters; 2]);
         items.extend(order.iter().map(|i| shapes::solid(&frame, &view(i))));
         items.extend(names(&frame, obstacles));
@@ -47,12 +47,12 @@ pub fn obstacles(title: &[String], obstacles: &[Obstacle], groups: &[&str]) -> S
 }
 
 /// Largest number of colours that the legend explains.
-const MOST_KEYS: usize = 32;
+const MAX_KEYS: usize = 32;
 /// Largest number of obstacles with names. With more of them, nobody could assign the names.
-const MOST_NAMES: usize = 200;
+const MAX_NAMES: usize = 200;
 /// Draws names on their obstacles or beside them.
 fn names(frame: &Frame, obstacles: &[Obstacle]) -> Vec<Item> {
-    if obstacles.len() > MOST_NAMES {
+    if obstacles.len() > MAX_NAMES {
         return Vec::new();
     }
     let named = |o: &Obstacle| (o.name.clone(), labels::place(frame, &o.shape, &o.pieces));

@@ -9,24 +9,24 @@ use super::view::{PanelView, View};
 use super::{cspace, steps, workspace};
 
 /// Width of every picture, in pixels.
-const WIDTH: f64 = 1400.0;
+const PAGE_WIDTH: f64 = 1400.0;
 /// Height of pictures of one motion, and least height of all pictures, in pixels.
-const HEIGHT: f64 = 720.0;
+const MIN_PAGE_HEIGHT: f64 = 720.0;
 /// Margin on all sides, in pixels.
-const MARGIN: f64 = 28.0;
+const PAGE_MARGIN: f64 = 28.0;
 /// Space below panels, in pixels: values and titles of their axes, and the distance to the next item.
-const AXES: f64 = 58.0;
+const AXES_HEIGHT: f64 = 58.0;
 
 /// The columns; their height depends on the available room.
-const LEFT: Rect = Rect { x: 84.0, y: 0.0, width: 570.0, height: 0.0 };
-const RIGHT: Rect = Rect { x: 760.0, y: 0.0, width: 612.0, height: 0.0 };
+const LEFT_COLUMN: Rect = Rect { x: 84.0, y: 0.0, width: 570.0, height: 0.0 };
+const RIGHT_COLUMN: Rect = Rect { x: 760.0, y: 0.0, width: 612.0, height: 0.0 };
 /// Column of a single configuration space, with room for a scale of colours beside it.
-const SCALED: Rect = Rect { x: 770.0, y: 0.0, width: 530.0, height: 0.0 };
+const SCALED_COLUMN: Rect = Rect { x: 770.0, y: 0.0, width: 530.0, height: 0.0 };
 /// Least and greatest height of the workspace of a task, in pixels.
-const WORKSPACE: [f64; 2] = [520.0, 640.0];
+const WORKSPACE_HEIGHTS: [f64; 2] = [520.0, 640.0];
 /// Largest number of payload states that are shown, in addition to the one in which a step fails. With more of them,
 /// the page would be too long to read.
-const MOST: usize = 24;
+const MAX_PAYLOAD_STATES: usize = 24;
 
 /// Composes the whole page of a view.
 #[must_use]
@@ -37,69 +37,77 @@ pub fn compose(view: &View) -> Figure {
 /// Composes the page with another legend. All pictures of an animation have the same legend, so that nothing jumps.
 #[must_use]
 pub fn explained(view: &View, keys: Vec<Key>) -> Figure {
-    let mut items = titles(&view.title, &view.status, WIDTH);
+    let mut items = titles(&view.title, &view.status, PAGE_WIDTH);
     let lines = 18.0 * view.title.len().max(1) as f64;
-    let keys = legend::layout(keys, WIDTH - 2.0 * MARGIN);
+    let keys = legend::layout(keys, PAGE_WIDTH - 2.0 * PAGE_MARGIN);
     let height = match &view.still.panels[..] {
         // Without configuration spaces, the workspace takes the whole page.
         [] => {
             let top = 44.0 + lines;
-            let width = WIDTH - LEFT.x - MARGIN;
-            items.extend(workspace::panel(view, Rect { y: top, width, height: HEIGHT - AXES - top, ..LEFT }));
-            HEIGHT
+            let width = PAGE_WIDTH - LEFT_COLUMN.x - PAGE_MARGIN;
+            items.extend(workspace::panel(
+                view,
+                Rect { y: top, width, height: MIN_PAGE_HEIGHT - AXES_HEIGHT - top, ..LEFT_COLUMN },
+            ));
+            MIN_PAGE_HEIGHT
         }
         [panel] if !view.is_task() => {
             let top = 62.0 + lines;
-            let height = HEIGHT - 14.0 - legend::ROW * keys.len() as f64 - AXES - top;
-            items.extend(workspace::panel(view, Rect { y: top, height, ..LEFT }));
-            items.extend(cspace::panel(view, panel, Rect { y: top, height, ..SCALED }));
-            items.push(heading(LEFT, top - 12.0, "Workspace"));
-            items.push(heading(SCALED, top - 12.0, &panel.title));
-            items.extend(legend::items(&keys, WIDTH / 2.0, HEIGHT - 14.0 - legend::ROW * keys.len() as f64));
-            HEIGHT
+            let height = MIN_PAGE_HEIGHT - 14.0 - legend::ROW_HEIGHT * keys.len() as f64 - AXES_HEIGHT - top;
+            items.extend(workspace::panel(view, Rect { y: top, height, ..LEFT_COLUMN }));
+            items.extend(cspace::panel(view, panel, Rect { y: top, height, ..SCALED_COLUMN }));
+            items.push(heading(LEFT_COLUMN, top - 12.0, "Workspace"));
+            items.push(heading(SCALED_COLUMN, top - 12.0, &panel.title));
+            items.extend(legend::items(
+                &keys,
+                PAGE_WIDTH / 2.0,
+                MIN_PAGE_HEIGHT - 14.0 - legend::ROW_HEIGHT * keys.len() as f64,
+            ));
+            MIN_PAGE_HEIGHT
         }
         panels => task(view, panels, &keys, 84.0 + lines, &mut items),
     };
-    Figure { width: WIDTH, height, items }
+    Figure { width: PAGE_WIDTH, height, items }
 }
 
 /// Composes a page with a single panel and a legend below it. The panel has this aspect, height by width, as far as
 /// there is room.
 #[must_use]
 pub fn alone(title: &[String], keys: Vec<Key>, aspect: f64, panel: impl FnOnce(Rect) -> Vec<Item>) -> Figure {
-    const HEIGHTS: [f64; 2] = [300.0, 960.0];
-    const LEAST_WIDTH: f64 = 600.0;
-    let widest = WIDTH - LEFT.x - MARGIN;
-    let height = (widest * aspect).clamp(HEIGHTS[0], HEIGHTS[1]);
-    let room = Rect { width: (height / aspect).clamp(LEAST_WIDTH, widest), height, ..LEFT };
-    let width = room.right() + MARGIN;
+    const PAGE_HEIGHTS: [f64; 2] = [300.0, 960.0];
+    const MIN_PANEL_WIDTH: f64 = 600.0;
+    let widest = PAGE_WIDTH - LEFT_COLUMN.x - PAGE_MARGIN;
+    let height = (widest * aspect).clamp(PAGE_HEIGHTS[0], PAGE_HEIGHTS[1]);
+    let room = Rect { width: (height / aspect).clamp(MIN_PANEL_WIDTH, widest), height, ..LEFT_COLUMN };
+    let width = room.right() + PAGE_MARGIN;
     let mut items = titles(title, "", width);
     let room = Rect { y: 44.0 + 18.0 * title.len().max(1) as f64, ..room };
-    let keys = legend::layout(keys, width - 2.0 * MARGIN);
+    let keys = legend::layout(keys, width - 2.0 * PAGE_MARGIN);
     items.extend(panel(room));
-    let below = room.bottom() + AXES;
+    let below = room.bottom() + AXES_HEIGHT;
     items.extend(legend::items(&keys, width / 2.0, below));
-    Figure { width, height: below + legend::ROW * keys.len() as f64 + 14.0, items }
+    Figure { width, height: below + legend::ROW_HEIGHT * keys.len() as f64 + 14.0, items }
 }
 
 /// Draws the workspace, a configuration space for each payload state, and the steps; returns the height of the page.
 fn task(view: &View, panels: &[PanelView], keys: &[Vec<Key>], top: f64, items: &mut Vec<Item>) -> f64 {
     let going = panels.iter().filter(|panel| panel.fails.is_none());
-    let left_out = going.clone().count().saturating_sub(MOST);
-    let shown: Vec<&PanelView> = going.take(MOST).chain(panels.iter().filter(|panel| panel.fails.is_some())).collect();
-    let grid = Grid::new(shown.len(), &view.arm, RIGHT.width);
+    let left_out = going.clone().count().saturating_sub(MAX_PAYLOAD_STATES);
+    let shown: Vec<&PanelView> =
+        going.take(MAX_PAYLOAD_STATES).chain(panels.iter().filter(|panel| panel.fails.is_some())).collect();
+    let grid = Grid::new(shown.len(), &view.arm, RIGHT_COLUMN.width);
     let notes = if left_out > 0 { 22.0 } else { 0.0 };
-    let legend = 14.0 + legend::ROW * keys.len() as f64;
-    let list = steps::ROW * view.still.steps.len() as f64;
+    let legend = 14.0 + legend::ROW_HEIGHT * keys.len() as f64;
+    let list = steps::ROW_HEIGHT * view.still.steps.len() as f64;
     let Layout { workspace, list, height } = layout(top, grid.height() + notes, list, legend);
     items.extend(workspace::panel(view, workspace));
-    items.extend(grid.items(view, &shown, left_out, [RIGHT.x, top]));
+    items.extend(grid.items(view, &shown, left_out, [RIGHT_COLUMN.x, top]));
     items.extend(steps::items(&view.still.steps, list));
-    items.push(heading(LEFT, top - 32.0, "Workspace"));
+    items.push(heading(LEFT_COLUMN, top - 32.0, "Workspace"));
     let note = "objects where they lie at first, and dashed where they are placed";
-    items.push(label([LEFT.x + LEFT.width / 2.0, top - 9.0], note, 14.0, Anchor::Middle, GREY));
-    items.push(heading(RIGHT, top - 32.0, "Configuration space of each payload state"));
-    items.extend(legend::items(keys, WIDTH / 2.0, height - legend));
+    items.push(label([LEFT_COLUMN.x + LEFT_COLUMN.width / 2.0, top - 9.0], note, 14.0, Anchor::Middle, GREY));
+    items.push(heading(RIGHT_COLUMN, top - 32.0, "Configuration space of each payload state"));
+    items.extend(legend::items(keys, PAGE_WIDTH / 2.0, height - legend));
     height
 }
 
@@ -115,14 +123,17 @@ struct Layout {
 /// Places the list of steps below the workspace or below the configuration spaces (`grid` pixels high), depending on
 /// which makes the page lower.
 fn layout(top: f64, grid: f64, list: f64, legend: f64) -> Layout {
-    let list = AXES + list;
-    let [below_workspace, below_grid] = [grid.max(WORKSPACE[0] + list), WORKSPACE[0].max(grid + list)];
+    let list = AXES_HEIGHT + list;
+    let [below_workspace, below_grid] = [grid.max(WORKSPACE_HEIGHTS[0] + list), WORKSPACE_HEIGHTS[0].max(grid + list)];
     let left = below_workspace <= below_grid;
-    let height = (top + below_workspace.min(below_grid) + AXES + legend).max(HEIGHT);
-    let room = height - top - AXES - legend - if left { list } else { 0.0 };
-    let workspace = Rect { y: top, height: room.min(WORKSPACE[1]), ..LEFT };
-    let list =
-        if left { Rect { y: workspace.bottom() + AXES, ..LEFT } } else { Rect { y: top + grid + AXES, ..RIGHT } };
+    let height = (top + below_workspace.min(below_grid) + AXES_HEIGHT + legend).max(MIN_PAGE_HEIGHT);
+    let room = height - top - AXES_HEIGHT - legend - if left { list } else { 0.0 };
+    let workspace = Rect { y: top, height: room.min(WORKSPACE_HEIGHTS[1]), ..LEFT_COLUMN };
+    let list = if left {
+        Rect { y: workspace.bottom() + AXES_HEIGHT, ..LEFT_COLUMN }
+    } else {
+        Rect { y: top + grid + AXES_HEIGHT, ..RIGHT_COLUMN }
+    };
     Layout { workspace, list, height }
 }
 
@@ -134,11 +145,11 @@ fn heading(column: Rect, y: f64, text: &str) -> Item {
 fn titles(lines: &[String], status: &str, width: f64) -> Vec<Item> {
     let mut items = Vec::new();
     let status_width = text_width(status, 18.0);
-    items.push(label([width - MARGIN, 36.0], status, 18.0, Anchor::End, INK));
+    items.push(label([width - PAGE_MARGIN, 36.0], status, 18.0, Anchor::End, INK));
     for (i, line) in lines.iter().enumerate() {
         let (size, color, y) = if i == 0 { (22.0, INK, 36.0) } else { (14.0, GREY, 40.0 + 18.0 * i as f64) };
-        let room = width - 2.0 * MARGIN - if i == 0 { status_width + 30.0 } else { 0.0 };
-        items.push(label([MARGIN, y], shortened(line, size, room), size, Anchor::Start, color));
+        let room = width - 2.0 * PAGE_MARGIN - if i == 0 { status_width + 30.0 } else { 0.0 };
+        items.push(label([PAGE_MARGIN, y], shortened(line, size, room), size, Anchor::Start, color));
     }
     items
 }

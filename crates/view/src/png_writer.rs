@@ -6,12 +6,12 @@ use super::svg_painter::{number, paint};
 use tiny_skia::{Pixmap, Transform};
 
 /// Greatest side of a picture, in pixels: this fits a 16-bit format, and needs at most 1 GB.
-const LARGEST: f64 = 16_384.0;
+const MAX_SIDE: f64 = 16_384.0;
 
 /// Makes pixels of SVG documents, with the font that is part of the program.
-pub struct Rasteriser(Font);
+pub struct Rasterizer(Font);
 
-impl Rasteriser {
+impl Rasterizer {
     /// Creates a rasteriser with its font.
     pub fn new() -> Self {
         Self(Font::built_in())
@@ -42,12 +42,12 @@ impl Rasteriser {
 /// Creates empty pixels for a size in units.
 pub fn blank(units: [f64; 2], scale: f64) -> Result<Pixmap, DrawError> {
     let [width, height] = units.map(|side| side * scale);
-    let fits = |side: f64| side.is_finite() && (1.0..=LARGEST).contains(&side);
+    let fits = |side: f64| side.is_finite() && (1.0..=MAX_SIDE).contains(&side);
     let size = (fits(width) && fits(height)).then(|| Pixmap::new(width.round() as u32, height.round() as u32));
     size.flatten().ok_or(DrawError::Scale(scale))
 }
 
 /// Rasterises an SVG document, `scale` pixels per unit.
 pub fn write(svg: &str, scale: f64) -> Result<Vec<u8>, DrawError> {
-    Rasteriser::new().pixels(svg, scale)?.encode_png().map_err(|e| DrawError::Png(e.to_string()))
+    Rasterizer::new().pixels(svg, scale)?.encode_png().map_err(|e| DrawError::Png(e.to_string()))
 }

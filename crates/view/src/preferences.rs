@@ -7,7 +7,7 @@ use super::figure::{Item, Pen, Step, Style, chain};
 use super::key::{Key, Sign};
 use super::view::RegionView;
 
-const DASH: &[f64] = &[7.0, 4.0];
+const OUTLINE_DASH: &[f64] = &[7.0, 4.0];
 
 /// Draws the regions of the workspace.
 #[must_use]
@@ -25,7 +25,7 @@ pub fn in_cspace(regions: &[RegionView], chart: &Chart) -> Vec<Item> {
 /// Returns the legend of the regions.
 #[must_use]
 pub fn keys(regions: &[RegionView]) -> Vec<Key> {
-    let line = |color| Sign::Line(Pen { color, width: 1.4, dash: DASH });
+    let line = |color| Sign::Line(Pen { color, width: 1.4, dash: OUTLINE_DASH });
     let any = |positive: bool| regions.iter().any(|region| (region.epsilon > 0.0) == positive);
     let avoided = any(true).then(|| (line(AVOIDED), "region, epsilon above 0".to_owned()));
     avoided.into_iter().chain(any(false).then(|| (line(PREFERRED), "region, epsilon below 0".to_owned()))).collect()
@@ -33,5 +33,5 @@ pub fn keys(regions: &[RegionView]) -> Vec<Key> {
 
 fn item(region: &RegionView, steps: Vec<Step>) -> Item {
     let color = if region.epsilon > 0.0 { AVOIDED } else { PREFERRED };
-    Item::Outline(steps, Style::line(color, 1.4).dashed(DASH))
+    Item::Outline(steps, Style::line(color, 1.4).dashed(OUTLINE_DASH))
 }

@@ -5,12 +5,12 @@ use super::chart::Chart;
 use super::color::Rgb;
 use super::figure::{Item, Raster, Rect, Style};
 use super::key::{Key, Sign};
-use super::view::{Chain, Grain};
+use super::view::{Chain, RoundingSteps};
 use cplan_explain::{Access, Reach, Solution};
 use serde::Serialize;
 
 /// Colour and meaning of each kind of cell: one solution, several, proven unreachable, blocked, unknown.
-const LOOKS: [(Rgb, &str); 5] = [
+const CELL_KINDS: [(Rgb, &str); 5] = [
     (Rgb(0xb5, 0xd9, 0xc2), "the tip can get there, one way"),
     (Rgb(0x5f, 0xae, 0x83), "with several solutions"),
     (Rgb(0xe8, 0xa1, 0x6b), "free, but proven out of reach"),
@@ -40,14 +40,14 @@ pub fn in_workspace(reach: &Reach, frame: &Frame) -> Item {
     let [right, top] =
         frame.at(reach.corner[0] + reach.cell * columns as f64, reach.corner[1] + reach.cell * rows as f64);
     let rect = Rect { x: left, y: top, width: right - left, height: bottom - top };
-    Item::Raster(Raster { rect, cells: reach.size, palette: LOOKS.map(|(color, _)| color).to_vec(), levels })
+    Item::Raster(Raster { rect, cells: reach.size, palette: CELL_KINDS.map(|(color, _)| color).to_vec(), levels })
 }
 
 /// Draws the free IK solutions as dots.
 #[must_use]
 pub fn in_cspace(reach: &Reach, chart: &Chart) -> Vec<Item> {
     let dot = |solution: &Solution| {
-        let (color, _) = LOOKS[look(solution.access, 2)];
+        let (color, _) = CELL_KINDS[look(solution.access, 2)];
         Item::Disc(chart.place(solution.joints), 1.1, Style::fill(color))
     };
     free(reach).map(dot).collect()
@@ -79,7 +79,7 @@ struct KindView {
 }
 
 impl ReachView {
-    pub fn new(reach: &Reach, grain: Grain) -> Self {
+    pub fn new(reach: &Reach, grain: RoundingSteps) -> Self {
         let mut cells = vec![b'.'; reach.places.len()];
         for (place, access, count) in reach.best() {
             cells[place] = b'0' + look(access, count) as u8;
@@ -92,7 +92,7 @@ impl ReachView {
             corner: reach.corner,
             cell: reach.cell,
             size: reach.size,
-            kinds: LOOKS.iter().enumerate().map(kind).collect(),
+            kinds: CELL_KINDS.iter().enumerate().map(kind).collect(),
             cells: cells.into_iter().map(char::from).collect(),
         }
     }
@@ -102,5 +102,8 @@ impl ReachView {
 #[must_use]
 pub fn keys(reach: &Reach) -> Vec<Key> {
     let is_there = |which: &usize| reach.best().any(|(_, access, count)| look(access, count) == *which);
-    (0..LOOKS.len()).filter(is_there).map(|which| (Sign::Swatch(LOOKS[which].0), LOOKS[which].1.to_owned())).collect()
+    (0..CELL_KINDS.len())
+        .filter(is_there)
+        .map(|which| (Sign::Swatch(CELL_KINDS[which].0), CELL_KINDS[which].1.to_owned()))
+        .collect()
 }

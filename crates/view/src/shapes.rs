@@ -7,7 +7,7 @@ use cplan_core::model::Shape;
 use cplan_geometry::{Convex, Point, Vector};
 
 /// Dashes for objects that are not there yet, and for obstacles that links may enter.
-pub const DASH: &[f64] = &[5.0, 3.0];
+pub const ABSENT_DASH: &[f64] = &[5.0, 3.0];
 
 /// Draws an obstacle at its pose.
 #[must_use]
@@ -20,7 +20,7 @@ pub fn solid(frame: &Frame, obstacle: &ObstacleView) -> Item {
 /// Draws an object at its future pose.
 #[must_use]
 pub fn dashed(frame: &Frame, object: &ObstacleView) -> Item {
-    let line = Style::line(object.color.darker(0.25), 1.6).dashed(DASH);
+    let line = Style::line(object.color.darker(0.25), 1.6).dashed(ABSENT_DASH);
     item(frame, object, line.filled(object.color.lighter(0.85)).faded(0.9), line)
 }
 

@@ -290,7 +290,7 @@ mod tests {
     }
 
     #[test]
-    fn what_no_picture_of_ours_has_is_refused() {
+    fn unsupported_svg_elements_are_refused() {
         for content in
             ["<image/>", "<circle r=\"1\"/>", "<path d=\"M0 0 X\"/>", "<path d=\"M0 0L9 9\" opacity=\"half\"/>"]
         {

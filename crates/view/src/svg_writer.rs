@@ -10,7 +10,7 @@ const FONTS: &str = "Ubuntu, 'DejaVu Sans', Helvetica, Arial, sans-serif";
 
 /// Limit of coordinates, in pixels. Nothing that far away is visible, and up to here viewers with single precision stay
 /// exact to a tenth of a pixel.
-const FAR: f64 = 1e6;
+const MAX_COORDINATE: f64 = 1e6;
 
 /// Writes the figure as an SVG document. The result is deterministic to the byte; coordinates have two decimals.
 #[must_use]
@@ -81,7 +81,7 @@ fn rectangle(rect: &Rect) -> Rectangle {
 
 /// Formats a number: at most two decimals, no trailing zeros, no negative zero.
 fn number(value: f64) -> String {
-    let cut = value.clamp(-FAR, FAR);
+    let cut = value.clamp(-MAX_COORDINATE, MAX_COORDINATE);
     let text = format!("{cut:.2}");
     let text = text.trim_end_matches('0').trim_end_matches('.');
     if text == "-0" { "0".to_owned() } else { text.to_owned() }

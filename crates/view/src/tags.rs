@@ -4,30 +4,30 @@ use super::color::{INK, WHITE};
 use super::figure::{Anchor, Item, Rect, Style, label, rectangle, shortened, text_width};
 use super::view::ranges;
 
-const SIZE: f64 = 12.0;
+const TEXT_SIZE: f64 = 12.0;
 /// Greatest width of a text, in pixels.
-const WIDEST: f64 = 96.0;
+const MAX_TEXT_WIDTH: f64 = 96.0;
 /// Height of a line, in pixels.
-const LINE: f64 = 15.0;
+const LINE_HEIGHT: f64 = 15.0;
 /// Places nearer than this share a number's box, in pixels.
-const NEAR: f64 = 4.0;
+const SHARED_BOX_DISTANCE: f64 = 4.0;
 /// Distance from the middle of a place to the nearest side of its number's box, in pixels: room for the marker at the
 /// place.
-const GAP: f64 = 9.0;
+const BOX_GAP: f64 = 9.0;
 
 /// Directions from a place to its box, the favourite first.
-const SIDES: [[f64; 2]; 8] =
+const BOX_DIRECTIONS: [[f64; 2]; 8] =
     [[1.0, -1.0], [-1.0, -1.0], [1.0, 1.0], [-1.0, 1.0], [1.0, 0.0], [-1.0, 0.0], [0.0, -1.0], [0.0, 1.0]];
 
-/// Possible gaps as multiples of [`GAP`], and the extra cost of each. All costs are in square pixels of covered shapes;
+/// Possible gaps as multiples of [`BOX_GAP`], and the extra cost of each. All costs are in square pixels of covered shapes;
 /// the wider gap costs less than covering a number or a place.
-const RINGS: [(f64, f64); 2] = [(1.0, 0.0), (2.6, 12.0)];
+const GAP_CHOICES: [(f64, f64); 2] = [(1.0, 0.0), (2.6, 12.0)];
 /// Extra cost of each side compared with the one before. It suffices to place the numbers in a row alike.
-const ORDER: f64 = 1.0;
+const SIDE_COST: f64 = 1.0;
 /// Cost of covering a number or a place.
-const HIDING: f64 = 8.0;
+const HIDING_COST: f64 = 8.0;
 /// Cost of covering a spot of a line; the spots are some pixels apart.
-const LINE_SPOT: f64 = 4.0;
+const LINE_SPOT_COST: f64 = 4.0;
 
 /// Steps that end at one place.
 #[derive(Debug, Clone, PartialEq)]
@@ -40,7 +40,7 @@ pub struct Tag {
 
 /// Adds a number at a place.
 pub fn add(tags: &mut Vec<Tag>, at: [f64; 2], number: usize) {
-    match tags.iter_mut().find(|tag| (tag.at[0] - at[0]).hypot(tag.at[1] - at[1]) < NEAR) {
+    match tags.iter_mut().find(|tag| (tag.at[0] - at[0]).hypot(tag.at[1] - at[1]) < SHARED_BOX_DISTANCE) {
         Some(tag) if tag.numbers.contains(&number) => {}
         Some(tag) => tag.numbers.push(number),
         None => tags.push(Tag { at, numbers: vec![number] }),
@@ -54,27 +54,30 @@ pub fn items(tags: &[Tag], within: Rect, shapes: &[Rect], spots: &[[f64; 2]]) ->
     let mut taken: Vec<Rect> = tags.iter().map(|tag| around(tag.at, [8.0, 8.0])).collect();
     let mut items = Vec::new();
     for tag in tags {
-        let text = shortened(&ranges(&tag.numbers), SIZE, WIDEST);
-        let size = [text_width(&text, SIZE) + 6.0, LINE];
-        let boxes = RINGS.iter().flat_map(|&(ring, extra)| {
-            SIDES.iter().zip(0..).map(move |(side, index)| {
+        let text = shortened(&ranges(&tag.numbers), TEXT_SIZE, MAX_TEXT_WIDTH);
+        let size = [text_width(&text, TEXT_SIZE) + 6.0, LINE_HEIGHT];
+        let boxes = GAP_CHOICES.iter().flat_map(|&(ring, extra)| {
+            BOX_DIRECTIONS.iter().zip(0..).map(move |(side, index)| {
                 // Diagonal boxes may come nearer, because only their corner faces the place.
-                let gap = ring * if side[0] != 0.0 && side[1] != 0.0 { 0.6 * GAP } else { GAP };
+                let gap = ring * if side[0] != 0.0 && side[1] != 0.0 { 0.6 * BOX_GAP } else { BOX_GAP };
                 let middle = [0, 1].map(|k| tag.at[k] + side[k] * (size[k] / 2.0 + gap));
-                (around(middle, size), extra + ORDER * f64::from(index))
+                (around(middle, size), extra + SIDE_COST * f64::from(index))
             })
         });
         let covered = |b: &Rect, others: &[Rect]| others.iter().map(|other| overlap(b, other)).sum::<f64>();
         let cost = |(b, extra): &(Rect, f64)| {
             let outside = b.width * b.height - overlap(b, &within);
             let lines = spots.iter().filter(|s| (b.x..b.right()).contains(&s[0]) && (b.y..b.bottom()).contains(&s[1]));
-            HIDING * (covered(b, &taken) + outside) + covered(b, shapes) + LINE_SPOT * lines.count() as f64 + extra
+            HIDING_COST * (covered(b, &taken) + outside)
+                + covered(b, shapes)
+                + LINE_SPOT_COST * lines.count() as f64
+                + extra
         };
         let best = boxes.min_by(|a, b| cost(a).total_cmp(&cost(b)));
         let Some((place, _)) = best else { continue };
         items.push(Item::Outline(rectangle(place), Style::fill(WHITE).faded(0.8)));
         let at = [place.x + place.width / 2.0, place.bottom() - 3.5];
-        items.push(label(at, text, SIZE, Anchor::Middle, INK));
+        items.push(label(at, text, TEXT_SIZE, Anchor::Middle, INK));
         taken.push(place);
     }
     items
@@ -97,7 +100,7 @@ mod tests {
 
     fn boxes(items: &[Item]) -> Vec<Rect> {
         let texts = items.iter().filter_map(|item| match item {
-            Item::Text(label) => Some((label.at, text_width(&label.text, SIZE))),
+            Item::Text(label) => Some((label.at, text_width(&label.text, TEXT_SIZE))),
             _ => None,
         });
         texts.map(|([x, y], width)| Rect { x: x - width / 2.0, y: y - 10.0, width, height: 11.0 }).collect()

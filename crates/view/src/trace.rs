@@ -9,10 +9,10 @@ use super::view::{Chain, LEVELS, ScaleView, TraceView, Waves};
 use super::{boxes, channel, wave_numbers};
 
 /// Number of colours of a wavefront; each stands for some of its levels.
-const SHADES: usize = 32;
+const WAVE_SHADES: usize = 32;
 
 /// Fraction of white in the colours of surfaces, on which lines must stay legible.
-const SOFT: f64 = 0.22;
+const WHITE_SHARE: f64 = 0.22;
 
 /// Draws the surfaces, which lie under the C-obstacles.
 #[must_use]
@@ -107,15 +107,15 @@ fn order(expanded: &Chain) -> Vec<Key> {
 #[must_use]
 pub fn color_bar(scale: &ScaleView, frame: &Rect) -> Vec<Item> {
     let ScaleView { title, ends: [top, bottom], soft } = scale;
-    let white = if *soft { SOFT } else { 0.0 };
+    let white = if *soft { WHITE_SHARE } else { 0.0 };
     let (x, height) = (frame.right() + 16.0, frame.height.min(200.0));
     let rect = Rect { x, y: frame.bottom() - height, width: 12.0, height };
     vec![
         Item::Raster(Raster {
             rect,
-            cells: [1, SHADES],
+            cells: [1, WAVE_SHADES],
             palette: palette(white),
-            levels: (0..SHADES).map(Some).collect(),
+            levels: (0..WAVE_SHADES).map(Some).collect(),
         }),
         label([x + 18.0, rect.y + 10.0], top.as_str(), 13.0, Anchor::Start, GREY),
         label([x + 18.0, rect.bottom()], bottom.as_str(), 13.0, Anchor::Start, GREY),
@@ -124,14 +124,14 @@ pub fn color_bar(scale: &ScaleView, frame: &Rect) -> Vec<Item> {
 }
 
 fn palette(white: f64) -> Vec<Rgb> {
-    (0..SHADES).map(|k| color::scale(k as f64 / (SHADES - 1) as f64).lighter(white)).collect()
+    (0..WAVE_SHADES).map(|k| color::scale(k as f64 / (WAVE_SHADES - 1) as f64).lighter(white)).collect()
 }
 
 fn shades(waves: &Waves, frame: &Rect) -> Raster {
     let [width, height] = [waves.extent[0] * frame.width, waves.extent[1] * frame.height];
     let rect = Rect { x: frame.x, y: frame.bottom() - height, width, height };
-    let levels = waves.levels().map(|level| level.map(|level| level * SHADES / LEVELS)).collect();
-    Raster { rect, cells: waves.blocks, palette: palette(SOFT), levels }
+    let levels = waves.levels().map(|level| level.map(|level| level * WAVE_SHADES / LEVELS)).collect();
+    Raster { rect, cells: waves.blocks, palette: palette(WHITE_SHARE), levels }
 }
 
 #[cfg(test)]

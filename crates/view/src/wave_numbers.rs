@@ -5,14 +5,14 @@ use super::figure::{Anchor, Item, Rect, Step, Style, label, text_width};
 use super::view::{LEVELS, Waves};
 
 /// Smallest legible height of digits, in pixels.
-const SMALLEST: f64 = 5.0;
+const MIN_DIGIT_HEIGHT: f64 = 5.0;
 /// Greatest height of digits, in pixels.
-const GREATEST: f64 = 13.0;
+const MAX_DIGIT_HEIGHT: f64 = 13.0;
 /// Fraction of a cell's width and height that digits take in its corner, beside a path through the middles of cells. In
 /// small cells they take the whole cell.
-const CORNER: [f64; 2] = [0.42, 0.38];
+const CORNER_SHARE: [f64; 2] = [0.42, 0.38];
 /// From this level on, cells are so dark that digits are white.
-const DARK: usize = LEVELS * 3 / 5;
+const FIRST_DARK_LEVEL: usize = LEVELS * 3 / 5;
 
 /// Draws the sides of cells and the number of each cell that the wave reached. It draws nothing for fine grids, and if
 /// the digits would be too small to read.
@@ -21,11 +21,11 @@ pub fn items(waves: &Waves, frame: &Rect) -> Vec<Item> {
     let [columns, rows] = waves.blocks;
     let cell = [frame.width / columns as f64, frame.height / rows as f64];
     let fitting = |[width, height]: [f64; 2]| {
-        (width * cell[0] / text_width(&longest.to_string(), 1.0)).min(height * cell[1]).min(GREATEST)
+        (width * cell[0] / text_width(&longest.to_string(), 1.0)).min(height * cell[1]).min(MAX_DIGIT_HEIGHT)
     };
-    let in_corner = fitting(CORNER) >= SMALLEST;
-    let size = if in_corner { fitting(CORNER) } else { fitting([0.9, 0.75]) };
-    if size < SMALLEST {
+    let in_corner = fitting(CORNER_SHARE) >= MIN_DIGIT_HEIGHT;
+    let size = if in_corner { fitting(CORNER_SHARE) } else { fitting([0.9, 0.75]) };
+    if size < MIN_DIGIT_HEIGHT {
         return Vec::new();
     }
     let mut sides = Vec::new();
@@ -40,7 +40,7 @@ pub fn items(waves: &Waves, frame: &Rect) -> Vec<Item> {
     let mut items = vec![Item::Outline(sides, Style::line(PALE, 0.5).faded(0.6))];
     for (k, (number, level)) in waves.numbers.iter().zip(waves.levels()).enumerate() {
         let (Some(number), Some(level)) = (number, level) else { continue };
-        let color = if level >= DARK { WHITE } else { INK };
+        let color = if level >= FIRST_DARK_LEVEL { WHITE } else { INK };
         let corner = [frame.x + (k / rows) as f64 * cell[0], frame.bottom() - (k % rows + 1) as f64 * cell[1]];
         let (at, anchor) = if in_corner {
             ([corner[0] + 1.5, corner[1] + 0.9 * size], Anchor::Start)

@@ -1,12 +1,12 @@
 //! The workspace, with the arm and everything in it.
 
-use super::arm::{self, GHOST, GOAL, NOW, START, UNREACHED};
+use super::arm::{self, CURRENT_LOOK, GHOST_LOOK, GOAL_LOOK, START_LOOK, UNREACHED_LOOK};
 use super::axes::{Frame, Unit};
-use super::color::{BARRED, GREY, INK, PALE, WHITE};
+use super::color::{BLOCKED, GREY, INK, PALE, WHITE};
 use super::figure::{Anchor, Item, Rect, Step, Style, chain, label, lines};
 use super::labels::{self, Named};
 use super::view::{ObstacleView, PathView, View, around, reach_shape, titles};
-use super::{frames, preferences, reach, shapes, stuck, tags};
+use super::{blocking, frames, preferences, reach, shapes, tags};
 use cplan_core::model::Arm;
 use cplan_core::space::Configuration;
 
@@ -27,11 +27,11 @@ pub fn panel(view: &View, area: Rect) -> Vec<Item> {
         inside.extend(arm::items(&frame, arm, view.worlds[world].payload.as_ref(), q, look));
     };
     if let ([path], false) = (&view.paths[..], view.is_task()) {
-        path.ghosts.0.iter().for_each(|&q| pose(0, q, &GHOST));
+        path.ghosts.0.iter().for_each(|&q| pose(0, q, &GHOST_LOOK));
     }
-    view.unreached().for_each(|(world, q)| pose(world, q, &UNREACHED));
-    pose(0, view.start.into(), &START);
-    still.end.into_iter().for_each(|(q, world)| pose(world, q.into(), &GOAL));
+    view.unreached().for_each(|(world, q)| pose(world, q, &UNREACHED_LOOK));
+    pose(0, view.start.into(), &START_LOOK);
+    still.end.into_iter().for_each(|(q, world)| pose(world, q.into(), &GOAL_LOOK));
     let paths = still.panels.iter().flat_map(|panel| &panel.paths).map(|&index| &view.paths[index]);
     let traces: Vec<_> = paths.map(|path| (tip_trace(&frame, arm, path), path.pen())).collect();
     let spots: Vec<[f64; 2]> = traces.iter().flat_map(|(steps, _)| steps.iter().filter_map(end)).collect();
@@ -43,9 +43,11 @@ pub fn panel(view: &View, area: Rect) -> Vec<Item> {
         inside.extend(numbers(view, &frame, &boxes, &spots));
     }
     if let Some((q, world)) = still.now {
-        inside.extend(arm::items(&frame, arm, view.worlds[world].payload.as_ref(), q.into(), &NOW));
+        inside.extend(arm::items(&frame, arm, view.worlds[world].payload.as_ref(), q.into(), &CURRENT_LOOK));
     }
-    inside.extend(still.stuck.iter().flat_map(|stuck| stuck::in_workspace(stuck, arm, view.first_world(), &frame)));
+    inside.extend(
+        still.stuck.iter().flat_map(|blocking| blocking::in_workspace(blocking, arm, view.first_world(), &frame)),
+    );
     inside.extend(hidden_note(&frame, lying()));
     let mut items = vec![Item::Clip(frame.rect, inside)];
     items.extend(frame.border([Unit::Meters; 2], titles(&arm.plane), [false; 2]));
@@ -60,8 +62,8 @@ fn movers(view: &View, frame: &Frame) -> Vec<Item> {
         for mover in movers {
             let moments = mover.moments(duration);
             let places = std::iter::once(&0.0).chain(&moments).map(|&time| mover.origin(time));
-            let way = chain(places.map(|p| frame.at(p.x, p.y)), false);
-            items.push(Item::Outline(way, Style::line(GREY, 1.0).dashed(shapes::DASH)));
+            let line = chain(places.map(|p| frame.at(p.x, p.y)), false);
+            items.push(Item::Outline(line, Style::line(GREY, 1.0).dashed(shapes::ABSENT_DASH)));
             items.extend(moments.iter().map(|&time| shapes::dashed(frame, &mover.at(time))));
         }
     }
@@ -92,7 +94,7 @@ fn numbers(view: &View, frame: &Frame, boxes: &[Rect], spots: &[[f64; 2]]) -> Ve
     for (q, number, reached) in view.still.panels.iter().flat_map(|panel| view.ends(panel)) {
         let tip = view.arm.tip_at(q);
         let spot = frame.at(tip.x, tip.y);
-        let (line, fill) = if reached { (Style::line(WHITE, 1.2), INK) } else { (Style::line(BARRED, 1.4), WHITE) };
+        let (line, fill) = if reached { (Style::line(WHITE, 1.2), INK) } else { (Style::line(BLOCKED, 1.4), WHITE) };
         items.push(Item::Disc(spot, 3.6, line.filled(fill)));
         tags::add(&mut tags, spot, number);
     }
@@ -141,13 +143,13 @@ fn ground(frame: &Frame, arm: &Arm) -> Vec<Item> {
 /// Returns the path of the tip. Straight joint motions are curves here, so they are followed in small steps.
 fn tip_trace(frame: &Frame, arm: &Arm, path: &PathView) -> Vec<Step> {
     /// Step in radians. A chord of such an arc is off by at most 2e-5 of the reach, a hundredth of a pixel.
-    const STEP: f64 = 0.0125;
-    const MOST: f64 = 2000.0;
+    const ARC_STEP: f64 = 0.0125;
+    const MAX_ARC_POINTS: f64 = 2000.0;
     let turns = [0, 1].map(|k| arm.joints[k].joint_type.is_revolute());
     let mut spots = vec![path.start()];
     for (a, b) in path.points.0.windows(2).map(|ends| (ends[0], ends[1])) {
         let angle = (0..2).filter(|&k| turns[k]).map(|k| (b[k] - a[k]).abs()).fold(0.0, f64::max);
-        let n = (angle / STEP).ceil().clamp(1.0, MOST) as usize;
+        let n = (angle / ARC_STEP).ceil().clamp(1.0, MAX_ARC_POINTS) as usize;
         spots.extend((1..=n).map(|i| a + (b - a) * (i as f64 / n as f64)));
     }
     let place = |q: Configuration| {

@@ -3,8 +3,8 @@
 use super::reader::Reader;
 use super::schema::NotNegative;
 use cplan_geometry::{Pose, Vector};
-use cplan_handling::{Course, CourseError, Stop};
-use cplan_robot::{AngleOrLength, Diagnostic, Number, Numbers, Two, Written};
+use cplan_handling::{ObstacleTrajectory, ObstacleTrajectoryError, Stop};
+use cplan_robot::{AngleOrLength, Diagnostic, Number, NumberPair, Numbers, Written};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use toml::Spanned;
@@ -14,13 +14,13 @@ use toml::Spanned;
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(rename = "motion", extend("anyOf" = [{ "required": ["stops"] }, { "required": ["velocity"] }]))]
-pub(super) struct CourseTable {
+pub(super) struct ObstacleTrajectoryTable {
     /// Positions at increasing times. Before the first the obstacle waits there. By default there is a single stop at
     /// time 0.
     #[schemars(with = "Option<Vec<StopTable>>", length(min = 1))]
     stops: Option<Spanned<Vec<Spanned<StopTable>>>>,
     /// Velocity after the last stop, m/s, as on a conveyor. By default the obstacle stays there.
-    #[schemars(with = "Option<Two>")]
+    #[schemars(with = "Option<NumberPair>")]
     velocity: Option<Numbers>,
 }
 
@@ -33,7 +33,7 @@ pub(super) struct StopTable {
     #[schemars(with = "NotNegative")]
     time: Number,
     /// The origin of its own frame then, m; by default the obstacle's `at`.
-    #[schemars(with = "Option<Two>")]
+    #[schemars(with = "Option<NumberPair>")]
     at: Option<Numbers>,
     /// Angle of its frame at that time, rad; by default the obstacle's `angle`. It turns by the difference, including
     /// whole turns.
@@ -41,16 +41,22 @@ pub(super) struct StopTable {
     angle: Option<Written>,
 }
 
-impl CourseTable {
+impl ObstacleTrajectoryTable {
     /// Returns the motion of an obstacle. Stops without a position or angle take those of `place`.
     ///
     /// # Errors
     /// Times that do not increase, numbers that are not finite, and an empty table.
-    pub fn read(&self, reader: &Reader, what: &str, place: Option<&Pose>, at: Span) -> Result<Course, Diagnostic> {
+    pub fn read(
+        &self,
+        reader: &Reader,
+        what: &str,
+        place: Option<&Pose>,
+        at: Span,
+    ) -> Result<ObstacleTrajectory, Diagnostic> {
         let what = format!("{what}, motion");
         if self.stops.is_none() && self.velocity.is_none() {
             let message = format!("{what} has neither `stops` nor `velocity`");
-            return Err(reader.source.diagnostic_at(at, message).help(HELP));
+            return Err(reader.source.diagnostic_at(at, message).help(MOTION_HINT));
         }
         let given = |time: f64| {
             let origin = place.map_or_else(Vector::zeros, |place| place.translation);
@@ -71,9 +77,9 @@ impl CourseTable {
         let stops = stops.collect::<Result<Vec<Stop>, Diagnostic>>()?;
         let velocity = self.velocity.as_ref().map(|v| reader.two(v, &format!("{what}, velocity"))).transpose()?;
         let stops = if self.stops.is_none() { vec![given(0.0)] } else { stops };
-        Course::new(stops, velocity.map_or_else(Vector::zeros, Vector::from)).map_err(|error| {
+        ObstacleTrajectory::new(stops, velocity.map_or_else(Vector::zeros, Vector::from)).map_err(|error| {
             let (message, at, help) = match error {
-                CourseError::Time { stop, time } => (
+                ObstacleTrajectoryError::Time { stop, time } => (
                     format!(
                         "{what}, stop {}: the time {time} s is not later than the time of the previous stop",
                         stop + 1
@@ -81,8 +87,8 @@ impl CourseTable {
                     tables.clone().nth(stop).map_or(at, |stop| stop.get_ref().time.span()),
                     "sort the stops by time; times must increase",
                 ),
-                CourseError::Empty | CourseError::Place { .. } => {
-                    (format!("{what}: {error}"), self.stops.as_ref().map_or(at, Spanned::span), HELP)
+                ObstacleTrajectoryError::Empty | ObstacleTrajectoryError::Place { .. } => {
+                    (format!("{what}: {error}"), self.stops.as_ref().map_or(at, Spanned::span), MOTION_HINT)
                 }
             };
             reader.source.diagnostic_at(at, message).help(help)
@@ -90,7 +96,7 @@ impl CourseTable {
     }
 }
 
-const HELP: &str =
+const MOTION_HINT: &str =
     "motion = { stops = [{ time = 0, at = [x, y] }, { time = 2, at = [x, y] }] }, or { velocity = [vx, vy] }";
 
 type Span = std::ops::Range<usize>;

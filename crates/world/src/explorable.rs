@@ -29,7 +29,7 @@ impl LoadedScene {
     /// # Errors
     /// As [`LoadedScene::problem`], but that there need not be a goal.
     pub fn explorable(self, overrides: &Overrides) -> Result<Explorable, InputError> {
-        self.require_standing("explorations are for worlds without moving obstacles")?;
+        self.require_static_obstacles("explorations are for worlds without moving obstacles")?;
         let sensor = self.sensor();
         let has_goal = self.world.goals.is_some() || overrides.goal.is_some() || overrides.goal_tip.is_some();
         if has_goal || self.has_steps() {

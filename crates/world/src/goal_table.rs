@@ -1,6 +1,6 @@
 //! The world file's `[goal]`.
 
-use cplan_robot::{AngleOrLength, Numbers, Two, Written};
+use cplan_robot::{AngleOrLength, NumberPair, Numbers, Written};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use toml::Spanned;
@@ -14,10 +14,10 @@ pub(super) struct GoalTable {
     #[schemars(with = "Option<[AngleOrLength; 2]>")]
     pub joints: Option<Spanned<Vec<Written>>>,
     /// Coordinates of the tip, m.
-    #[schemars(with = "Option<Two>")]
+    #[schemars(with = "Option<NumberPair>")]
     pub tip: Option<Numbers>,
     /// Rectangles for the tip, any of which will do, each by two opposite corners, m; of an arm that does not slide along both axes each
     /// counts as its middle. Not in steps.
-    #[schemars(with = "Option<Vec<[Two; 2]>>")]
+    #[schemars(with = "Option<Vec<[NumberPair; 2]>>")]
     pub areas: Option<Spanned<Vec<Spanned<Vec<Numbers>>>>>,
 }

@@ -2,7 +2,7 @@
 
 /// Keys with the form of their values. An entry for a key of a specific table precedes entries for the same key
 /// elsewhere.
-const FORMS: [(&str, &str); 30] = [
+const KEY_FORMS: [(&str, &str); 30] = [
     ("start", "[start] joints = [q1, q2], or tip = [x, y]"),
     ("goal", "[goal] joints = [q1, q2], or tip = [x, y]"),
     ("robot.joints", "joints = [\"first\", \"second\"], base to tip"),
@@ -39,7 +39,8 @@ const FORMS: [(&str, &str); 30] = [
 ];
 
 /// The hint if there is no more specific one.
-const ANY: &str = "`cplan init` writes a world with every key explained; `cplan schema` prints the schema for editors";
+const DEFAULT_HINT: &str =
+    "`cplan init` writes a world with every key explained; `cplan schema` prints the schema for editors";
 
 /// Returns the hint for an error at a byte of a world file: the form of the key at that place.
 pub(super) fn help(text: &str, at: usize) -> &'static str {
@@ -64,8 +65,8 @@ pub(super) fn help(text: &str, at: usize) -> &'static str {
         let mut keys = written.match_indices('=').filter(|(i, _)| *i <= reach || !written[..*i].contains('='));
         keys.next_back().map(|(i, _)| key_of(&written[..i])).unwrap_or_default()
     };
-    let form = |key: &str| FORMS.iter().find(|(name, _)| *name == key).map(|(_, form)| *form);
-    form(&format!("{table}.{key}")).or_else(|| form(&key)).unwrap_or(ANY)
+    let form = |key: &str| KEY_FORMS.iter().find(|(name, _)| *name == key).map(|(_, form)| *form);
+    form(&format!("{table}.{key}")).or_else(|| form(&key)).unwrap_or(DEFAULT_HINT)
 }
 
 /// Returns the nearest character boundary at or before a byte.
@@ -78,7 +79,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_key_at_the_place_tells_what_to_write() {
+    fn hints_follow_the_key_at_the_place() {
         let of = |text: &str, mark: &str| help(text, text.find(mark).unwrap());
         assert!(of("[start]\njoints = {}\n", "{}").starts_with("joints = [q1, q2]"));
         assert!(of("start = [1, 2]\n", "[1").starts_with("[start]"));
@@ -87,7 +88,7 @@ mod tests {
         assert!(
             of("[[obstacle]]\ncircle = { center = [5, 5], radius = \"\u{e4}\" }\n", "\"\u{e4}").starts_with("radius")
         );
-        assert_eq!(of("[start]\nangle = 3\n", "3"), ANY);
-        assert_eq!(help("", 9), ANY);
+        assert_eq!(of("[start]\nangle = 3\n", "3"), DEFAULT_HINT);
+        assert_eq!(help("", 9), DEFAULT_HINT);
     }
 }

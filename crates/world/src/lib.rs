@@ -58,19 +58,19 @@ mod world_map;
 pub use digest::Digests;
 pub use explorable::Explorable;
 pub use line_map::{Chain, LineMap};
-pub use occupancy::{MOST_CELLS, Occupancy, OccupancyMap, PixelRectangle, rectangles};
+pub use occupancy::{MAX_CELLS, Occupancy, OccupancyMap, PixelRectangle, rectangles};
 pub use preference_map::{PreferenceMap, PreferenceRectangle};
 pub use query::LoadedEnds;
 pub use range_sensor::{Mount, Sensor};
 pub use schema::toml_schema;
-pub use suite::{Asked, LeftOut, MANIFEST, Member, Refused, Suite, load_folder, load_suite};
+pub use suite::{ExcludedWorld, LoadedProblems, MANIFEST_NAME, Member, RefusedProblem, Suite, load_folder, load_suite};
 pub use task::LoadedTask;
 pub use trajectory::{LoadedRecording, load_recording, load_topic, read_recording};
 pub use values::{JointValues, Overrides, TipPoint};
 pub use world::{World, in_toml_words, world_schema};
 
 use cplan_core::model::{Arm, Goal, MotionProblem, Scene};
-use cplan_handling::{Course, RobotJoints, TimedScene};
+use cplan_handling::{ObstacleTrajectory, RobotJoints, TimedScene};
 use cplan_robot::{Diagnostic, InputError, Inspection, RobotFile, RobotReport, RobotTable, Source};
 use std::path::{Path, PathBuf};
 
@@ -81,7 +81,7 @@ pub struct LoadedScene {
     /// obstacles.
     pub scene: Scene,
     /// The trajectories of its loose obstacles: moving obstacles and objects.
-    pub courses: Vec<Course>,
+    pub courses: Vec<ObstacleTrajectory>,
     /// The world file.
     pub world: World,
     /// The arm before the world's placement of the robot.
@@ -92,11 +92,11 @@ pub struct LoadedScene {
 
 /// A planning problem and how it was read.
 #[derive(Debug, Clone)]
-pub struct Loaded {
+pub struct LoadedProblem {
     /// Scene, start and goals; start and goals are within the limits and free.
     pub problem: MotionProblem,
     /// The trajectories of the scene's loose obstacles.
-    pub courses: Vec<Course>,
+    pub courses: Vec<ObstacleTrajectory>,
     /// Report on how the robot was read.
     pub robot: RobotReport,
     /// Notes for the user about the goal: blocked IK solutions, joints whose value does not matter.
@@ -137,9 +137,9 @@ pub fn scene_of(arm: Arm, world: Source) -> Result<LoadedScene, InputError> {
         pair.check(&world.source, &arm.joints)?;
     }
     let joints = RobotJoints::planned(&arm.joints.each_ref().map(|joint| joint.name.clone()));
-    let at_first = world.at_first();
-    let courses = at_first.courses();
-    let scene = at_first
+    let initial_workspace = world.initial_workspace();
+    let courses = initial_workspace.courses();
+    let scene = initial_workspace
         .scene(standing(&arm, &world))
         .map_err(|error| refused(error.to_string(), "use finite numbers and sizes above 0"))?;
     Ok(LoadedScene { scene, courses, world, arm, robot: RobotReport { joints, ..RobotReport::default() } })
@@ -185,9 +185,9 @@ impl LoadedScene {
 
     /// Puts an arm into its world, without checks.
     fn assembled(world: World, arm: Arm, robot: RobotReport) -> Self {
-        let at_first = world.at_first();
-        let courses = at_first.courses();
-        Self { scene: at_first.scene_trusted(standing(&arm, &world)), courses, world, arm, robot }
+        let initial_workspace = world.initial_workspace();
+        let courses = initial_workspace.courses();
+        Self { scene: initial_workspace.scene_trusted(standing(&arm, &world)), courses, world, arm, robot }
     }
 
     /// Returns the scene with its trajectories, on the clock of the world.
@@ -231,11 +231,11 @@ pub fn inspect(robot: impl Into<RobotFile>, world: Option<&Path>) -> Inspection 
     files.extend(file.files());
     // A world that cannot be read is an input, too.
     files.extend(world.map(Path::to_owned));
-    let in_world = |alone: Scene| file.at_first().scene_trusted(standing(alone.arm(), &file));
+    let in_world = |alone: Scene| file.initial_workspace().scene_trusted(standing(alone.arm(), &file));
     let mut inspection = Inspection {
         world: world.map(|p| p.display().to_string()),
         scene: inspection.scene.map(in_world),
-        courses: file.at_first().courses(),
+        courses: file.initial_workspace().courses(),
         files,
         ..inspection
     };
@@ -265,6 +265,6 @@ pub fn inspect(robot: impl Into<RobotFile>, world: Option<&Path>) -> Inspection 
 ///
 /// # Errors
 /// [`InputError`], for the files or for start and goal.
-pub fn load(robot: impl Into<RobotFile>, world: &Path, overrides: &Overrides) -> Result<Loaded, InputError> {
+pub fn load(robot: impl Into<RobotFile>, world: &Path, overrides: &Overrides) -> Result<LoadedProblem, InputError> {
     load_scene(robot, world)?.problem(overrides)
 }

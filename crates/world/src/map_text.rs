@@ -6,7 +6,7 @@ use std::ops::Range;
 use std::path::Path;
 
 /// First word of a map file.
-const HEADER: &str = "2D-Map";
+const MAP_HEADER: &str = "2D-Map";
 
 /// A file of the `2D-Map` family, line by line. Blank lines and lines that begin with `#` are passed over; words are
 /// separated by any white space.
@@ -30,15 +30,16 @@ impl MapText {
         let mut lines = Vec::new();
         let mut start = 0;
         for line in source.text().split_inclusive('\n') {
-            let said = line.trim();
-            if !said.is_empty() && !said.starts_with('#') {
+            let content = line.trim();
+            if !content.is_empty() && !content.starts_with('#') {
                 let from = start + (line.len() - line.trim_start().len());
-                lines.push(from..from + said.len());
+                lines.push(from..from + content.len());
             }
             start += line.len();
         }
         let mut text = Self { source, lines, next: 0 };
-        text.word(HEADER).map_err(|diagnostic| diagnostic.help(format!("a map begins with a line \"{HEADER}\"")))?;
+        text.word(MAP_HEADER)
+            .map_err(|diagnostic| diagnostic.help(format!("a map begins with a line \"{MAP_HEADER}\"")))?;
         Ok(text)
     }
 
@@ -87,7 +88,7 @@ impl MapText {
     /// Reads the integer of a line `key: n`.
     pub fn count(&mut self, key: &str) -> Result<(usize, Range<usize>), Diagnostic> {
         let Numbers { values: [value], at } = self.keyed::<1>(key)?;
-        if value < 0.0 || value.fract() != 0.0 || value > MOST_COUNTED {
+        if value < 0.0 || value.fract() != 0.0 || value > MAX_COUNT {
             let message = format!("{key}: {value} is not a number of lines");
             return Err(self.source.diagnostic_at(at, message).help("count the lines that follow"));
         }
@@ -197,7 +198,7 @@ impl MapText {
 }
 
 /// More lines than a file of the greatest size can hold.
-const MOST_COUNTED: f64 = 1e9;
+const MAX_COUNT: f64 = 1e9;
 
 fn counted(n: usize) -> String {
     if n == 1 { "a number".to_owned() } else { format!("{n} numbers") }

@@ -3,7 +3,7 @@
 use cplan_core::model::Scene;
 use cplan_core::space::JointRange;
 use cplan_geometry::{Convex, separation};
-use cplan_text::told_apart;
+use cplan_text::format_distinct;
 
 /// Returns a warning if all obstacles are out of the arm's reach. Stops at the first one that it may reach.
 pub(super) fn warning(scene: &Scene) -> Option<String> {
@@ -22,7 +22,7 @@ pub(super) fn warning(scene: &Scene) -> Option<String> {
         }
     }
     nearest.is_finite().then(|| {
-        let [nearest, reach] = told_apart([nearest, reach], 4);
+        let [nearest, reach] = format_distinct([nearest, reach], 4);
         format!(
             "no obstacle is within the arm's reach: the nearest is {nearest} m from joint 1, no part of the arm comes farther than \
              {reach} m; is the world in metres, and [robot] `at` where the arm stands?"

@@ -5,13 +5,13 @@ use std::borrow::Cow;
 use std::cell::RefCell;
 
 /// More names than this are counted.
-const NAMED: usize = 3;
+const MAX_NAMED_SHAPES: usize = 3;
 
 /// Corrections, with the names of the shapes.
 #[derive(Debug, Default)]
-pub(super) struct Taken(RefCell<Vec<(Cow<'static, str>, Vec<String>)>>);
+pub(super) struct Corrections(RefCell<Vec<(Cow<'static, str>, Vec<String>)>>);
 
-impl Taken {
+impl Corrections {
     /// Notes that of `whom` something was taken as `what` says.
     pub fn note(&self, whom: &str, what: impl Into<Cow<'static, str>>) {
         let what = what.into();
@@ -28,8 +28,8 @@ impl Taken {
     /// Returns one line per kind, in order of first occurrence.
     pub fn lines(self) -> Vec<String> {
         let line = |(what, names): (Cow<str>, Vec<String>)| {
-            let more = names.len().saturating_sub(NAMED);
-            let names: Vec<String> = names.into_iter().take(NAMED).collect();
+            let more = names.len().saturating_sub(MAX_NAMED_SHAPES);
+            let names: Vec<String> = names.into_iter().take(MAX_NAMED_SHAPES).collect();
             let names = names.join(", ");
             let more = if more > 0 { format!(" and {more} more") } else { String::new() };
             format!("{names}{more}: {what}")
@@ -44,7 +44,7 @@ mod tests {
 
     #[test]
     fn many_of_a_kind_are_one_line() {
-        let taken = Taken::default();
+        let taken = Corrections::default();
         for k in 0..5 {
             taken.note(&format!("o{k}"), "taken once");
             taken.note(&format!("o{k}"), "taken once");

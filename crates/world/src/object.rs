@@ -1,6 +1,6 @@
 //! The world file's `[[object]]`.
 
-use super::course::CourseTable;
+use super::course::ObstacleTrajectoryTable;
 use super::obstacle::{CircleTable, circle};
 use super::pallet::Pallets;
 use super::polygon::{Ring, polygon};
@@ -8,8 +8,8 @@ use super::reader::Reader;
 use super::schema::{NotNegative, Rings};
 use cplan_core::model::Obstacle;
 use cplan_geometry::{Point, Pose};
-use cplan_handling::{Course, Holding, Mover, Object};
-use cplan_robot::{AngleOrLength, Diagnostic, HeldAs, Number, Numbers, Two, Written, quoted};
+use cplan_handling::{Holding, MovingObstacle, Object, ObstacleTrajectory};
+use cplan_robot::{AngleOrLength, Diagnostic, HeldAs, Number, NumberPair, Numbers, Written, quoted};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -35,7 +35,7 @@ pub(super) struct ObjectTable {
     /// A disc in its own frame.
     circle: Option<CircleTable>,
     /// Initial position of its origin, m.
-    #[schemars(with = "Option<Two>")]
+    #[schemars(with = "Option<NumberPair>")]
     at: Option<Numbers>,
     /// Instead of `at`: a pallet that has one such object on each place initially.
     #[schemars(with = "Option<String>")]
@@ -44,7 +44,7 @@ pub(super) struct ObjectTable {
     #[schemars(with = "Option<AngleOrLength>")]
     angle: Option<Written>,
     /// Its extent along the plane's normal at its resting place, m; by default all heights.
-    #[schemars(with = "Option<Two>")]
+    #[schemars(with = "Option<NumberPair>")]
     height: Option<Numbers>,
     /// Height by which it is raised while it is carried, m; by default 0.
     #[schemars(with = "Option<NotNegative>")]
@@ -56,7 +56,7 @@ pub(super) struct ObjectTable {
     #[schemars(with = "Option<HeldAs>")]
     payload: Option<Spanned<String>>,
     /// The point of it that the tip goes to, in its own frame, m; by default its origin.
-    #[schemars(with = "Option<Two>")]
+    #[schemars(with = "Option<NumberPair>")]
     grasp: Option<Numbers>,
     /// Obstacles and objects that it may touch where it is picked and placed.
     #[schemars(with = "Option<Vec<String>>")]
@@ -66,8 +66,8 @@ pub(super) struct ObjectTable {
     #[serde(default)]
     renew: bool,
     /// Its motion from `at`, until it is picked; by default it is static.
-    #[schemars(with = "Option<CourseTable>")]
-    motion: Option<Spanned<CourseTable>>,
+    #[schemars(with = "Option<ObstacleTrajectoryTable>")]
+    motion: Option<Spanned<ObstacleTrajectoryTable>>,
 }
 
 /// Names, with the place of each.
@@ -75,7 +75,7 @@ pub(super) type NameList = Spanned<Vec<Spanned<String>>>;
 
 /// An object, and what holds for the steps that do not say otherwise.
 #[derive(Debug, Clone)]
-pub(super) struct Movable {
+pub(super) struct MovableObject {
     pub object: Object,
     /// The point of it that the tip goes to, in its own frame.
     pub grasp: Point,
@@ -105,16 +105,16 @@ pub(super) struct Names<'a> {
 }
 
 /// More names than this are not listed in a message.
-const LISTED: usize = 12;
+const MAX_LISTED_NAMES: usize = 12;
 
 impl<'a> Names<'a> {
     /// # Errors
     /// When two objects, or an object and an obstacle, have the same name.
     fn of(
         reader: &Reader,
-        placed: &[Placed<'a>],
+        placed: &[PlacedObject<'a>],
         obstacles: &'a [Obstacle],
-        movers: &[Mover],
+        movers: &[MovingObstacle],
     ) -> Result<Self, Diagnostic> {
         let mut names = Self {
             objects: BTreeMap::new(),
@@ -125,7 +125,7 @@ impl<'a> Names<'a> {
         for (number, obstacle) in obstacles.iter().enumerate() {
             names.obstacles.entry(obstacle.name.as_str()).or_default().push(number);
         }
-        for (number, Placed { table, name, .. }) in placed.iter().enumerate() {
+        for (number, PlacedObject { table, name, .. }) in placed.iter().enumerate() {
             let given = &table.get_ref().name;
             let family = given.get_ref().as_str();
             let is_mover = |name: &str| movers.iter().any(|mover| mover.obstacle.name == name);
@@ -227,7 +227,7 @@ impl<'a> Names<'a> {
 }
 
 /// A table's object, or one of those on a pallet.
-struct Placed<'a> {
+struct PlacedObject<'a> {
     table: &'a Spanned<ObjectTable>,
     name: String,
     /// Its initial pose.
@@ -239,7 +239,7 @@ fn placed<'a>(
     reader: &Reader,
     tables: &'a [Spanned<ObjectTable>],
     pallets: &Pallets,
-) -> Result<Vec<Placed<'a>>, Diagnostic> {
+) -> Result<Vec<PlacedObject<'a>>, Diagnostic> {
     let mut all = Vec::new();
     for table in tables {
         let given = table.get_ref();
@@ -251,11 +251,11 @@ fn placed<'a>(
         match (&given.at, &given.pallet) {
             (Some(at), None) => {
                 let at = reader.point(at, &format!("{what}, at"))?;
-                all.push(Placed { table, name: name.clone(), at: turned.shifted(at) });
+                all.push(PlacedObject { table, name: name.clone(), at: turned.shifted(at) });
             }
             (None, Some(pallet)) => {
                 let places = pallets.named(reader, pallet)?.places();
-                all.extend(places.map(|(place, pose)| Placed {
+                all.extend(places.map(|(place, pose)| PlacedObject {
                     table,
                     name: format!("{name} {place}"),
                     at: pose * turned,
@@ -282,9 +282,9 @@ pub(super) fn read<'a>(
     tables: &'a [Spanned<ObjectTable>],
     pallets: &Pallets,
     obstacles: &'a [Obstacle],
-    movers: &[Mover],
+    movers: &[MovingObstacle],
     default: Holding,
-) -> Result<(Vec<Movable>, Names<'a>), Diagnostic> {
+) -> Result<(Vec<MovableObject>, Names<'a>), Diagnostic> {
     let placed = placed(reader, tables, pallets)?;
     let names = Names::of(reader, &placed, obstacles, movers)?;
     let objects = placed.into_iter().enumerate().map(|(i, placed)| movable(reader, placed, i, &names, default));
@@ -293,11 +293,11 @@ pub(super) fn read<'a>(
 
 fn movable(
     reader: &Reader,
-    Placed { table, name, at }: Placed,
+    PlacedObject { table, name, at }: PlacedObject,
     index: usize,
     names: &Names,
     default: Holding,
-) -> Result<Movable, Diagnostic> {
+) -> Result<MovableObject, Diagnostic> {
     let given = table.get_ref();
     let what = format!("object \"{name}\"");
     let (shape, pieces) = match (&given.polygon, &given.circle) {
@@ -335,17 +335,17 @@ fn movable(
         mass: mass.unwrap_or(0.0),
         course,
     };
-    Ok(Movable { object, grasp: grasp.unwrap_or_else(Point::zeros), supports, is_renewed: given.renew })
+    Ok(MovableObject { object, grasp: grasp.unwrap_or_else(Point::zeros), supports, is_renewed: given.renew })
 }
 
 /// Returns the motion of an object. Stops without a position take this one.
 fn course(
     reader: &Reader,
     given: &ObjectTable,
-    motion: &Spanned<CourseTable>,
+    motion: &Spanned<ObstacleTrajectoryTable>,
     at: &Pose,
     what: &str,
-) -> Result<Course, Diagnostic> {
+) -> Result<ObstacleTrajectory, Diagnostic> {
     let refuse = |message: &str, help: &str| {
         Err(reader.source.diagnostic_at(motion.span(), format!("{what}, motion: {message}")).help(help))
     };
@@ -378,8 +378,8 @@ pub(super) fn holding(reader: &Reader, word: &Spanned<String>) -> Result<Holding
 }
 
 fn listed<'a>(names: impl Iterator<Item = &'a str>) -> String {
-    let mut names: Vec<&str> = names.take(LISTED + 1).collect();
-    let more = names.len() > LISTED;
-    names.truncate(LISTED);
+    let mut names: Vec<&str> = names.take(MAX_LISTED_NAMES + 1).collect();
+    let more = names.len() > MAX_LISTED_NAMES;
+    names.truncate(MAX_LISTED_NAMES);
     quoted(names) + if more { ", ..." } else { "" }
 }

@@ -1,14 +1,14 @@
 //! The world file's `[[obstacle]]`.
 
-use super::course::CourseTable;
+use super::course::ObstacleTrajectoryTable;
 use super::occupancy::OccupancyMap;
 use super::polygon::{Ring, polygon, polyline};
 use super::reader::Reader;
 use super::schema::{Corners, Rings, UnknownAs};
 use cplan_core::model::{Obstacle, Shape};
 use cplan_geometry::{Convex, Pose};
-use cplan_handling::Mover;
-use cplan_robot::{AngleOrLength, Diagnostic, InputError, Number, Numbers, Positive, Two, Written};
+use cplan_handling::MovingObstacle;
+use cplan_robot::{AngleOrLength, Diagnostic, InputError, Number, NumberPair, Numbers, Positive, Written};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use toml::Spanned;
@@ -35,7 +35,7 @@ pub(super) struct ObstacleTable {
     /// A disc.
     circle: Option<CircleTable>,
     /// Points of a thin wall, m: no area, still solid.
-    #[schemars(with = "Option<Vec<Two>>", length(min = 2))]
+    #[schemars(with = "Option<Vec<NumberPair>>", length(min = 2))]
     polyline: Option<Ring>,
     /// An occupancy map: the YAML of ROS's map server, which names a PGM or PNG. Relative to this file.
     #[schemars(with = "Option<String>")]
@@ -44,17 +44,17 @@ pub(super) struct ObstacleTable {
     #[schemars(with = "Option<UnknownAs>")]
     unknown: Option<Spanned<String>>,
     /// Origin of its own frame, in which its points are given, m; by default that of the world.
-    #[schemars(with = "Option<Two>")]
+    #[schemars(with = "Option<NumberPair>")]
     at: Option<Numbers>,
     /// Angle of its frame, rad; by default 0.
     #[schemars(with = "Option<AngleOrLength>")]
     angle: Option<Written>,
     /// Motion of its frame in time; by default it is static.
-    #[schemars(with = "Option<CourseTable>")]
-    motion: Option<Spanned<CourseTable>>,
+    #[schemars(with = "Option<ObstacleTrajectoryTable>")]
+    motion: Option<Spanned<ObstacleTrajectoryTable>>,
     /// Its extent along the plane's normal, m. Only parts of the arm at these heights can touch it; by default all
     /// heights.
-    #[schemars(with = "Option<Two>")]
+    #[schemars(with = "Option<NumberPair>")]
     height: Option<Numbers>,
 }
 
@@ -64,7 +64,7 @@ pub(super) struct ObstacleTable {
 #[schemars(rename = "circle")]
 pub(super) struct CircleTable {
     /// Coordinates of its centre, m.
-    #[schemars(with = "Two")]
+    #[schemars(with = "NumberPair")]
     center: Numbers,
     /// Radius, m.
     #[schemars(with = "Positive")]
@@ -72,17 +72,17 @@ pub(super) struct CircleTable {
 }
 
 /// Convex pieces of the largest map: beyond it each planner takes minutes.
-pub(super) const MOST_PIECES: usize = 1 << 20;
+pub(super) const MAX_PIECES: usize = 1 << 20;
 
 /// The kinds of an `[[obstacle]]`.
-pub(super) enum Read {
+pub(super) enum ObstacleKind {
     /// It stands where it is.
-    Standing(Obstacle),
+    Static(Obstacle),
     /// It has a motion.
-    Moving(Mover),
+    Moving(MovingObstacle),
 }
 
-const SIMPLE: &str =
+const SIMPLE_POLYGON_HINT: &str =
     "list the corners in order round the shape (and round each hole), each once; a wall without area is a polyline";
 
 impl ObstacleTable {
@@ -90,7 +90,7 @@ impl ObstacleTable {
     ///
     /// # Errors
     /// Not exactly one shape, values that are not finite, invalid shapes, and unusable files.
-    pub fn read(reader: &Reader, index: usize, table: &Spanned<Self>) -> Result<Read, InputError> {
+    pub fn read(reader: &Reader, index: usize, table: &Spanned<Self>) -> Result<ObstacleKind, InputError> {
         let obstacle = table.get_ref();
         let name = obstacle.name.clone().unwrap_or_else(|| format!("obstacle {}", index + 1));
         let what = format!("obstacle \"{name}\"");
@@ -101,7 +101,7 @@ impl ObstacleTable {
         let place = place.as_ref().filter(|_| course.is_none());
         let (shape, pieces) = match (&obstacle.polygon, &obstacle.circle, &obstacle.polyline, &obstacle.image) {
             (Some(corners), None, None, None) => {
-                polygon(reader, corners, obstacle.holes.as_ref(), place, &what, SIMPLE)?
+                polygon(reader, corners, obstacle.holes.as_ref(), place, &what, SIMPLE_POLYGON_HINT)?
             }
             (None, Some(disc), None, None) => moved(circle(reader, disc, &what)?, place),
             (None, None, Some(points), None) => polyline(reader, points, place, &what)?,
@@ -126,8 +126,8 @@ impl ObstacleTable {
         let heights = reader.heights(obstacle.height.as_ref(), &what)?;
         let obstacle = Obstacle { name, shape, pieces, heights };
         Ok(match course {
-            Some(course) => Read::Moving(Mover { obstacle, course }),
-            None => Read::Standing(obstacle),
+            Some(course) => ObstacleKind::Moving(MovingObstacle { obstacle, course }),
+            None => ObstacleKind::Static(obstacle),
         })
     }
 }
@@ -162,8 +162,8 @@ fn image(
     let map = OccupancyMap::read(&path)?;
     reader.files.borrow_mut().extend(map.picture.clone());
     map.notes.iter().for_each(|note| reader.taken.note(what, note.clone()));
-    let pieces = map.pieces(unknown_is_free, MOST_PIECES).ok_or_else(|| {
-        let message = format!("{what}: its pixels form more than {MOST_PIECES} rectangles");
+    let pieces = map.pieces(unknown_is_free, MAX_PIECES).ok_or_else(|| {
+        let message = format!("{what}: its pixels form more than {MAX_PIECES} rectangles");
         let help = "remove single pixels from the picture, or make its pixels larger";
         reader.source.diagnostic_at(image.span(), message).help(help)
     })?;

@@ -2,7 +2,7 @@
 
 use super::reader::Reader;
 use cplan_geometry::{Point, Pose};
-use cplan_robot::{AngleOrLength, Diagnostic, Numbers, Two, Written, quoted};
+use cplan_robot::{AngleOrLength, Diagnostic, NumberPair, Numbers, Written, quoted};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -24,10 +24,10 @@ pub(super) struct PalletTable {
     #[schemars(with = "i64", range(min = 1))]
     columns: Spanned<i64>,
     /// Distances between columns, along the pallet's x, and between rows, along its y, m; may be negative.
-    #[schemars(with = "Two")]
+    #[schemars(with = "NumberPair")]
     pitch: Numbers,
     /// Position of the place in row 1 and column 1, m.
-    #[schemars(with = "Two")]
+    #[schemars(with = "NumberPair")]
     at: Numbers,
     /// Angle of the pallet about that place, rad; by default 0. Objects on it turn with it.
     #[schemars(with = "Option<AngleOrLength>")]
@@ -35,10 +35,10 @@ pub(super) struct PalletTable {
 }
 
 /// Places of one pallet, at most: more than any machine has.
-const MOST_PLACES: usize = 10_000;
+const MAX_PLACES: usize = 10_000;
 
 /// Significant digits of places, of the largest number that they are made of: so they are the decimals that people would write.
-const DIGITS: i32 = 15;
+const PLACE_DIGITS: i32 = 15;
 
 /// A grid of places.
 #[derive(Debug, Clone)]
@@ -74,7 +74,7 @@ impl Pallet {
 /// Removes rounding errors from a sum of numbers that are at most `largest`.
 fn rounded(sum: f64, largest: f64) -> f64 {
     let before = largest.log10().ceil().clamp(-300.0, 300.0) as i32;
-    let decimals = usize::try_from(DIGITS - before).unwrap_or(0);
+    let decimals = usize::try_from(PLACE_DIGITS - before).unwrap_or(0);
     format!("{sum:.decimals$}").parse().unwrap_or(sum) + 0.0
 }
 
@@ -155,8 +155,8 @@ impl PalletTable {
             })
         };
         let (rows, columns) = (counted(&self.rows, "rows")?, counted(&self.columns, "columns")?);
-        if rows.saturating_mul(columns) > MOST_PLACES {
-            let message = format!("{what} has {} places (at most {MOST_PLACES})", rows.saturating_mul(columns));
+        if rows.saturating_mul(columns) > MAX_PLACES {
+            let message = format!("{what} has {} places (at most {MAX_PLACES})", rows.saturating_mul(columns));
             return Err(reader.source.diagnostic_at(self.rows.span(), message).help("give it fewer rows or columns"));
         }
         let pitch = reader.two(&self.pitch, &format!("{what}, pitch"))?;

@@ -51,11 +51,11 @@ impl<'de> Visitor<'de> for CoordinatesVisitor {
 }
 
 /// Note about rings whose last point repeats the first.
-const CLOSED: &str = "the last point of a ring repeats the first; taken once";
+const CLOSED_RING_NOTE: &str = "the last point of a ring repeats the first; taken once";
 /// Note about repeated points.
-const REPEATED: &str = "points that repeat the one before them are taken once";
+const REPEATED_POINTS_NOTE: &str = "points that repeat the one before them are taken once";
 /// Note about a polygon that is not simple but whose inside is well defined.
-const TOUCHING: &str = "the boundary touches itself in single points; the enclosed area is solid";
+const TOUCHING_BOUNDARY_NOTE: &str = "the boundary touches itself in single points; the enclosed area is solid";
 
 impl Coordinates {
     fn list(&self) -> &[Spanned<Coordinates>] {
@@ -105,7 +105,7 @@ pub(super) fn polygon(
         [simple] if !has_holes => Ok((Shape::Polygon(simple.corners().to_vec()), polygon.convex_pieces())),
         _ => {
             if !has_holes {
-                reader.taken.note(what, TOUCHING);
+                reader.taken.note(what, TOUCHING_BOUNDARY_NOTE);
             }
             Ok((Shape::Pieces, polygon.convex_pieces()))
         }
@@ -153,7 +153,7 @@ fn ring_of(reader: &Reader, given: &Ring, what: &str) -> Result<Vec<Point>, Diag
     let mut corners = without_repeats(reader, points(reader, given, what)?, what);
     if corners.len() > 1 && corners.first() == corners.last() {
         corners.pop();
-        reader.taken.note(what, CLOSED);
+        reader.taken.note(what, CLOSED_RING_NOTE);
     }
     Ok(corners)
 }
@@ -162,7 +162,7 @@ fn without_repeats(reader: &Reader, mut points: Vec<Point>, what: &str) -> Vec<P
     let given = points.len();
     points.dedup();
     if points.len() < given {
-        reader.taken.note(what, REPEATED);
+        reader.taken.note(what, REPEATED_POINTS_NOTE);
     }
     points
 }

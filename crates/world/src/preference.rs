@@ -5,7 +5,7 @@ use super::reader::Reader;
 use super::schema::Corners;
 use cplan_core::model::{Preference, Region};
 use cplan_geometry::SimplePolygon;
-use cplan_robot::{Diagnostic, Number, Numbers, Two};
+use cplan_robot::{Diagnostic, Number, NumberPair, Numbers};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use toml::Spanned;
@@ -21,7 +21,7 @@ pub(super) struct PreferenceTable {
     #[schemars(with = "f64")]
     epsilon: Number,
     /// Direction in joint space, of any length, for the field local.
-    #[schemars(with = "Option<Two>")]
+    #[schemars(with = "Option<NumberPair>")]
     direction: Option<Numbers>,
     /// Corners of a region in joint space, rad or m.
     #[schemars(with = "Option<Corners>")]
@@ -32,10 +32,10 @@ pub(super) struct PreferenceTable {
 }
 
 /// Widest region in configurations, radians or metres: it is looked up copy by copy on a circle.
-const WIDEST: f64 = 100.0;
+const MAX_REGION_WIDTH: f64 = 100.0;
 
 /// Help for regions that are no simple polygons.
-const ORDERED: &str = "list the corners in order round the region, each once";
+const CORNER_ORDER_HINT: &str = "list the corners in order round the region, each once";
 
 impl PreferenceTable {
     /// Reads the preference with this index in its file.
@@ -50,7 +50,7 @@ impl PreferenceTable {
         let direction = given.direction.as_ref().map(|d| direction(reader, d, &what)).transpose()?;
         let region = match (&given.configurations, &given.polygon) {
             (Some(corners), None) => Region::Configurations(configurations(reader, corners, &what)?),
-            (None, Some(corners)) => Region::Tip(simple_polygon(reader, corners, &what, ORDERED)?),
+            (None, Some(corners)) => Region::Tip(simple_polygon(reader, corners, &what, CORNER_ORDER_HINT)?),
             (configurations, _) => {
                 let found = if configurations.is_some() { "both" } else { "neither" };
                 let message = format!("{what} needs either `configurations` or `polygon`, it has {found}");
@@ -74,13 +74,13 @@ fn direction(reader: &Reader, numbers: &Numbers, what: &str) -> Result<[f64; 2],
 }
 
 fn configurations(reader: &Reader, corners: &Ring, what: &str) -> Result<SimplePolygon, Diagnostic> {
-    let polygon = simple_polygon(reader, corners, what, ORDERED)?;
+    let polygon = simple_polygon(reader, corners, what, CORNER_ORDER_HINT)?;
     let is_wide = |k: usize| {
         let values = || polygon.corners().iter().map(|corner| corner[k]);
-        values().fold(f64::NEG_INFINITY, f64::max) - values().fold(f64::INFINITY, f64::min) > WIDEST
+        values().fold(f64::NEG_INFINITY, f64::max) - values().fold(f64::INFINITY, f64::min) > MAX_REGION_WIDTH
     };
     if is_wide(0) || is_wide(1) {
-        let message = format!("{what} is too wide (at most {WIDEST} in joint values)");
+        let message = format!("{what} is too wide (at most {MAX_REGION_WIDTH} in joint values)");
         return Err(reader
             .source
             .diagnostic_at(corners.span(), message)

@@ -4,7 +4,7 @@ use super::reasons::{
     HELP_FOR_LIMITS, beyond_limits, describe, describe_segment, help_at, help_for_ik_solutions, help_for_reach,
     obstructions, out_of_reach, within_limits,
 };
-use super::{Loaded, LoadedScene, Overrides};
+use super::{LoadedProblem, LoadedScene, Overrides};
 use cplan_core::model::{BlockedStretch, Freedom, Goal, MotionProblem, Scene, area_goals, inverse};
 use cplan_core::space::{Configuration, GoalSet, Segment};
 use cplan_geometry::Point;
@@ -34,7 +34,7 @@ impl LoadedScene {
     /// When the world has steps; when either is missing, outside the joint limits, in contact with an obstacle or nearer to one than the
     /// clearance, or when no IK solution puts the tip at the goal. The message says which link hits which obstacle and how
     /// deep.
-    pub fn problem(self, overrides: &Overrides) -> Result<Loaded, InputError> {
+    pub fn problem(self, overrides: &Overrides) -> Result<LoadedProblem, InputError> {
         if self.has_steps() {
             return Err(self.has_no_goal(overrides).into());
         }
@@ -60,7 +60,7 @@ impl LoadedScene {
         notes.extend(refused.iter().map(|diagnostic| format!("a goal is ruled out: {}", diagnostic.message)));
         let goals: GoalSet = goals.into_iter().collect();
         let LoadedScene { scene, courses, robot, .. } = loaded;
-        Ok(Loaded { problem: MotionProblem::trusted(scene, start, goals), courses, robot, notes })
+        Ok(LoadedProblem { problem: MotionProblem::trusted(scene, start, goals), courses, robot, notes })
     }
 
     /// Returns the configurations of a goal that may be free.
@@ -173,7 +173,7 @@ impl LoadedScene {
     }
 
     /// Returns true if an obstacle moves.
-    pub(super) fn has_movers(&self) -> bool {
+    pub(super) fn has_moving_obstacles(&self) -> bool {
         !self.courses.is_empty()
     }
 
@@ -181,7 +181,7 @@ impl LoadedScene {
     ///
     /// # Errors
     /// If an obstacle moves.
-    pub fn require_standing(&self, what: &str) -> Result<(), InputError> {
+    pub fn require_static_obstacles(&self, what: &str) -> Result<(), InputError> {
         let Some(mover) = self.scene.loose().first() else { return Ok(()) };
         let message = format!("{what}, but obstacle \"{}\" moves", mover.obstacle.name);
         let help =

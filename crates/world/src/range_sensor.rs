@@ -42,13 +42,13 @@ pub struct Sensor {
 
 impl Sensor {
     /// Cells of the map across the arm's reach, if nothing else is said.
-    const CELLS: f64 = 40.0;
+    const DEFAULT_CELLS: f64 = 40.0;
 
     /// The usual one for an arm: on the tip, 360 rays all around (what the arm moves into lies beside it as a rule, not ahead), as far
     /// as half the arm reaches, a reading every tenth of a radian or metre, without errors.
     #[must_use]
     pub fn usual(arm: &Arm) -> Self {
-        let cell = arm.reach() / Self::CELLS;
+        let cell = arm.reach() / Self::DEFAULT_CELLS;
         let range = arm.reach() / 2.0;
         Self {
             mount: Mount::Tip,

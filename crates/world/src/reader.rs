@@ -2,7 +2,7 @@
 
 use super::goal_table::GoalTable;
 use super::joint_pair::JointPair;
-use super::notes::Taken;
+use super::notes::Corrections;
 use cplan_core::model::{Goal, Heights};
 use cplan_core::space::Configuration;
 use cplan_geometry::{Point, Pose, Vector};
@@ -16,7 +16,7 @@ use toml::Spanned;
 pub(super) struct Reader<'a> {
     pub source: &'a Source,
     /// Corrections of input that is not refused.
-    pub taken: Taken,
+    pub taken: Corrections,
     /// Joint values in degrees.
     pub in_degrees: RefCell<Vec<JointPair>>,
     /// Paths of the files that the world names, and of those that these name.
@@ -25,7 +25,7 @@ pub(super) struct Reader<'a> {
 
 impl<'a> Reader<'a> {
     pub fn new(source: &'a Source) -> Self {
-        Self { source, taken: Taken::default(), in_degrees: RefCell::default(), files: RefCell::default() }
+        Self { source, taken: Corrections::default(), in_degrees: RefCell::default(), files: RefCell::default() }
     }
 }
 

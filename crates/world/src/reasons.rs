@@ -3,7 +3,7 @@
 use cplan_core::model::{Freedom, Inverse, Obstruction, Scene, within};
 use cplan_core::space::{Configuration, JointRange, Segment};
 use cplan_geometry::Point;
-use cplan_text::{fixed, told_apart};
+use cplan_text::{fixed, format_distinct};
 
 /// Returns the IK solutions of `solved` that the joint limits allow, including turns of circles and long ranges. For
 /// each other branch it returns the reason.
@@ -115,7 +115,7 @@ pub(super) fn out_of_reach(scene: &Scene, what: &str, point: Point) -> String {
     let from_joint = (point - arm.base).norm();
     let [distance, reach] = if arm.only_turns() {
         let (upper, lower) = (arm.offset.norm(), arm.tip.norm());
-        let [distance, least, most] = told_apart([from_joint, (upper - lower).abs(), upper + lower], 4);
+        let [distance, least, most] = format_distinct([from_joint, (upper - lower).abs(), upper + lower], 4);
         [distance, format!(", the tip reaches from {least} to {most} m")]
     } else {
         [fixed(from_joint, 4), String::new()]

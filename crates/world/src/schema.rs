@@ -10,7 +10,7 @@ use serde_json::Value;
 pub fn toml_schema<T: JsonSchema>() -> Value {
     let mut settings = SchemaSettings::draft07();
     // First, because the draft's own transforms may apply to its result.
-    settings.transforms.insert(0, Box::new(AsToml));
+    settings.transforms.insert(0, Box::new(TomlSchema));
     let mut schema = settings.into_generator().into_root_schema_for::<T>().to_value();
     // In any order of serde_json's maps, which other crates may choose.
     schema.sort_all_objects();
@@ -19,9 +19,9 @@ pub fn toml_schema<T: JsonSchema>() -> Value {
 
 /// Takes back that optional keys may be null, as TOML has no null, and the formats of numbers, which are Rust's.
 #[derive(Debug, Clone)]
-struct AsToml;
+struct TomlSchema;
 
-impl Transform for AsToml {
+impl Transform for TomlSchema {
     fn transform(&mut self, schema: &mut Schema) {
         transform_subschemas(self, schema);
         let Some(object) = schema.as_object_mut() else { return };

@@ -10,10 +10,10 @@ use std::f64::consts::TAU;
 use toml::Spanned;
 
 /// Rays at the most: more than any sensor has.
-const MOST_RAYS: u64 = 100_000;
+const MAX_RAYS: u64 = 100_000;
 
 /// Least distance between readings, in joint space. A path of many turns then has millions of readings.
-const SHORTEST_STEP: f64 = 1e-4;
+const MIN_READING_STEP: f64 = 1e-4;
 
 /// The sensor of an exploration (`cplan explore`). Every key has a default. Rays are as wide as the map cells that they
 /// cross.
@@ -74,9 +74,9 @@ impl SensorTable {
             }
         };
         let rays = |rays: &Spanned<u64>| match *rays.get_ref() {
-            n @ 1..=MOST_RAYS => Ok(n as usize),
+            n @ 1..=MAX_RAYS => Ok(n as usize),
             n => {
-                let message = format!("a sensor has 1 to {MOST_RAYS} rays, not {n}");
+                let message = format!("a sensor has 1 to {MAX_RAYS} rays, not {n}");
                 Err(reader.source.diagnostic_at(rays.span(), message).help("write a number of rays, such as 360"))
             }
         };
@@ -91,9 +91,9 @@ impl SensorTable {
             number.as_ref().map(read).transpose()
         };
         let step = |number: &Number| match reader.source.finite(number, "sensor step")? {
-            value if value >= SHORTEST_STEP => Ok(value),
+            value if value >= MIN_READING_STEP => Ok(value),
             value => {
-                let message = format!("sensor step must be at least {SHORTEST_STEP}, is {value}");
+                let message = format!("sensor step must be at least {MIN_READING_STEP}, is {value}");
                 Err(reader.source.diagnostic_at(number.span(), message).help("a distance in joint space, such as 0.1"))
             }
         };

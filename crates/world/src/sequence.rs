@@ -1,7 +1,7 @@
 //! Steps with their repetitions written out, and the state of the objects after each step.
 
 use super::group::{Body, Group, Leaf, LeafAction, Node, When};
-use super::object::{Movable, Names, Supports, rests_on_itself};
+use super::object::{MovableObject, Names, Supports, rests_on_itself};
 
 use super::reader::Reader;
 use super::requirement::{Required, Requirement, Requirements};
@@ -25,7 +25,7 @@ pub(super) struct Sequence {
 
 /// Largest difference of equal orientations, radians: far above the rounding of angles, and below the repeatability of
 /// any wrist.
-const SAME_ANGLE: f64 = 1e-9;
+const ANGLE_TOLERANCE: f64 = 1e-9;
 
 /// Writes out the file's steps, which start at `at`.
 ///
@@ -35,12 +35,12 @@ const SAME_ANGLE: f64 = 1e-9;
 pub(super) fn write_out(
     reader: &Reader,
     names: &Names,
-    objects: &[Movable],
+    objects: &[MovableObject],
     has_wrist: bool,
     steps: &Group,
     at: Range<usize>,
 ) -> Result<Sequence, Diagnostic> {
-    let lying = objects.iter().map(Lying::at_first).collect();
+    let lying = objects.iter().map(ObjectPlace::initial).collect();
     let mut writer = Writer {
         reader,
         names,
@@ -58,7 +58,7 @@ pub(super) fn write_out(
 
 /// The place of an object. While the object is carried, parts of it may be unknown.
 #[derive(Clone, Copy)]
-struct Lying {
+struct ObjectPlace {
     at: Point,
     /// The angle. `None` if it depends on the configuration in which a rigid payload was placed.
     angle: Option<f64>,
@@ -68,8 +68,8 @@ struct Lying {
     moves: bool,
 }
 
-impl Lying {
-    fn at_first(movable: &Movable) -> Self {
+impl ObjectPlace {
+    fn initial(movable: &MovableObject) -> Self {
         let pose = &movable.object.at;
         let moves = movable.object.course.is_some();
         Self { at: pose.translation, angle: Some(pose.rotation.angle()), tip: None, moves }
@@ -87,7 +87,7 @@ impl Lying {
 
 /// An object in the gripper.
 #[derive(Clone, Copy)]
-struct Carried {
+struct CarriedObject {
     object: usize,
     grasp: Point,
 }
@@ -95,10 +95,10 @@ struct Carried {
 struct Writer<'a> {
     reader: &'a Reader<'a>,
     names: &'a Names<'a>,
-    objects: &'a [Movable],
+    objects: &'a [MovableObject],
     has_wrist: bool,
-    carried: Option<Carried>,
-    lying: Vec<Lying>,
+    carried: Option<CarriedObject>,
+    lying: Vec<ObjectPlace>,
     /// For each step, the number of times that it has been done.
     cycles: Vec<usize>,
     items: Vec<Item>,
@@ -107,10 +107,10 @@ struct Writer<'a> {
 
 impl Writer<'_> {
     fn group(&mut self, group: &Group) -> Result<(), Diagnostic> {
-        let at_first = self.carried.map(|c| c.object);
+        let initial = self.carried.map(|c| c.object);
         for repetition in 0..group.repeat {
             if repetition > 0 {
-                self.repeat(group, at_first)?;
+                self.repeat(group, initial)?;
             }
             match &group.body {
                 Body::InOrder(nodes) => {
@@ -135,12 +135,12 @@ impl Writer<'_> {
     }
 
     /// Comes back to the beginning of a group that began with this object carried.
-    fn repeat(&mut self, group: &Group, at_first: Option<usize>) -> Result<(), Diagnostic> {
+    fn repeat(&mut self, group: &Group, initial: Option<usize>) -> Result<(), Diagnostic> {
         let carried = self.carried.map(|c| c.object);
-        if carried != at_first {
+        if carried != initial {
             let message = format!(
                 "these steps cannot be repeated: they begin carrying {} and end carrying {}",
-                self.in_words(at_first),
+                self.in_words(initial),
                 self.in_words(carried)
             );
             let help = "let them end with the same payload that they begin with";
@@ -154,7 +154,7 @@ impl Writer<'_> {
         }
         if !group.renewed.is_empty() {
             for object in &group.renewed {
-                self.lying[*object] = Lying::at_first(&self.objects[*object]);
+                self.lying[*object] = ObjectPlace::initial(&self.objects[*object]);
             }
             self.items.push(Item::Renew(group.renewed.iter().copied().collect()));
         }
@@ -228,7 +228,7 @@ impl Writer<'_> {
         } else if let Some(tip) = lying.point(grasp).filter(|tip| lying.tip != Some(*tip)) {
             self.requirements.add(leaf.number, Required::Tip(tip), leaf.at.clone());
         }
-        self.carried = Some(Carried { object, grasp });
+        self.carried = Some(CarriedObject { object, grasp });
         let when = when.map_or_else(Vec::new, |when| when.times.clone());
         Ok(Action::Pick { object, grasp, supports: supports.numbers.clone(), when })
     }
@@ -240,7 +240,7 @@ impl Writer<'_> {
         angle: Option<&(f64, Range<usize>)>,
         supports: Option<&Supports>,
     ) -> Result<Action, Diagnostic> {
-        let Some(Carried { object, grasp }) = self.carried.take() else {
+        let Some(CarriedObject { object, grasp }) = self.carried.take() else {
             let message = format!("step {} places an object, but the tool carries none", leaf.number);
             return Err(self.reader.source.diagnostic_at(leaf.at.clone(), message).help("pick an object first"));
         };
@@ -248,8 +248,8 @@ impl Writer<'_> {
         self.rest(leaf, object, supports)?;
         let asked = angle.map(|(angle, place)| self.turned(leaf, object, *angle, place)).transpose()?;
         let mut lying = match self.objects[object].object.holding {
-            Holding::Rigid => Lying { at, angle: None, tip: None, moves: false },
-            Holding::Level => Lying { at, angle: asked.or(self.lying[object].angle), tip: None, moves: false },
+            Holding::Rigid => ObjectPlace { at, angle: None, tip: None, moves: false },
+            Holding::Level => ObjectPlace { at, angle: asked.or(self.lying[object].angle), tip: None, moves: false },
         };
         lying.tip = lying.point(grasp);
         self.lying[object] = lying;
@@ -273,7 +273,7 @@ impl Writer<'_> {
             return refuse(message, "payload = \"level\" for the object, or leave the angle out");
         };
         let turn = (angle - before).rem_euclid(TAU);
-        if turn.min(TAU - turn) <= SAME_ANGLE {
+        if turn.min(TAU - turn) <= ANGLE_TOLERANCE {
             return Ok(before);
         }
         if !self.has_wrist {

@@ -14,12 +14,12 @@ use cplan_text::listed;
 const LIMIT_ROUNDING: f64 = 1e-9;
 
 /// More IK solutions than this are counted, not listed.
-const LISTED: usize = 6;
+const MAX_LISTED_SOLUTIONS: usize = 6;
 
 impl LoadedScene {
     /// Returns the start and the goal as joint values. `None` for tip positions and missing entries.
     #[must_use]
-    pub fn said_ends(&self) -> [Option<Configuration>; 2] {
+    pub fn resolved_ends(&self) -> [Option<Configuration>; 2] {
         self.given().map(|end| match end {
             Some(Goal::Joints(q)) => Some(q),
             _ => None,
@@ -112,8 +112,8 @@ impl LoadedScene {
             }
             _ => {
                 let listed: Vec<String> =
-                    free.iter().take(LISTED).map(|q| format!("joints = [{}, {}]", q[0], q[1])).collect();
-                let more = if free.len() > LISTED { ", ..." } else { "" };
+                    free.iter().take(MAX_LISTED_SOLUTIONS).map(|q| format!("joints = [{}, {}]", q[0], q[1])).collect();
+                let more = if free.len() > MAX_LISTED_SOLUTIONS { ", ..." } else { "" };
                 let message = format!("{} IK solutions put the tip at {at}; which one is the start?", free.len());
                 Err(place.diagnostic(message).help(format!("give joint values: {}{more}", listed.join(", or "))))
             }

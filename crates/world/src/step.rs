@@ -2,14 +2,14 @@
 
 use super::goal_table::GoalTable;
 use super::group::{Body, Group, Leaf, LeafAction, Node, When};
-use super::object::{Movable, NameList, Names};
+use super::object::{MovableObject, NameList, Names};
 use super::pallet::Pallets;
 use super::reader::Reader;
 use super::schema::{DoneIn, NotNegative, Share};
 use super::table::Table;
 use cplan_geometry::Pose;
-use cplan_handling::{LATEST, Object};
-use cplan_robot::{AngleOrLength, Cursor, Diagnostic, Number, Numbers, Two, Written};
+use cplan_handling::{MAX_STOP_TIME, Object};
+use cplan_robot::{AngleOrLength, Cursor, Diagnostic, Number, NumberPair, Numbers, Written};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::BTreeSet;
@@ -46,16 +46,16 @@ pub(super) struct StepTable {
     #[schemars(with = "Option<Vec<StepTable>>", length(min = 1))]
     steps: Option<Vec<Spanned<StepTable>>>,
     /// For a pick: the point of the object to which the tip moves, in the object's frame, m; by default the object's.
-    #[schemars(with = "Option<Two>")]
+    #[schemars(with = "Option<NumberPair>")]
     grasp: Option<Numbers>,
     /// For a pick: obstacles and objects that the object may touch; by default the object's.
     #[schemars(with = "Option<Vec<String>>")]
     supports: Option<NameList>,
     /// For the pick of a moving object: position of its origin at the pick, m; by default the earliest one possible.
-    #[schemars(with = "Option<Two>")]
+    #[schemars(with = "Option<NumberPair>")]
     at: Option<Numbers>,
     /// For the pick of a moving object: the earliest and the latest time of the pick, s; by default any time.
-    #[schemars(with = "Option<Two>")]
+    #[schemars(with = "Option<NumberPair>")]
     window: Option<Numbers>,
     /// For a group: number of repetitions of its steps.
     #[schemars(with = "Option<i64>", range(min = 1))]
@@ -77,7 +77,7 @@ pub(super) struct StepTable {
 #[schemars(rename = "place", extend("oneOf" = [{ "required": ["at"] }, { "required": ["on"] }]))]
 struct PlaceTable {
     /// Position for the object's origin, m.
-    #[schemars(with = "Option<Two>")]
+    #[schemars(with = "Option<NumberPair>")]
     at: Option<Numbers>,
     /// The place of a pallet that its origin goes to: "NAME 2,3".
     #[schemars(with = "Option<String>")]
@@ -129,10 +129,10 @@ pub(super) struct TaskTable {
 }
 
 /// Most steps of a task, repetitions written out: some days of work.
-const MOST_STEPS: usize = 100_000;
+const MAX_STEPS: usize = 100_000;
 
 /// Distance within which a position counts as on an axis, metres: the precision with which people write positions.
-const PASSES_WITHIN: f64 = 1e-3;
+const ON_AXIS_DISTANCE: f64 = 1e-3;
 
 /// Default speed and dwell of steps.
 #[derive(Clone, Copy)]
@@ -152,7 +152,7 @@ pub(super) struct StepReader<'a> {
     reader: &'a Reader<'a>,
     pallets: &'a Pallets<'a>,
     names: &'a Names<'a>,
-    objects: &'a [Movable],
+    objects: &'a [MovableObject],
     cursor: Cursor<'a>,
     file: String,
     /// Steps read so far.
@@ -160,7 +160,12 @@ pub(super) struct StepReader<'a> {
 }
 
 impl<'a> StepReader<'a> {
-    pub fn new(reader: &'a Reader<'a>, pallets: &'a Pallets<'a>, names: &'a Names<'a>, objects: &'a [Movable]) -> Self {
+    pub fn new(
+        reader: &'a Reader<'a>,
+        pallets: &'a Pallets<'a>,
+        names: &'a Names<'a>,
+        objects: &'a [MovableObject],
+    ) -> Self {
         Self { reader, pallets, names, objects, cursor: reader.source.cursor(), file: reader.source.name(), count: 0 }
     }
 
@@ -168,7 +173,7 @@ impl<'a> StepReader<'a> {
     ///
     /// # Errors
     /// Steps without exactly one action, misplaced keys, invalid values, unknown objects and supports, groups in free
-    /// order with anything but picks and places, and more than [`MOST_STEPS`] steps.
+    /// order with anything but picks and places, and more than [`MAX_STEPS`] steps.
     pub fn all(mut self, tables: &[Spanned<StepTable>], task: Option<&TaskTable>) -> Result<Group, Diagnostic> {
         let pace = Pace { speed: 1.0, dwell: 0.0 };
         let pace = task.map_or(Ok(pace), |t| self.pace(pace, t.speed.as_ref(), t.dwell.as_ref()))?;
@@ -200,8 +205,8 @@ impl<'a> StepReader<'a> {
         let nodes: Vec<Node> = nodes.into_iter().flatten().collect();
         let at = manner.repeat.map_or(at, Spanned::span);
         let length = nodes.iter().map(Node::length).fold(0, usize::saturating_add).saturating_mul(repeat);
-        if length > MOST_STEPS {
-            let message = format!("the repetitions make {length} steps (at most {MOST_STEPS})");
+        if length > MAX_STEPS {
+            let message = format!("the repetitions make {length} steps (at most {MAX_STEPS})");
             return Err(source.diagnostic_at(at, message).help("repeat them less often"));
         }
         let renewed = nodes.iter().flat_map(|node| self.renewed(node)).collect();
@@ -338,19 +343,19 @@ impl<'a> StepReader<'a> {
 
     /// Returns the times at which a moving object may be picked, or `None` if there are no such keys.
     fn when(&self, step: &StepTable, object: &Object) -> Result<Option<When>, Diagnostic> {
-        let Some(said) = step.at.as_ref().or(step.window.as_ref()).map(Spanned::span) else { return Ok(None) };
+        let Some(stated) = step.at.as_ref().or(step.window.as_ref()).map(Spanned::span) else { return Ok(None) };
         let name = &object.name;
         let refuse = |at: Range<usize>, message: String, help: &str| {
             Err(self.reader.source.diagnostic_at(at, message).help(help))
         };
         let Some(course) = &object.course else {
             let message = format!("object \"{name}\" does not move, so its pick has no place and no time");
-            return refuse(said, message, "remove `at` and `window`, or give the object a motion");
+            return refuse(stated, message, "remove `at` and `window`, or give the object a motion");
         };
-        let mut times = vec![[0.0, LATEST]];
+        let mut times = vec![[0.0, MAX_STOP_TIME]];
         if let Some(at) = &step.at {
-            times = course.passes(self.reader.point(at, "pick, at")?, PASSES_WITHIN);
-            times.iter_mut().flatten().for_each(|time| *time = time.min(LATEST));
+            times = course.passes(self.reader.point(at, "pick, at")?, ON_AXIS_DISTANCE);
+            times.iter_mut().flatten().for_each(|time| *time = time.min(MAX_STOP_TIME));
             if times.is_empty() {
                 let message = format!("object \"{name}\" never passes there");
                 return refuse(at.span(), message, "name a point that its origin passes within a millimetre");
@@ -376,12 +381,12 @@ impl<'a> StepReader<'a> {
                 return refuse(window.span(), message, "choose another window, or another place");
             }
         }
-        Ok(Some(When { times, at: said }))
+        Ok(Some(When { times, at: stated }))
     }
 
     /// Returns a place and its position in the file. `at` is the step.
     fn place(&self, place: &PlaceTable, at: Range<usize>) -> Result<(Range<usize>, LeafAction), Diagnostic> {
-        let (to, said) = match (&place.at, &place.on) {
+        let (to, stated) = match (&place.at, &place.on) {
             (Some(at), None) => (self.reader.point(at, "place, at")?, at.span()),
             (None, Some(name)) => (self.pallets.place(self.reader, name)?, name.span()),
             (point, _) => {
@@ -393,7 +398,7 @@ impl<'a> StepReader<'a> {
         };
         let angle = self.angle(place.angle.as_ref())?;
         let supports = place.supports.as_ref().map(|s| self.names.supports(self.reader, s)).transpose()?;
-        Ok((said, LeafAction::Place { at: to, angle, supports }))
+        Ok((stated, LeafAction::Place { at: to, angle, supports }))
     }
 
     fn angle(&self, angle: Option<&Written>) -> Result<Option<(f64, Range<usize>)>, Diagnostic> {
@@ -418,7 +423,7 @@ impl<'a> StepReader<'a> {
         let angle = self.angle(transfer.angle.as_ref())?;
         let supports = transfer.supports.as_ref().map(|s| self.names.supports(self.reader, s)).transpose()?;
         let pair = |(object, (_, pose)): (usize, (String, Pose))| {
-            let Movable { grasp, supports: resting, .. } = &self.objects[object];
+            let MovableObject { grasp, supports: resting, .. } = &self.objects[object];
             let pick = LeafAction::Pick { object, grasp: *grasp, supports: resting.clone(), when: None };
             let place = LeafAction::Place { at: pose.translation, angle: angle.clone(), supports: supports.clone() };
             [(objects.span(), pick), (to.span(), place)]

@@ -1,14 +1,14 @@
 //! Many problems: those that a manifest lists, or all worlds of a folder with one robot.
 
 use super::world::in_toml_words;
-use super::{Loaded, LoadedScene, Overrides, RobotFile, load_scene};
+use super::{LoadedProblem, LoadedScene, Overrides, RobotFile, load_scene};
 use cplan_robot::{Diagnostic, InputError, Source};
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
 use toml::Spanned;
 
 /// Name of a folder's manifest.
-pub const MANIFEST: &str = "suite.toml";
+pub const MANIFEST_NAME: &str = "suite.toml";
 
 /// Robots in their worlds, read, in the order in which they were named.
 #[derive(Debug, Clone)]
@@ -18,16 +18,16 @@ pub struct Suite {
     /// The worlds, at least one, with distinct names.
     pub members: Vec<Member>,
     /// Worlds that are nothing to compare planners on.
-    pub left_out: Vec<LeftOut>,
+    pub left_out: Vec<ExcludedWorld>,
     /// Problems that cannot be read.
-    pub refused: Vec<Refused>,
+    pub refused: Vec<RefusedProblem>,
     /// Paths of all files that were read.
     pub files: Vec<PathBuf>,
 }
 
 /// A world that is nothing to compare planners on.
 #[derive(Debug, Clone)]
-pub struct LeftOut {
+pub struct ExcludedWorld {
     /// The world file.
     pub world: PathBuf,
     /// The reason, as a sentence about "it".
@@ -36,7 +36,7 @@ pub struct LeftOut {
 
 /// A problem that cannot be read, or whose start or goal cannot be.
 #[derive(Debug, Clone)]
-pub struct Refused {
+pub struct RefusedProblem {
     /// Stands for the problem in tables.
     pub name: String,
     /// Why it cannot be read.
@@ -76,7 +76,7 @@ struct Pair {
 }
 
 /// Reads the problems that a manifest lists: `place` is the manifest, or a folder that holds one of the name
-/// [`MANIFEST`]. Paths in it are relative to it.
+/// [`MANIFEST_NAME`]. Paths in it are relative to it.
 ///
 /// ```toml
 /// name = "two tables"          # optional
@@ -91,9 +91,9 @@ struct Pair {
 /// [`InputError`] for a manifest that cannot be read, and with every diagnostic of all its files if no problem can be
 /// read. If some can, the others are in [`Suite::refused`].
 pub fn load_suite(place: &Path) -> Result<Suite, InputError> {
-    let manifest = if place.is_dir() { place.join(MANIFEST) } else { place.to_owned() };
+    let manifest = if place.is_dir() { place.join(MANIFEST_NAME) } else { place.to_owned() };
     if place.is_dir() && !manifest.is_file() {
-        let message = format!("this folder has no {MANIFEST}, which assigns robots to worlds");
+        let message = format!("this folder has no {MANIFEST_NAME}, which assigns robots to worlds");
         let help = format!(
             "write one: a [[problem]] with robot = \"arm.urdf\" and world = \"world.toml\" for each; or give a robot for \
              all worlds: cplan compare URDF --suite {}",
@@ -127,8 +127,10 @@ pub fn load_suite(place: &Path) -> Result<Suite, InputError> {
             }
             paths => {
                 let name = problem.name.map_or_else(|| stem(Path::new(problem.world.get_ref())), Spanned::into_inner);
-                refused
-                    .push(Refused { name, error: InputError::of(paths.into_iter().filter_map(Result::err).collect()) });
+                refused.push(RefusedProblem {
+                    name,
+                    error: InputError::of(paths.into_iter().filter_map(Result::err).collect()),
+                });
             }
         }
     }
@@ -142,7 +144,7 @@ pub fn load_suite(place: &Path) -> Result<Suite, InputError> {
     Ok(suite)
 }
 
-/// Reads all worlds of a folder (every `.toml` except [`MANIFEST`], by name) with one robot.
+/// Reads all worlds of a folder (every `.toml` except [`MANIFEST_NAME`], by name) with one robot.
 ///
 /// # Errors
 /// [`InputError`] for a folder without worlds, and with every diagnostic of all files if none can be read. If some can,
@@ -156,7 +158,7 @@ pub fn load_folder(robot: impl Into<RobotFile>, folder: &Path) -> Result<Suite, 
     worlds.retain(|path| {
         path.is_file()
             && path.extension().is_some_and(|e| e == "toml")
-            && path.file_name().is_some_and(|n| n != MANIFEST)
+            && path.file_name().is_some_and(|n| n != MANIFEST_NAME)
     });
     worlds.sort();
     if worlds.is_empty() {
@@ -168,7 +170,7 @@ pub fn load_folder(robot: impl Into<RobotFile>, folder: &Path) -> Result<Suite, 
 }
 
 /// Reads all files, and collects the defects of those that cannot be read.
-fn read(name: String, pairs: Vec<Pair>, mut refused: Vec<Refused>) -> Result<Suite, InputError> {
+fn read(name: String, pairs: Vec<Pair>, mut refused: Vec<RefusedProblem>) -> Result<Suite, InputError> {
     let (mut members, mut left_out) = (Vec::<Member>::new(), Vec::new());
     let mut files = Vec::new();
     for Pair { name, robot, world } in pairs {
@@ -176,22 +178,22 @@ fn read(name: String, pairs: Vec<Pair>, mut refused: Vec<Refused>) -> Result<Sui
         let scene = load_scene(&robot, &world);
         files.extend(scene.iter().flat_map(LoadedScene::files));
         match scene {
-            Ok(scene) if scene.has_steps() => left_out.push(LeftOut { world, why: "it has steps, not a goal" }),
-            Ok(scene) if scene.has_movers() => {
-                left_out.push(LeftOut { world, why: "it has moving obstacles or objects" })
+            Ok(scene) if scene.has_steps() => left_out.push(ExcludedWorld { world, why: "it has steps, not a goal" }),
+            Ok(scene) if scene.has_moving_obstacles() => {
+                left_out.push(ExcludedWorld { world, why: "it has moving obstacles or objects" })
             }
             Ok(scene) => {
                 let name = name.unwrap_or_else(|| stem(&world));
                 let name = distinct(&name, &stem(&robot.path), |name| members.iter().any(|member| member.name == name));
                 members.push(Member { name, scene });
             }
-            Err(error) => refused.push(Refused { name: name.unwrap_or_else(|| stem(&world)), error }),
+            Err(error) => refused.push(RefusedProblem { name: name.unwrap_or_else(|| stem(&world)), error }),
         }
     }
     if members.is_empty() {
         all_of(&refused)?;
     }
-    if let (true, Some(LeftOut { world, why })) = (members.is_empty(), left_out.first()) {
+    if let (true, Some(ExcludedWorld { world, why })) = (members.is_empty(), left_out.first()) {
         let message = format!("no world of the suite is left to compare: this one is left out because {why}");
         return Err(Diagnostic::new(world.display().to_string(), message)
             .help("comparisons need worlds with static obstacles and a [goal]: replace steps by a goal, and remove motions")
@@ -201,7 +203,7 @@ fn read(name: String, pairs: Vec<Pair>, mut refused: Vec<Refused>) -> Result<Sui
 }
 
 /// Returns the error with all these defects, if there are any.
-fn all_of(refused: &[Refused]) -> Result<(), InputError> {
+fn all_of(refused: &[RefusedProblem]) -> Result<(), InputError> {
     let mut diagnostics: Vec<Diagnostic> = Vec::new();
     for diagnostic in refused.iter().flat_map(|refused| refused.error.diagnostics()) {
         // One robot in many worlds has the same diagnostics in each.
@@ -218,12 +220,12 @@ impl Suite {
     ///
     /// # Errors
     /// [`InputError`] with the diagnostics of all of them, if no problem is left.
-    pub fn problems(self, overrides: &Overrides) -> Result<Asked, InputError> {
+    pub fn problems(self, overrides: &Overrides) -> Result<LoadedProblems, InputError> {
         let (mut problems, mut refused) = (Vec::new(), self.refused);
         for Member { name, scene } in self.members {
             match scene.problem(overrides) {
                 Ok(loaded) => problems.push((name, loaded)),
-                Err(error) => refused.push(Refused { name, error }),
+                Err(error) => refused.push(RefusedProblem { name, error }),
             }
         }
         if problems.is_empty() {
@@ -234,7 +236,7 @@ impl Suite {
 }
 
 /// Problems with their names, and those that cannot be asked.
-pub type Asked = (Vec<(String, Loaded)>, Vec<Refused>);
+pub type LoadedProblems = (Vec<(String, LoadedProblem)>, Vec<RefusedProblem>);
 
 /// Returns a file's name without its extension.
 fn stem(path: &Path) -> String {

@@ -5,7 +5,7 @@ use cplan_core::model::{Joint, SceneError};
 use cplan_core::space::Configuration;
 use cplan_dynamics::keep_efforts;
 use cplan_geometry::Point;
-use cplan_robot::{Diagnostic, InputError, LARGEST};
+use cplan_robot::{Diagnostic, InputError, MAX_LENGTH};
 use std::fmt;
 use std::str::FromStr;
 
@@ -145,8 +145,8 @@ fn pair(text: &str) -> Result<[&str; 2], String> {
 
 fn finite(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
-        Ok(value) if value.abs() <= LARGEST => Ok(value),
-        Ok(value) if value.is_finite() => Err(format!("{value:e} is too large (at most {LARGEST:e})")),
+        Ok(value) if value.abs() <= MAX_LENGTH => Ok(value),
+        Ok(value) if value.is_finite() => Err(format!("{value:e} is too large (at most {MAX_LENGTH:e})")),
         Ok(_) => Err(format!("\"{text}\" is not a finite number")),
         Err(_) => Err(format!("\"{text}\" is not a number")),
     }
@@ -191,7 +191,7 @@ mod tests {
     }
 
     #[test]
-    fn malformed_values_say_what_is_wrong() {
+    fn malformed_values_are_explained() {
         for (text, part) in [
             ("1", "two values"),
             ("1,2,3", "found 3"),

@@ -3,8 +3,8 @@
 use super::goal_table::GoalTable;
 use super::help::help;
 use super::joint_pair::JointPair;
-use super::object::{self, Movable, Names, ObjectTable};
-use super::obstacle::{ObstacleTable, Read};
+use super::object::{self, MovableObject, Names, ObjectTable};
+use super::obstacle::{ObstacleKind, ObstacleTable};
 use super::pallet::{PalletTable, Pallets};
 use super::preference::PreferenceTable;
 use super::reader::Reader;
@@ -18,7 +18,7 @@ use cplan_core::model::{Goal, Workspace};
 use cplan_geometry::Pose;
 use cplan_handling::{Holding, Object, TimedWorkspace, Wrist};
 use cplan_robot::{
-    AngleOrLength, Diagnostic, InputError, Number, Numbers, RobotSettings, RobotTable, Source, Two, Written,
+    AngleOrLength, Diagnostic, InputError, Number, NumberPair, Numbers, RobotSettings, RobotTable, Source, Written,
 };
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -84,9 +84,9 @@ impl World {
     }
 
     /// Returns the workspace with every object at its initial place, after the static obstacles, or on its motion.
-    pub(super) fn at_first(&self) -> TimedWorkspace {
+    pub(super) fn initial_workspace(&self) -> TimedWorkspace {
         let mut workspace = self.workspace.clone();
-        let lying = |object: &Object| object.lying(object.standing_at_first().as_ref());
+        let lying = |object: &Object| object.obstacle_at(object.initial_static_pose().as_ref());
         workspace.obstacles.extend(self.objects.iter().map(lying));
         workspace.movers.extend(self.objects.iter().filter_map(Object::moving));
         workspace
@@ -147,7 +147,7 @@ struct StartTable {
     #[schemars(with = "Option<[AngleOrLength; 2]>")]
     joints: Option<Spanned<Vec<Written>>>,
     /// Coordinates of the tip, m; taken if one IK solution alone is within the limits and free.
-    #[schemars(with = "Option<Two>")]
+    #[schemars(with = "Option<NumberPair>")]
     tip: Option<Numbers>,
 }
 
@@ -189,8 +189,8 @@ pub(super) fn read(source: Source) -> Result<World, InputError> {
     let (mut obstacles, mut movers) = (Vec::new(), Vec::new());
     for (index, table) in file.obstacle.iter().enumerate() {
         match ObstacleTable::read(&reader, index, table)? {
-            Read::Standing(obstacle) => obstacles.push(obstacle),
-            Read::Moving(mover) => movers.push(mover),
+            ObstacleKind::Static(obstacle) => obstacles.push(obstacle),
+            ObstacleKind::Moving(mover) => movers.push(mover),
         }
     }
     let map = file.map.as_ref().map(|m| world_map::read(&reader, m)).transpose()?.unwrap_or_default();
@@ -240,7 +240,7 @@ fn steps(
     file: &WorldFile,
     pallets: &Pallets,
     names: &Names,
-    movables: &[Movable],
+    movables: &[MovableObject],
     has_wrist: bool,
 ) -> Result<Option<Sequence>, Diagnostic> {
     if file.step.is_empty() {

@@ -1,12 +1,12 @@
 //! The world file's `[map]`: a line map and a preference file, brought to metres.
 
 use super::line_map::LineMap;
-use super::obstacle::MOST_PIECES;
+use super::obstacle::MAX_PIECES;
 use super::preference_map::{PreferenceMap, PreferenceRectangle};
 use super::reader::Reader;
 use cplan_core::model::{Goal, Obstacle, Preference, Region, Shape};
 use cplan_geometry::{Convex, Point, SimplePolygon, Vector};
-use cplan_robot::{InputError, LARGEST, Number, Numbers, Positive, Two};
+use cplan_robot::{InputError, MAX_LENGTH, Number, NumberPair, Numbers, Positive};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::ops::Range;
@@ -28,12 +28,12 @@ pub(super) struct MapTable {
     #[schemars(with = "Option<Positive>")]
     scale: Option<Number>,
     /// Added to all coordinates after scaling, m; by default [0, 0].
-    #[schemars(with = "Option<Two>")]
+    #[schemars(with = "Option<NumberPair>")]
     offset: Option<Numbers>,
     /// True if the bounds of the map are walls, too; by default true.
     frame: Option<bool>,
     /// Extent of the walls along the plane's normal, m; by default all heights.
-    #[schemars(with = "Option<Two>")]
+    #[schemars(with = "Option<NumberPair>")]
     height: Option<Numbers>,
 }
 
@@ -57,18 +57,18 @@ pub(super) fn read(reader: &Reader, table: &MapTable) -> Result<MapContent, Inpu
     let place = |p: Point| p * scale + Vector::from(offset);
     let within = |bounds: [Point; 2], file: &Spanned<String>| {
         let farthest = bounds.map(place).iter().map(|p| p.amax()).fold(0.0, f64::max);
-        if farthest <= LARGEST {
+        if farthest <= MAX_LENGTH {
             return Ok(());
         }
-        let message = format!("with {scale} m per unit the map extends to {farthest:e} m (at most {LARGEST:e})");
+        let message = format!("with {scale} m per unit the map extends to {farthest:e} m (at most {MAX_LENGTH:e})");
         Err(reader.source.diagnostic_at(file.span(), message).help("set `scale` in [map], metres per unit of the file"))
     };
 
     let path = reader.beside(&table.file, "map")?;
     let map = LineMap::read(&path)?;
     within(map.bounds, &table.file)?;
-    if map.lines.len() > MOST_PIECES {
-        let message = format!("{} lines are too many (at most {MOST_PIECES})", map.lines.len());
+    if map.lines.len() > MAX_PIECES {
+        let message = format!("{} lines are too many (at most {MAX_PIECES})", map.lines.len());
         return Err(reader.source.diagnostic_at(table.file.span(), message).help("simplify the map").into());
     }
     let name = stem(&path);

@@ -1,7 +1,7 @@
 //! XML files as trees whose elements know their places.
 
 use crate::error::Error;
-use crate::limits::DEEPEST;
+use crate::limits::MAX_DEPTH;
 use roxmltree::{Document, Node as XmlNode, ParsingOptions};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -9,7 +9,7 @@ use std::rc::Rc;
 use std::sync::Arc;
 
 /// Elements and texts of one file: more than any robot has.
-const MOST_NODES: u32 = 1_000_000;
+const MAX_NODES: u32 = 1_000_000;
 
 /// A file that was read.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -99,7 +99,7 @@ pub(crate) fn uses_xacro(text: &str) -> bool {
     if !text.contains("xacro") && !text.contains("${") && !text.contains("$(") {
         return false;
     }
-    let options = ParsingOptions { allow_dtd: true, nodes_limit: MOST_NODES, ..ParsingOptions::default() };
+    let options = ParsingOptions { allow_dtd: true, nodes_limit: MAX_NODES, ..ParsingOptions::default() };
     match Document::parse_with_options(text, options) {
         Err(error) => matches!(error, roxmltree::Error::UnknownNamespace(prefix, _) if prefix == "xacro"),
         Ok(document) => document.descendants().filter(XmlNode::is_element).any(|node| {
@@ -146,7 +146,7 @@ pub(crate) fn read(file: &File, index: usize) -> Result<Tree, Error> {
             "write their values where they are used, and remove the <!DOCTYPE ...>",
         ));
     }
-    let options = ParsingOptions { allow_dtd: true, nodes_limit: MOST_NODES, ..ParsingOptions::default() };
+    let options = ParsingOptions { allow_dtd: true, nodes_limit: MAX_NODES, ..ParsingOptions::default() };
     let document = Document::parse_with_options(text, options).map_err(|error| {
         let at = offset(text, error.pos());
         match error {
@@ -175,8 +175,9 @@ pub(crate) fn read(file: &File, index: usize) -> Result<Tree, Error> {
         }
     }
     // Elements nested deeper than an expansion allows are refused before they are walked.
-    if let Some(node) = document.descendants().find(|node| node.ancestors().take(DEEPEST + 2).count() > DEEPEST + 1) {
-        let message = format!("elements are nested more than {DEEPEST} deep");
+    if let Some(node) = document.descendants().find(|node| node.ancestors().take(MAX_DEPTH + 2).count() > MAX_DEPTH + 1)
+    {
+        let message = format!("elements are nested more than {MAX_DEPTH} deep");
         return Err(wrong(node.range(), message, "reduce the nesting"));
     }
     Ok(Tree { root: element(text, document.root_element(), index), namespaces })

@@ -3,7 +3,7 @@
 use crate::document::{self, Attribute, Element, File, Node, Place};
 use crate::error::{Error, Fault};
 use crate::limits::Budget;
-use crate::scope::{GLOBAL, Scopes};
+use crate::scope::{GLOBAL_SCOPE, Scopes};
 use crate::value::Value;
 use crate::{Expansion, Settings, writer};
 use std::collections::{BTreeMap, BTreeSet};
@@ -67,9 +67,9 @@ impl<'s> Expander<'s> {
         let root = self.open(path.clone())?.map_err(|why| whole(why, "check the path and the file's permissions"))?;
         self.open_files.push(path.canonicalize().unwrap_or_else(|_| path.clone()));
         let mut children = Vec::new();
-        self.nodes(&root.children, GLOBAL, &mut children)?;
+        self.nodes(&root.children, GLOBAL_SCOPE, &mut children)?;
         // Attributes come after the content, because they may use names defined there.
-        let attributes = self.attributes(&root, GLOBAL)?;
+        let attributes = self.attributes(&root, GLOBAL_SCOPE)?;
         let unused =
             self.given.keys().find(|name| !self.arguments.contains_key(*name) && !self.asked_arguments.contains(*name));
         if let Some(name) = unused {

@@ -4,19 +4,19 @@ use crate::error::Fault;
 
 /// Levels of elements, macros, includes and properties within one another. Robots need about 20; a macro that calls itself needs two a
 /// turn.
-pub(crate) const DEEPEST: usize = 320;
+pub(crate) const MAX_DEPTH: usize = 320;
 
 /// Levels of parentheses and operators in one expression.
-pub(crate) const DEEPEST_EXPRESSION: usize = 40;
+pub(crate) const MAX_EXPRESSION_DEPTH: usize = 40;
 
 /// Steps of an expansion: elements, attributes and parts of expressions. The largest public robots need some 100 000.
-pub(crate) const MOST_STEPS: usize = 3_000_000;
+pub(crate) const MAX_STEPS: usize = 3_000_000;
 
 /// Bytes of the expanded text, and of all values that are computed on the way.
-pub(crate) const LARGEST: usize = 64 << 20;
+pub(crate) const MAX_TEXT_BYTES: usize = 64 << 20;
 
 /// Items of a list.
-pub(crate) const LONGEST: usize = 100_000;
+pub(crate) const MAX_LIST_ITEMS: usize = 100_000;
 
 /// The resources that an expansion has used so far.
 #[derive(Debug, Default)]
@@ -26,27 +26,31 @@ pub(crate) struct Budget {
     depth: usize,
 }
 
-const HINT: &str = "a macro or include may repeat without end; end it by a condition (xacro:if)";
+const RECURSION_HINT: &str = "a macro or include may repeat without end; end it by a condition (xacro:if)";
 
 impl Budget {
     /// Counts a step that makes a text of so many bytes.
     pub fn spend(&mut self, bytes: usize) -> Result<(), Fault> {
         self.steps += 1;
         self.bytes = self.bytes.saturating_add(bytes);
-        if self.steps > MOST_STEPS {
-            return Err(Fault::with_hint(format!("the expansion needs more than {MOST_STEPS} steps"), HINT));
+        if self.steps > MAX_STEPS {
+            return Err(Fault::with_hint(format!("the expansion needs more than {MAX_STEPS} steps"), RECURSION_HINT));
         }
-        if self.bytes > LARGEST {
-            return Err(Fault::with_hint(format!("the expansion makes more than {} MiB", LARGEST >> 20), HINT));
+        if self.bytes > MAX_TEXT_BYTES {
+            return Err(Fault::with_hint(
+                format!("the expansion makes more than {} MiB", MAX_TEXT_BYTES >> 20),
+                RECURSION_HINT,
+            ));
         }
         Ok(())
     }
 
     /// Goes one level down.
     pub fn enter(&mut self) -> Result<(), Fault> {
-        if self.depth >= DEEPEST {
-            let message = format!("elements, macros, includes and properties are nested more than {DEEPEST} deep here");
-            return Err(Fault::with_hint(message, HINT));
+        if self.depth >= MAX_DEPTH {
+            let message =
+                format!("elements, macros, includes and properties are nested more than {MAX_DEPTH} deep here");
+            return Err(Fault::with_hint(message, RECURSION_HINT));
         }
         self.depth += 1;
         Ok(())

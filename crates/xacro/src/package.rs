@@ -5,16 +5,16 @@ use std::path::{Path, PathBuf};
 
 /// Number of parent folders of a file that are searched for packages: a package, its repository, and the workspace
 /// around it.
-const LEVELS_UP: usize = 5;
+const SEARCHED_PARENTS: usize = 5;
 
 /// Levels of folders below each of those.
-const LEVELS_DOWN: usize = 4;
+const SEARCHED_DEPTH: usize = 4;
 
 /// Folders that are looked into below each.
-const MOST_FOLDERS: usize = 1_000;
+const MAX_FOLDERS: usize = 1_000;
 
 /// Bytes of the largest `package.xml`.
-const LARGEST_MANIFEST: u64 = 1 << 20;
+const MAX_MANIFEST_BYTES: u64 = 1 << 20;
 
 /// Returns the folders that a package of this name may be in, as seen from a file, likeliest first.
 ///
@@ -26,7 +26,7 @@ pub fn packages(name: &str, file: &Path) -> impl Iterator<Item = PathBuf> + use<
     let folder = folder.canonicalize().unwrap_or_else(|_| folder.to_owned());
     let above: Vec<PathBuf> = folder.ancestors().map(Path::to_owned).collect();
     let repository = above.iter().position(|folder| folder.join(".git").exists());
-    let mut near: Vec<PathBuf> = above.iter().take(repository.map_or(LEVELS_UP, |at| at + 1)).cloned().collect();
+    let mut near: Vec<PathBuf> = above.iter().take(repository.map_or(SEARCHED_PARENTS, |at| at + 1)).cloned().collect();
     let listed = search_path("ROS_PACKAGE_PATH");
     near.extend(listed.iter().cloned());
     let with_child = |folders: Vec<PathBuf>| {
@@ -48,7 +48,7 @@ pub fn packages(name: &str, file: &Path) -> impl Iterator<Item = PathBuf> + use<
 /// Returns the folders below a folder, breadth first and sorted by name. Hidden folders are skipped.
 fn folders_below(folder: &Path) -> Vec<PathBuf> {
     let mut found: Vec<PathBuf> = Vec::new();
-    let mut next = VecDeque::from([(folder.to_owned(), LEVELS_DOWN)]);
+    let mut next = VecDeque::from([(folder.to_owned(), SEARCHED_DEPTH)]);
     while let Some((folder, levels)) = next.pop_front() {
         let Ok(entries) = folder.read_dir() else { continue };
         let mut inside: Vec<PathBuf> = entries
@@ -58,12 +58,12 @@ fn folders_below(folder: &Path) -> Vec<PathBuf> {
             .map(|entry| entry.path())
             .collect();
         inside.sort();
-        inside.truncate(MOST_FOLDERS - found.len());
+        inside.truncate(MAX_FOLDERS - found.len());
         found.extend(inside.iter().cloned());
         if levels > 1 {
             next.extend(inside.into_iter().map(|folder| (folder, levels - 1)));
         }
-        if found.len() >= MOST_FOLDERS {
+        if found.len() >= MAX_FOLDERS {
             break;
         }
     }
@@ -73,7 +73,7 @@ fn folders_below(folder: &Path) -> Vec<PathBuf> {
 /// Returns the package name in a folder's `package.xml`.
 fn manifest_name(folder: &Path) -> Option<String> {
     let path = folder.join("package.xml");
-    if path.metadata().ok()?.len() > LARGEST_MANIFEST {
+    if path.metadata().ok()?.len() > MAX_MANIFEST_BYTES {
         return None;
     }
     let text = std::fs::read_to_string(path).ok()?;

@@ -3,7 +3,7 @@
 use crate::document::Element;
 use crate::error::{Error, Fault};
 use crate::expander::Expander;
-use crate::scope::{Block, GLOBAL, Slot};
+use crate::scope::{Block, GLOBAL_SCOPE, Slot};
 
 impl Expander<'_> {
     pub(crate) fn property_element(&mut self, element: &Element, scope: usize) -> Result<(), Error> {
@@ -22,8 +22,8 @@ impl Expander<'_> {
         let wanted = element.attribute("scope");
         let target = match wanted.map(|wanted| wanted.value.as_str()) {
             None => scope,
-            Some("global") => GLOBAL,
-            Some("parent") => self.scopes.parent(scope).unwrap_or(GLOBAL),
+            Some("global") => GLOBAL_SCOPE,
+            Some("parent") => self.scopes.parent(scope).unwrap_or(GLOBAL_SCOPE),
             Some(other) => {
                 let message = format!("scope=\"{other}\" is neither \"parent\" nor \"global\"");
                 return Err(self.error(&element.place, message.into()));

@@ -40,7 +40,7 @@ pub(crate) struct Scope {
 pub(crate) struct Scopes(Vec<Scope>);
 
 /// Index of the robot's own scope.
-pub(crate) const GLOBAL: usize = 0;
+pub(crate) const GLOBAL_SCOPE: usize = 0;
 
 impl Scopes {
     pub fn new() -> Self {

@@ -71,7 +71,7 @@ impl Expander<'_> {
                 Part::Text(text) => Value::text(text),
                 Part::Expression(inside) => {
                     let inside = self.text(inside, context)?.printed();
-                    expression::evaluate(&inside, &mut InContext { expander: self, context })
+                    expression::evaluate(&inside, &mut ContextNames { expander: self, context })
                         .map_err(|fault| about(&inside, fault))?
                 }
                 Part::Extension(inside) => {
@@ -109,7 +109,7 @@ impl Expander<'_> {
                 let folder = folder.canonicalize().unwrap_or(folder);
                 Ok(Value::text(folder.to_string_lossy().trim_end_matches('/').to_owned()))
             }
-            ("eval", text) => expression::evaluate(text, &mut InContext { expander: self, context })
+            ("eval", text) => expression::evaluate(text, &mut ContextNames { expander: self, context })
                 .map_err(|fault| about(text, fault)),
             _ => Err(Fault::with_hint(
                 format!("\"$({text})\" is not known"),
@@ -178,12 +178,12 @@ fn about(expression: &str, fault: Fault) -> Fault {
 }
 
 /// The environment of an expression in a context.
-struct InContext<'e, 's> {
+struct ContextNames<'e, 's> {
     expander: &'e mut Expander<'s>,
     context: Context,
 }
 
-impl Names for InContext<'_, '_> {
+impl Names for ContextNames<'_, '_> {
     fn property(&mut self, name: &str) -> Result<Option<Value>, Fault> {
         self.expander.property(self.context.scope, name)
     }

@@ -80,7 +80,7 @@ impl<'de> Visitor<'de> for Reader {
     fn visit_map<A: MapAccess<'de>>(self, mut access: A) -> Result<Value, A::Error> {
         let mut items = Vec::new();
         while let Some((Yaml(key), Yaml(value))) = access.next_entry()? {
-            if items.len() >= crate::limits::LONGEST {
+            if items.len() >= crate::limits::MAX_LIST_ITEMS {
                 return Err(A::Error::custom("it has too many keys"));
             }
             insert(&mut items, key, value);

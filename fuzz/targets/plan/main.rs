@@ -112,7 +112,7 @@ fuzz_target!(|draft: Draft| {
             }
             Outcome::Infeasible(proof) => {
                 let clearance = problem.scene().workspace().clearance;
-                let claim = Disconnection::new(proof.stuck().to_vec());
+                let claim = Disconnection::new(proof.collision_boxes().to_vec());
                 claim.checked(problem.scene(), problem.start(), problem.goals(), clearance).expect("the proof holds");
                 let topology = problem.scene().arm().topology();
                 for goal in problem.goals().points() {

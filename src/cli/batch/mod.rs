@@ -13,7 +13,7 @@ use crate::model::Status;
 use crate::text::plain_json;
 use clap::builder::PossibleValuesParser;
 use clap::{Args, ValueHint};
-use reader::{Answer, Planned, Reader};
+use reader::{Answer, ProblemOutcome, Reader};
 use serde::Serialize;
 use serde_json::value::RawValue;
 use std::collections::BTreeSet;
@@ -62,7 +62,7 @@ pub struct BatchArgs {
     pub jobs: u16,
     /// Fields of the results to write, such as status,length [default: all].
     #[arg(long, value_name = "NAMES", value_delimiter = ',', hide_possible_values = true,
-        value_parser = PossibleValuesParser::new(Plan::FIELDS))]
+        value_parser = PossibleValuesParser::new(Plan::FIELD_NAMES))]
     pub fields: Vec<String>,
     /// Time limit for each problem, seconds [default: no limit].
     #[arg(long, value_name = "SECONDS", value_parser = time_limit, allow_hyphen_values = true)]
@@ -97,9 +97,9 @@ pub fn run(args: &BatchArgs) -> Result<u8, Failure> {
         let mut reader = Reader::default();
         turns.work(|line| {
             let answer = reader.answer(line, &input, args.time.map(Duration::from_secs_f64));
-            if let Ok(Planned::Done(plan)) = &answer.plan {
-                let said = plan.problem().robot().warnings.iter().cloned();
-                warnings.lock().unwrap_or_else(PoisonError::into_inner).extend(said);
+            if let Ok(ProblemOutcome::Done(plan)) = &answer.plan {
+                let stated = plan.problem().robot().warnings.iter().cloned();
+                warnings.lock().unwrap_or_else(PoisonError::into_inner).extend(stated);
             }
             row(answer, &args.fields)
         });
@@ -110,7 +110,7 @@ pub fn run(args: &BatchArgs) -> Result<u8, Failure> {
     });
     // Prints each warning once, in an order that does not depend on the jobs.
     let warnings = warnings.into_inner().unwrap_or_else(PoisonError::into_inner);
-    warnings.iter().for_each(|warning| sinks::say(&format!("warning: {warning}")));
+    warnings.iter().for_each(|warning| sinks::print_status(&format!("warning: {warning}")));
     let count = turns.end()?;
     if count.lines > 0 && count.objects == 0 {
         let cure = r#"write one problem per line, such as {"urdf": "arm.urdf", "world": "world.toml"}"#;
@@ -136,8 +136,8 @@ fn opened(args: &BatchArgs) -> Result<Box<dyn Read + Send>, Failure> {
 fn row(answer: Answer, fields: &[String]) -> (String, bool) {
     let Answer { id, is_object, plan } = answer;
     let text = match plan {
-        Ok(Planned::Done(plan)) => text(&Row { id, answer: plan.result(fields) }),
-        Ok(Planned::Stopped(reason)) => text(&Row { id, answer: Stopped { status: Status::Unknown, reason } }),
+        Ok(ProblemOutcome::Done(plan)) => text(&Row { id, answer: plan.result(fields) }),
+        Ok(ProblemOutcome::Stopped(reason)) => text(&Row { id, answer: Stopped { status: Status::Unknown, reason } }),
         Err(failure) => text(&Row { id, answer: ErrorJson::of_failure(&failure) }),
     };
     (text, is_object)

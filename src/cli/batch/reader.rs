@@ -2,7 +2,7 @@
 
 use super::turns::Line;
 use crate::cli::failure::Failure;
-use crate::cli::words::{self, Asked};
+use crate::cli::words::{self, ParsedWords};
 use crate::engine::{Plan, Problem, plan};
 use crate::input::{Diagnostic, InputError, LoadedScene, Position, RobotFile, Source, scene_from};
 use crate::interrupt::{Instant, Interrupt};
@@ -17,12 +17,12 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 /// Greatest number of robots, and of option lists, that are remembered.
-const REMEMBERED: usize = 256;
+const MAX_REMEMBERED: usize = 256;
 
 /// The keys of a line.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Given {
+struct LineKeys {
     /// Kept in its original form.
     #[serde(rename = "id")]
     _id: Option<IgnoredAny>,
@@ -71,11 +71,11 @@ pub struct Answer {
     /// True if the line is a JSON object.
     pub is_object: bool,
     /// The answer itself.
-    pub plan: Result<Planned, Failure>,
+    pub plan: Result<ProblemOutcome, Failure>,
 }
 
 /// The outcome of a problem.
-pub enum Planned {
+pub enum ProblemOutcome {
     /// The finished plan.
     Done(Box<Plan>),
     /// The time was up before the end; the reason, in words.
@@ -85,12 +85,12 @@ pub enum Planned {
 /// A reader of lines, which remembers their robots and options.
 #[derive(Default)]
 pub struct Reader {
-    robots: HashMap<Named, Known>,
-    words: HashMap<Vec<String>, Asked>,
+    robots: HashMap<Named, RememberedRobot>,
+    words: HashMap<Vec<String>, ParsedWords>,
 }
 
 /// A robot, and the last world in which it was loaded.
-struct Known {
+struct RememberedRobot {
     source: Source,
     world: Named,
     scene: LoadedScene,
@@ -101,21 +101,22 @@ impl Reader {
     pub fn answer(&mut self, line: &Line, input: &str, limit: Option<Duration>) -> Answer {
         let refused = |message: String, help: &str| refused(input, line.number, message, help);
         // The parser reports a position within this line.
-        let said = |error: serde_json::Error| error.to_string().replace(" at line 1 column", " at column");
+        let json_error = |error: serde_json::Error| error.to_string().replace(" at line 1 column", " at column");
         let mut keys = match serde_json::from_slice::<HashMap<String, Box<RawValue>>>(&line.text) {
             Ok(keys) => keys,
             Err(error) => {
                 let failure = match error.classify() {
                     Category::Data => refused("this is not a JSON object".into(), "give it `urdf` and `world`"),
-                    _ => {
-                        refused(format!("this is not JSON: {}", said(error)), "write each problem as one line of JSON")
-                    }
+                    _ => refused(
+                        format!("this is not JSON: {}", json_error(error)),
+                        "write each problem as one line of JSON",
+                    ),
                 };
                 return Answer { id: None, is_object: false, plan: Err(failure) };
             }
         };
         let given = serde_json::from_slice(&line.text)
-            .map_err(|error| refused(said(error), "`cplan batch --help` describes the members of a line"));
+            .map_err(|error| refused(json_error(error), "`cplan batch --help` describes the members of a line"));
         // A failure of one problem does not affect the others, which are answered, too.
         let planned = given.and_then(|given| {
             let help = "please report it with this line; the other lines are answered";
@@ -127,17 +128,17 @@ impl Reader {
     /// Plans within the time limit.
     fn in_time(
         &mut self,
-        given: Given,
+        given: LineKeys,
         refused: &dyn Fn(String, &str) -> Failure,
         limit: Option<Duration>,
-    ) -> Result<Planned, Failure> {
+    ) -> Result<ProblemOutcome, Failure> {
         let Some(limit) = limit else { return self.plan(given, refused) };
         let interrupt = Interrupt::new().by(Instant::now() + limit);
-        let stopped = |_| Ok(Planned::Stopped(format!("stopped after {} s", limit.as_secs_f64())));
+        let stopped = |_| Ok(ProblemOutcome::Stopped(format!("stopped after {} s", limit.as_secs_f64())));
         interrupt.run(|| self.plan(given, refused)).unwrap_or_else(stopped)
     }
 
-    fn plan(&mut self, given: Given, refused: &dyn Fn(String, &str) -> Failure) -> Result<Planned, Failure> {
+    fn plan(&mut self, given: LineKeys, refused: &dyn Fn(String, &str) -> Failure) -> Result<ProblemOutcome, Failure> {
         let one = |what: &str| refused(format!("give either `{what}` or `{what}_text`"), "see `cplan batch --help`");
         let robot = match (given.urdf, given.urdf_text) {
             (Some(path), None) => Named::Robot(RobotFile { path, xacro_args: given.xacro_args.into_iter().collect() }),
@@ -152,9 +153,9 @@ impl Reader {
             (None, Some(text)) => Named::Text(text),
             _ => return Err(one("world")),
         };
-        let Asked { options, overrides } = self.asked(given.options, refused)?;
+        let ParsedWords { options, overrides } = self.asked(given.options, refused)?;
         let problem = Problem::of_scene(self.scene(robot, world)?, &overrides)?;
-        Ok(Planned::Done(Box::new(plan(&problem, &options)?)))
+        Ok(ProblemOutcome::Done(Box::new(plan(&problem, &options)?)))
     }
 
     fn scene(&mut self, robot: Named, world: Named) -> Result<LoadedScene, InputError> {
@@ -168,11 +169,11 @@ impl Reader {
         let source = robot.source("urdf")?;
         let scene = scene_from(source.clone(), world.source("world")?)?;
         make_room(&mut self.robots);
-        self.robots.insert(robot, Known { source, world, scene: scene.clone() });
+        self.robots.insert(robot, RememberedRobot { source, world, scene: scene.clone() });
         Ok(scene)
     }
 
-    fn asked(&mut self, options: Options, refused: &dyn Fn(String, &str) -> Failure) -> Result<Asked, Failure> {
+    fn asked(&mut self, options: Options, refused: &dyn Fn(String, &str) -> Failure) -> Result<ParsedWords, Failure> {
         let words = match options {
             Options::Words(words) => words,
             Options::Named(named) => {
@@ -229,7 +230,7 @@ fn word(name: &str, value: &Value) -> Result<Option<String>, String> {
 
 /// Forgets all entries when there is no more room. Repeated ones are soon known again.
 fn make_room<K, V>(known: &mut HashMap<K, V>) {
-    if known.len() >= REMEMBERED {
+    if known.len() >= MAX_REMEMBERED {
         known.clear();
     }
 }

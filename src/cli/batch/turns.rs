@@ -6,13 +6,13 @@ use std::io::{self, BufRead, ErrorKind, Read, Write};
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 
 /// Greatest length of a line, bytes, so that endless input ends with an error.
-const LONGEST: u64 = 64 << 20;
+const MAX_LINE_BYTES: u64 = 64 << 20;
 
 /// Bytes with which some programs begin a text in UTF-8.
 const BYTE_ORDER_MARK: &[u8] = "\u{feff}".as_bytes();
 
 /// Number of answers per job that may wait for an earlier one: enough to keep all jobs busy during a hard problem.
-const WAITING: usize = 64;
+const MAX_WAITING_PER_JOB: usize = 64;
 
 /// A line that is not blank, and its number among all, from 1.
 pub struct Line {
@@ -64,7 +64,7 @@ impl<R: BufRead, W: Write> Turns<R, W> {
             input: Mutex::new(Input { reader, name: name.to_owned(), read: 0, given: 0 }),
             output: Mutex::new(output),
             moved: Condvar::new(),
-            most: WAITING * jobs,
+            most: MAX_WAITING_PER_JOB * jobs,
         }
     }
 
@@ -102,7 +102,7 @@ impl<R: BufRead, W: Write> Turns<R, W> {
         let mut input = self.input.lock().unwrap_or_else(PoisonError::into_inner);
         loop {
             let mut text = Vec::new();
-            let read = (&mut input.reader).take(LONGEST + 1).read_until(b'\n', &mut text);
+            let read = (&mut input.reader).take(MAX_LINE_BYTES + 1).read_until(b'\n', &mut text);
             input.read += 1;
             let number = input.read;
             if number == 1 && text.starts_with(BYTE_ORDER_MARK) {
@@ -115,8 +115,8 @@ impl<R: BufRead, W: Write> Turns<R, W> {
                     return Err(Failure::Option(format!("{} cannot be read: {error}\n  hint: {cure}", place())));
                 }
                 Ok(0) => return Ok(None),
-                Ok(bytes) if bytes as u64 > LONGEST => {
-                    let message = format!("{} is longer than {} MiB", place(), LONGEST >> 20);
+                Ok(bytes) if bytes as u64 > MAX_LINE_BYTES => {
+                    let message = format!("{} is longer than {} MiB", place(), MAX_LINE_BYTES >> 20);
                     return Err(Failure::Option(format!("{message}\n  hint: write each problem on its own line")));
                 }
                 Ok(_) if text.trim_ascii().is_empty() => (),
@@ -185,11 +185,11 @@ mod tests {
         let answer = |line: &Line| {
             // The first line takes until all others wait for it.
             if line.number == 1 {
-                while done.load(Ordering::SeqCst) < WAITING * JOBS {
+                while done.load(Ordering::SeqCst) < MAX_WAITING_PER_JOB * JOBS {
                     std::thread::yield_now();
                 }
                 std::thread::sleep(Duration::from_millis(20));
-                assert!(done.load(Ordering::SeqCst) < WAITING * JOBS + JOBS);
+                assert!(done.load(Ordering::SeqCst) < MAX_WAITING_PER_JOB * JOBS + JOBS);
             }
             done.fetch_add(1, Ordering::SeqCst);
             (String::from_utf8(line.text.clone()).unwrap(), line.number % 4 == 1)

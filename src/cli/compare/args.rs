@@ -10,7 +10,7 @@ use clap::{ArgGroup, Args, ValueHint};
 use std::path::PathBuf;
 
 /// Greatest number of pairs: their results still fit into memory.
-const MOST_QUERIES: i64 = 100_000;
+const MAX_QUERIES: i64 = 100_000;
 
 /// Run all planners on one problem or on many, side by side.
 #[derive(Debug, Args)]
@@ -59,7 +59,7 @@ pub struct CompareArgs {
     /// Number of random start-goal pairs in each world, instead of the world's own pair. The pairs are independent and
     /// uniform over the free configurations.
     #[arg(long, value_name = "N", conflicts_with_all = ["start", "goal", "goal_tip"],
-          value_parser = clap::value_parser!(u32).range(1..=MOST_QUERIES), help_heading = COMPARISON)]
+          value_parser = clap::value_parser!(u32).range(1..=MAX_QUERIES), help_heading = COMPARISON)]
     pub queries: Option<u32>,
     /// Seed of the random pairs. The same seed gives the same pairs in this and all later versions; fewer queries are the
     /// first ones of more.

@@ -3,7 +3,7 @@
 use super::args::CompareArgs;
 use super::pairs::free_pairs;
 use crate::cli::failure::Failure;
-use crate::input::{self, DiagnosticKind, LeftOut, LoadedScene, Overrides, Refused, Suite};
+use crate::input::{self, DiagnosticKind, ExcludedWorld, LoadedScene, Overrides, RefusedProblem, Suite};
 use crate::model::MotionProblem;
 use crate::output::title_of;
 use crate::report::{Refusal, Sampling};
@@ -85,7 +85,7 @@ impl Cases {
     }
 
     fn of_suite(suite: Suite, args: &CompareArgs) -> Result<Self, Failure> {
-        let left_out = |LeftOut { world, why }: &LeftOut| {
+        let left_out = |ExcludedWorld { world, why }: &ExcludedWorld| {
             format!("{} is left out: {why}; only `cplan plan` plans such worlds", world.display())
         };
         let left_out = suite.left_out.iter().map(left_out).collect();
@@ -96,7 +96,7 @@ impl Cases {
             }
         }
         for member in &suite.members {
-            member.scene.require_standing("comparisons are for worlds without moving obstacles")?;
+            member.scene.require_static_obstacles("comparisons are for worlds without moving obstacles")?;
         }
         let (mut name, files) = (suite.name.clone(), suite.files.clone());
         let overrides = args.query.overrides();
@@ -150,16 +150,16 @@ fn one(scene: LoadedScene) -> Suite {
 }
 
 /// Problems with their names, and those that cannot be run.
-type Bases = (Vec<(String, MotionProblem)>, Vec<Refused>);
+type LoadedProblems = (Vec<(String, MotionProblem)>, Vec<RefusedProblem>);
 
 /// Returns the problems with the worlds' own start and goal, or those of the command line.
-fn problems(suite: Suite, overrides: &Overrides) -> Result<Bases, Failure> {
+fn problems(suite: Suite, overrides: &Overrides) -> Result<LoadedProblems, Failure> {
     let (problems, refused) = suite.problems(overrides)?;
     Ok((problems.into_iter().map(|(name, loaded)| (name, loaded.problem)).collect(), refused))
 }
 
 /// Returns the reason why a problem is not run, on a line.
-fn refusal(refused: &Refused) -> Refusal {
+fn refusal(refused: &RefusedProblem) -> Refusal {
     let diagnostic = refused.error.diagnostics().first();
     let kind = match diagnostic.map(|diagnostic| diagnostic.kind) {
         Some(DiagnosticKind::Start) => "start",
@@ -171,7 +171,7 @@ fn refusal(refused: &Refused) -> Refusal {
 }
 
 /// Returns scenes whose start and goal are not used: the worlds' own may be missing or blocked.
-fn scenes(suite: Suite, overrides: &Overrides) -> Result<Bases, Failure> {
+fn scenes(suite: Suite, overrides: &Overrides) -> Result<LoadedProblems, Failure> {
     let scene = |member: input::Member| {
         // Only a world named on the command line can have steps here; then the request for its goal reports the error.
         if member.scene.has_steps() {

@@ -1,7 +1,7 @@
 //! Pictures of the paths, for files and for the page.
 
 use super::cases::{Case, Cases};
-use super::runner::Compared;
+use super::runner::ComparisonResults;
 use crate::check::CheckedProof;
 use crate::cli::failure::Failure;
 use crate::cli::sinks;
@@ -13,16 +13,16 @@ use crate::report::{self, Comparison, Overlay, Study, labels};
 use crate::space::Path;
 
 /// Number of random queries that a page draws one by one.
-const DRAWN_QUERIES: usize = 6;
+const MAX_DRAWN_QUERIES: usize = 6;
 
 /// Number of problems in different worlds that a page draws one by one.
-const DRAWN_WORLDS: usize = 60;
+const MAX_DRAWN_WORLDS: usize = 60;
 
 /// Number of queries whose paths a page draws together.
-const OVERLAID: usize = 300;
+const MAX_OVERLAID_PATHS: usize = 300;
 
 /// Share of the arm's reach by which contours may deviate in a page's small panels.
-const COARSE: f64 = 4e-3;
+const CONTOUR_TOLERANCE: f64 = 4e-3;
 
 /// Draws the paths of one problem into a file.
 ///
@@ -40,7 +40,7 @@ pub fn save(
 
 /// Returns the page's pictures: workspace and configuration space of each problem. For random queries, it draws those
 /// on which the planners' lengths differ most.
-pub fn pictures(cases: &Cases, study: &Study, done: &Compared) -> Vec<report::Picture> {
+pub fn pictures(cases: &Cases, study: &Study, done: &ComparisonResults) -> Vec<report::Picture> {
     let mut chosen: Vec<usize> = (0..study.comparisons.len()).collect();
     if cases.sampling.is_some() {
         let longest = |i: &usize| {
@@ -48,9 +48,9 @@ pub fn pictures(cases: &Cases, study: &Study, done: &Compared) -> Vec<report::Pi
             comparison.rows.iter().filter_map(|row| comparison.ratio(row)).fold(0.0, f64::max)
         };
         chosen.sort_by(|a, b| longest(b).total_cmp(&longest(a)));
-        chosen.truncate(DRAWN_QUERIES);
+        chosen.truncate(MAX_DRAWN_QUERIES);
     }
-    let drawn = chosen.into_iter().take(DRAWN_WORLDS).map(|i| {
+    let drawn = chosen.into_iter().take(MAX_DRAWN_WORLDS).map(|i| {
         let (case, comparison) = (&cases.cases[i], &study.comparisons[i]);
         let svg = draw::svg(&view(case, comparison, &done.paths[i]));
         report::Picture { title: format!("{}: {}", case.name, comparison.outcome()), svg }
@@ -59,7 +59,7 @@ pub fn pictures(cases: &Cases, study: &Study, done: &Compared) -> Vec<report::Pi
 }
 
 /// Returns pictures of all paths of each planner together, for each world with random queries.
-pub fn overlays(cases: &Cases, study: &Study, done: &Compared) -> Vec<Overlay> {
+pub fn overlays(cases: &Cases, study: &Study, done: &ComparisonResults) -> Vec<Overlay> {
     let Some(sampling) = cases.sampling else { return Vec::new() };
     let worlds = cases.cases.chunks(sampling.queries).zip(done.paths.chunks(sampling.queries));
     worlds.filter_map(|(world, paths)| Some(overlay(world.first()?, study, paths))).collect()
@@ -67,7 +67,7 @@ pub fn overlays(cases: &Cases, study: &Study, done: &Compared) -> Vec<Overlay> {
 
 fn overlay(first: &Case, study: &Study, paths: &[Vec<Option<Path>>]) -> Overlay {
     let scene = first.base().scene();
-    let shown = &paths[..paths.len().min(OVERLAID)];
+    let shown = &paths[..paths.len().min(MAX_OVERLAID_PATHS)];
     let of = |planner: usize| {
         let found = shown.iter().filter_map(|row| row.get(planner)?.as_ref());
         found.map(|path| path.waypoints().iter().map(|q| [q[0], q[1]]).collect()).collect()
@@ -88,7 +88,7 @@ fn overlay(first: &Case, study: &Study, paths: &[Vec<Option<Path>>]) -> Overlay 
 }
 
 fn blocked(scene: &Scene) -> Vec<Vec<[f64; 2]>> {
-    let tolerance = COARSE * scene.arm().reach();
+    let tolerance = CONTOUR_TOLERANCE * scene.arm().reach();
     let contours = crate::cspace::c_obstacles(scene, tolerance, tolerance);
     contours.into_iter().map(|c| c.contour.iter().map(|p| [p.x, p.y]).collect()).collect()
 }

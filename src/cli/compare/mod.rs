@@ -29,7 +29,7 @@ use crate::motion::write_whole_set;
 use crate::report::{Comparison, Page, Refusal, Study};
 use cases::{Case, Cases};
 use clap::Parser;
-use runner::{Compared, Entry, Runner};
+use runner::{ComparisonResults, Entry, Runner};
 use sink::{ReportFormat, report_sinks};
 
 /// Compares, and returns the exit code: that of the best answer to a single problem, and 1 if planners contradict each
@@ -45,12 +45,12 @@ pub fn run(args: &CompareArgs, program: &Program) -> Result<u8, Failure> {
     let cases = Cases::load(args)?;
     sinks::spare_inputs(files(), &cases.files)?;
     let ignored = args.with.iter().flat_map(Variant::ignored);
-    cases.warnings.iter().cloned().chain(ignored).for_each(|w| sinks::say(&format!("warning: {w}")));
+    cases.warnings.iter().cloned().chain(ignored).for_each(|w| sinks::print_status(&format!("warning: {w}")));
     for Refusal { problem, reason, .. } in &cases.refused {
-        sinks::say(&format!("warning: {problem} is skipped: {reason}"));
+        sinks::print_status(&format!("warning: {problem} is skipped: {reason}"));
     }
     if !args.quiet {
-        cases.left_out.iter().for_each(|line| sinks::say(&format!("note: {line}")));
+        cases.left_out.iter().for_each(|line| sinks::print_status(&format!("note: {line}")));
     }
     let started = started::now();
     let (study, done) = measured(args, &cases, program.meter)?;
@@ -66,14 +66,14 @@ pub fn run(args: &CompareArgs, program: &Program) -> Result<u8, Failure> {
     match (args.json, args.csv, args.markdown) {
         (true, ..) => sinks::print_json(&results.content(ReportFormat::Json)?)?,
         (_, true, _) => sinks::print(&results.content(ReportFormat::Csv)?)?,
-        (.., true) => sinks::tell(&results.content(ReportFormat::Markdown)?)?,
+        (.., true) => sinks::report(&results.content(ReportFormat::Markdown)?)?,
         _ if args.wide => {
-            sinks::tell(&results.single().map_or_else(|| study.to_wide_text(), Comparison::to_wide_text))?
+            sinks::report(&results.single().map_or_else(|| study.to_wide_text(), Comparison::to_wide_text))?
         }
-        _ => sinks::tell(&results.single().map_or_else(|| study.to_text(), Comparison::to_text))?,
+        _ => sinks::report(&results.single().map_or_else(|| study.to_text(), Comparison::to_text))?,
     }
     let alarms = study.alarms();
-    alarms.iter().for_each(|alarm| sinks::say(&format!("error: {alarm}")));
+    alarms.iter().for_each(|alarm| sinks::print_status(&format!("error: {alarm}")));
     Ok(exit_code(&study, args.is_single()))
 }
 
@@ -105,7 +105,11 @@ struct CompareWords {
 ///
 /// # Errors
 /// Options that make no sense for a world, and motions that cannot be timed with the options.
-fn measured(args: &CompareArgs, cases: &Cases, meter: Option<MemoryMeter>) -> Result<(Study, Compared), Failure> {
+fn measured(
+    args: &CompareArgs,
+    cases: &Cases,
+    meter: Option<MemoryMeter>,
+) -> Result<(Study, ComparisonResults), Failure> {
     let entries = entries(args, cases)?;
     let total = cases.cases.len() * entries.first().map_or(0, Vec::len);
     let progress = Progress::new(total, "runs", args.is_single(), args.quiet);
@@ -145,7 +149,7 @@ fn exit_code(study: &Study, is_single: bool) -> u8 {
 fn entries(args: &CompareArgs, cases: &Cases) -> Result<Vec<Vec<Entry>>, Failure> {
     let methods = if args.planner.is_empty() { Method::ALL.to_vec() } else { args.planner.clone() };
     let plain = methods.iter().map(|&method| {
-        let planner = args.effort.put_into(Planner::named(method));
+        let planner = args.effort.apply_to(Planner::named(method));
         Entry { label: method.to_string(), options: options(args, planner, args.effort.levels(&planner)) }
     });
     let plain: Vec<Entry> = plain.collect();
@@ -156,7 +160,7 @@ fn entries(args: &CompareArgs, cases: &Cases) -> Result<Vec<Vec<Entry>>, Failure
         let mut entries = plain.clone();
         for variant in &args.with {
             let preferences = &case.base().scene().workspace().preferences;
-            let (planner, levels) = variant.over(&args.effort);
+            let (planner, levels) = variant.or_from(&args.effort);
             if let Some(lack) = planner.lack(preferences) {
                 return Err(Failure::Usage(if args.is_single() { lack } else { format!("{}: {lack}", case.name) }));
             }
@@ -179,7 +183,7 @@ struct Results<'a> {
     args: &'a CompareArgs,
     cases: &'a Cases,
     study: &'a Study,
-    done: &'a Compared,
+    done: &'a ComparisonResults,
     started: String,
 }
 

@@ -1,11 +1,11 @@
 //! Random start-goal pairs.
 
 use crate::model::Scene;
-use crate::space::{Configuration, Draws};
+use crate::space::{Configuration, SplitMix64};
 
 /// Number of draws after which a world counts as one without free configurations. A free share of 1 in 10,000 is still
 /// found.
-const MOST_DRAWS: usize = 200_000;
+const MAX_DRAWS: usize = 200_000;
 
 /// Draws `count` pairs of free configurations. All are independent and uniform over the free part of the joint space
 /// (one turn on circles). One sequence of draws gives start, goal, start, goal and so on, joint 1 first; configurations
@@ -14,14 +14,14 @@ const MOST_DRAWS: usize = 200_000;
 ///
 /// Returns `None` if hardly anything is free.
 pub fn free_pairs(scene: &Scene, count: usize, seed: u64) -> Option<Vec<[Configuration; 2]>> {
-    let mut draws = Draws::new(seed);
+    let mut draws = SplitMix64::new(seed);
     (0..count).map(|_| Some([free(scene, &mut draws)?, free(scene, &mut draws)?])).collect()
 }
 
-fn free(scene: &Scene, draws: &mut Draws) -> Option<Configuration> {
+fn free(scene: &Scene, draws: &mut SplitMix64) -> Option<Configuration> {
     let topology = scene.arm().topology();
     let is_free = |q: &Configuration| scene.clearance(*q) > scene.workspace().clearance;
-    (0..MOST_DRAWS).map(|_| draws.configuration(&topology)).find(is_free)
+    (0..MAX_DRAWS).map(|_| draws.configuration(&topology)).find(is_free)
 }
 
 #[cfg(test)]

@@ -23,7 +23,7 @@ pub struct Entry {
 }
 
 /// The results of all runs.
-pub struct Compared {
+pub struct ComparisonResults {
     /// One comparison per case.
     pub comparisons: Vec<Comparison>,
     /// For each case, the path of each planner that found one.
@@ -45,10 +45,10 @@ pub struct Runner<'a> {
 }
 
 /// A run's row, and its path.
-type Ran = Result<(Row, Option<Path>), PlanError>;
+type RunResult = Result<(Row, Option<Path>), PlanError>;
 
 /// Number of boxes for the warm-up run.
-const WARMING: usize = 1000;
+const WARM_UP_BOXES: usize = 1000;
 
 /// Required gap between a bound and the shortest path found, as a share of the path.
 const BOUND_GAP: f64 = 1e-4;
@@ -58,7 +58,7 @@ impl Runner<'_> {
     ///
     /// # Errors
     /// Motions that cannot be timed as asked, the first of them in that order.
-    pub fn run(&self, cases: &Cases) -> Result<Compared, (String, PlanError)> {
+    pub fn run(&self, cases: &Cases) -> Result<ComparisonResults, (String, PlanError)> {
         let clock = Instant::now();
         let width = self.entries.first().map_or(0, Vec::len);
         // Each problem begins with another planner, because the first one fills the caches for the others.
@@ -92,7 +92,7 @@ impl Runner<'_> {
             comparison.bound = bound;
         }
         self.progress.end();
-        Ok(Compared { comparisons, paths, elapsed: clock.elapsed() })
+        Ok(ComparisonResults { comparisons, paths, elapsed: clock.elapsed() })
     }
 
     /// Does `count` pieces of work on as many threads as there are jobs, and returns the results in order.
@@ -107,15 +107,15 @@ impl Runner<'_> {
 
     /// Does one run and measures it. A coarse run goes before the very first one, which otherwise would include the
     /// time to load the program.
-    fn one(&self, case: &Case, entry: &Entry, is_first: bool) -> Ran {
+    fn one(&self, case: &Case, entry: &Entry, is_first: bool) -> RunResult {
         self.progress.begin(&case.name, &entry.label);
         let problem = Problem::from(case.problem().into_owned());
         let options = &entry.options;
         if is_first {
-            plan(&problem, &Options { levels: 1, boxes: WARMING, ..*options })?;
+            plan(&problem, &Options { levels: 1, boxes: WARM_UP_BOXES, ..*options })?;
         }
-        let mut said = |text: &str| self.progress.say(text);
-        let mut work = || plan_with(&problem, options, &mut said);
+        let mut report_progress = |text: &str| self.progress.print_status(text);
+        let mut work = || plan_with(&problem, options, &mut report_progress);
         let (made, memory) = match self.meter {
             Some(meter) => {
                 let (made, bytes) = meter.measure(work);
@@ -184,7 +184,7 @@ pub fn length_unit(problem: &MotionProblem) -> String {
 /// Prints the reason if memory cannot be measured.
 pub fn meter(meter: Option<MemoryMeter>, jobs: usize, quiet: bool) -> Option<MemoryMeter> {
     if jobs > 1 && meter.is_some() && !quiet {
-        sinks::say(
+        sinks::print_status(
             "note: memory is reported only with --jobs 1: the allocations of simultaneous runs cannot be separated",
         );
     }

@@ -1,21 +1,21 @@
 //! Notes about parts of a world that are probably mistakes, with a hint.
 
-use super::obstacles::{Taken, coordinates, placed};
+use super::obstacles::{ImportedObstacle, coordinates, placed};
 use crate::cli::fresh::word;
 use cplan_drawing::{Geometry, Notes, Shape};
 use std::path::Path;
 
 /// Usual range of a drawing's width, metres.
-const USUAL: [f64; 2] = [0.01, 100.0];
+const USUAL_WIDTHS: [f64; 2] = [0.01, 100.0];
 
 /// Least and greatest coordinates.
 type Bounds = [(f64, f64); 2];
 
 /// Adds notes about obstacles at the arm's base or around all others, and about an unusual extent.
-pub(super) fn note(taken: &[Taken], notes: &mut Notes) {
+pub(super) fn note(taken: &[ImportedObstacle], notes: &mut Notes) {
     let bounds: Vec<Bounds> = taken.iter().map(|taken| bounds(coordinates(&taken.shape))).collect();
     let border = border(taken, &bounds);
-    for (i, Taken { name, shape }) in taken.iter().enumerate() {
+    for (i, ImportedObstacle { name, shape }) in taken.iter().enumerate() {
         let option = word(Path::new(name));
         if border == Some(i) {
             let message = format!(
@@ -33,7 +33,7 @@ pub(super) fn note(taken: &[Taken], notes: &mut Notes) {
         [0, 1].map(|k| (all[k].0.min(one[k].0), all[k].1.max(one[k].1)))
     });
     let width = all.map(|(low, high)| high - low).into_iter().fold(0.0, f64::max);
-    if !taken.is_empty() && !(USUAL[0]..=USUAL[1]).contains(&width) {
+    if !taken.is_empty() && !(USUAL_WIDTHS[0]..=USUAL_WIDTHS[1]).contains(&width) {
         let width = if width < 1.0 { format!("{:.3} mm", width * 1e3) } else { format!("{width:.0} m") };
         notes.add(format!("the whole drawing is {width} wide; if that is wrong, give its --unit"), None);
     }
@@ -47,7 +47,7 @@ fn bounds(points: impl Iterator<Item = [f64; 2]>) -> Bounds {
 
 /// Returns the solid that surrounds all others, if there is one: drawings often show the walls of a room, or an arm's
 /// reach, like that.
-fn border(taken: &[Taken], bounds: &[Bounds]) -> Option<usize> {
+fn border(taken: &[ImportedObstacle], bounds: &[Bounds]) -> Option<usize> {
     let holds = |i: usize, j: usize| (0..2).all(|k| bounds[i][k].0 < bounds[j][k].0 && bounds[j][k].1 < bounds[i][k].1);
     let is_solid = |shape: &Shape| match &shape.geometry {
         Geometry::Polygon { holes, .. } => holes.is_empty(),

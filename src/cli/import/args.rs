@@ -6,7 +6,7 @@ use crate::cli::print_args::PrintArgs;
 use crate::cli::query_args::QueryArgs;
 use crate::grammar::{finite, number_in, positive};
 use clap::{Args, ValueHint};
-use cplan_drawing::{FINEST, Settings, Unit};
+use cplan_drawing::{MIN_TOLERANCE, Settings, Unit};
 use std::path::PathBuf;
 
 /// Make a world file from a drawing: DXF, SVG or GeoJSON.
@@ -80,17 +80,16 @@ impl ImportArgs {
 }
 
 fn tolerance(text: &str) -> Result<f64, String> {
-    number_in(text, |x| x.is_finite() && x >= FINEST, &format!("of metres, finite and at least {FINEST}"))
+    number_in(text, |x| x.is_finite() && x >= MIN_TOLERANCE, &format!("of metres, finite and at least {MIN_TOLERANCE}"))
 }
 
 /// Longest move, metres: drawings hold coordinates of half of this.
-const LONGEST_MOVE: f64 = 2e12;
+const MAX_MOVE: f64 = 2e12;
 
 fn displacement(text: &str) -> Result<[f64; 2], String> {
     let (x, y) = text.split_once(',').ok_or("expected two numbers separated by a comma, such as -0.4,1")?;
-    let length = |text: &str| {
-        number_in(text.trim(), |x| x.abs() <= LONGEST_MOVE, &format!("of metres, {LONGEST_MOVE:e} at most"))
-    };
+    let length =
+        |text: &str| number_in(text.trim(), |x| x.abs() <= MAX_MOVE, &format!("of metres, {MAX_MOVE:e} at most"));
     Ok([length(x)?, length(y)?])
 }
 

@@ -1,8 +1,8 @@
 //! Selects the parts of a drawing, and decides their type.
 
-use super::obstacles::{Names, Taken, rounded};
+use super::obstacles::{ImportedObstacle, Names, rounded};
 use crate::cli::failure::Failure;
-use crate::input::LARGEST;
+use crate::input::MAX_LENGTH;
 use crate::text::{counted, plain_line};
 use cplan_drawing::{Geometry, Notes, Shape};
 use std::collections::{BTreeMap, BTreeSet};
@@ -20,14 +20,14 @@ impl FromStr for LayerHeight {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        const FORM: &str = "expected NAME=LOW:HIGH in metres, such as conveyor=0:0.2";
-        let (name, range) = text.rsplit_once('=').ok_or(FORM)?;
-        let (low, high) = range.split_once(':').ok_or(FORM)?;
-        let height = [low, high].map(|number| number.trim().parse::<f64>().ok().filter(|x| x.abs() <= LARGEST));
+        const LAYER_FORM: &str = "expected NAME=LOW:HIGH in metres, such as conveyor=0:0.2";
+        let (name, range) = text.rsplit_once('=').ok_or(LAYER_FORM)?;
+        let (low, high) = range.split_once(':').ok_or(LAYER_FORM)?;
+        let height = [low, high].map(|number| number.trim().parse::<f64>().ok().filter(|x| x.abs() <= MAX_LENGTH));
         match height {
             [Some(low), Some(high)] if low <= high => Ok(Self { name: name.to_owned(), height: [low, high] }),
             [Some(_), Some(_)] => Err("write the lower end first".into()),
-            _ => Err(FORM.into()),
+            _ => Err(LAYER_FORM.into()),
         }
     }
 }
@@ -43,7 +43,7 @@ pub(super) struct Layers<'a> {
 }
 
 /// Returns true if an obstacle, its layer, or the layer that hides it has this name.
-fn is_called(taken: &Taken, name: &str) -> bool {
+fn is_called(taken: &ImportedObstacle, name: &str) -> bool {
     is_same(&taken.name, name) || taken.shape.called().iter().any(|own| is_same(own, name))
 }
 
@@ -54,7 +54,7 @@ fn is_same(name: &str, other: &str) -> bool {
 
 impl Layers<'_> {
     /// Refuses names that the drawing does not have.
-    pub fn check(&self, found: &[Taken]) -> Result<(), Failure> {
+    pub fn check(&self, found: &[ImportedObstacle]) -> Result<(), Failure> {
         let only = self.only.iter().map(|name| ("--layer", name));
         let without = self.without.iter().map(|name| ("--without", name));
         let heights = self.heights.iter().map(|height| ("--height", &height.name));
@@ -64,9 +64,9 @@ impl Layers<'_> {
             return Ok(());
         };
         let known: BTreeSet<String> = found.iter().flat_map(|taken| taken.shape.called()).collect();
-        const SHOWN: usize = 24;
-        let more = known.len().saturating_sub(SHOWN);
-        let known: Vec<String> = known.into_iter().take(SHOWN).map(|name| format!("\"{name}\"")).collect();
+        const MAX_SHOWN_NAMES: usize = 24;
+        let more = known.len().saturating_sub(MAX_SHOWN_NAMES);
+        let known: Vec<String> = known.into_iter().take(MAX_SHOWN_NAMES).map(|name| format!("\"{name}\"")).collect();
         let known = match (known.is_empty(), more) {
             (true, _) => "no imported part of the drawing has a name or a layer".to_owned(),
             (false, 0) => format!("the drawing has {}, and the world's own names", known.join(", ")),
@@ -82,7 +82,7 @@ impl Layers<'_> {
     }
 
     /// Returns the selected obstacles, with the heights and walls that the options set.
-    pub fn chosen(&self, found: Vec<Taken>, notes: &mut Notes) -> Vec<Taken> {
+    pub fn chosen(&self, found: Vec<ImportedObstacle>, notes: &mut Notes) -> Vec<ImportedObstacle> {
         let mut names = Names::of(&found);
         let mut chosen = Vec::new();
         for mut taken in found {
@@ -119,7 +119,7 @@ impl Layers<'_> {
 }
 
 /// Returns the outlines of an obstacle as thin walls.
-fn walls(taken: Taken, tolerance: f64, names: &mut Names) -> Vec<Taken> {
+fn walls(taken: ImportedObstacle, tolerance: f64, names: &mut Names) -> Vec<ImportedObstacle> {
     let rings = match taken.shape.geometry.clone() {
         Geometry::Polygon { outer, holes } => [outer].into_iter().chain(holes).collect(),
         Geometry::Circle { center, radius } => vec![chords(center, radius, tolerance)],
@@ -129,16 +129,16 @@ fn walls(taken: Taken, tolerance: f64, names: &mut Names) -> Vec<Taken> {
     let mut wall = |mut ring: Vec<[f64; 2]>| {
         ring.extend(ring.first().copied());
         let name = if is_one { taken.name.clone() } else { names.numbered(&taken.name) };
-        Taken { name, shape: Shape { geometry: Geometry::Polyline(ring), ..taken.shape.clone() } }
+        ImportedObstacle { name, shape: Shape { geometry: Geometry::Polyline(ring), ..taken.shape.clone() } }
     };
     rings.into_iter().map(&mut wall).collect()
 }
 
 /// Returns corners on a circle, with chords within this distance of it.
 fn chords([x, y]: [f64; 2], radius: f64, tolerance: f64) -> Vec<[f64; 2]> {
-    const LEAST: f64 = 8.0;
+    const MIN_CHORDS: f64 = 8.0;
     let half = (1.0 - tolerance / radius).clamp(0.0, 1.0).acos();
-    let count = (PI / half).ceil().clamp(LEAST, 1e5) as usize;
+    let count = (PI / half).ceil().clamp(MIN_CHORDS, 1e5) as usize;
     let at = |k: usize| {
         let (sin, cos) = (TAU * k as f64 / count as f64).sin_cos();
         [x + radius * cos, y + radius * sin].map(rounded)
@@ -147,7 +147,7 @@ fn chords([x, y]: [f64; 2], radius: f64, tolerance: f64) -> Vec<[f64; 2]> {
 }
 
 /// Returns the number of obstacles taken from each layer.
-pub(super) fn lines(taken: &[Taken]) -> Vec<String> {
+pub(super) fn lines(taken: &[ImportedObstacle]) -> Vec<String> {
     let mut layers = BTreeMap::<&str, usize>::new();
     for layer in taken.iter().filter_map(|taken| taken.shape.layer.as_deref()) {
         *layers.entry(layer).or_default() += 1;

@@ -19,7 +19,7 @@ use crate::output::laid_out;
 use crate::text::{counted, plain_line};
 use cplan_drawing::{Drawing, Format, Note, Settings};
 use layers::Layers;
-use obstacles::{Placement, Taken};
+use obstacles::{ImportedObstacle, Placement};
 use serde::Serialize;
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
@@ -49,8 +49,8 @@ struct Entry<'a> {
     height: Option<[f64; 2]>,
 }
 
-impl<'a> From<&'a Taken> for Entry<'a> {
-    fn from(Taken { name, shape }: &'a Taken) -> Self {
+impl<'a> From<&'a ImportedObstacle> for Entry<'a> {
+    fn from(ImportedObstacle { name, shape }: &'a ImportedObstacle) -> Self {
         let layer = shape.layer.as_deref();
         Self { name, layer, kind: &shape.kind, line: shape.line, height: shape.height }
     }
@@ -115,7 +115,7 @@ pub fn run(args: &ImportArgs) -> Result<u8, Failure> {
     }
     files.extend(args.output.iter().map(|path| (path.clone(), text.clone().into_bytes())));
     write_whole_set(&files)?;
-    tell(args, &taken, &notes, &world, &text)?;
+    report(args, &taken, &notes, &world, &text)?;
     Ok(DONE)
 }
 
@@ -137,7 +137,7 @@ fn refused(args: &ImportArgs, diagnostic: Diagnostic) -> Failure {
     Failure::Input(Diagnostic { origin: args.drawing.display().to_string(), ..diagnostic }.into())
 }
 
-fn picture(args: &ImportArgs, world: &World, taken: &[Taken]) -> String {
+fn picture(args: &ImportArgs, world: &World, taken: &[ImportedObstacle]) -> String {
     let obstacles = &world.workspace.obstacles;
     let below = format!("{}: {}", args.drawing.display(), counted(obstacles.len(), "obstacle"));
     let layers: Vec<&str> = taken.iter().map(|taken| taken.shape.layer.as_deref().unwrap_or(&taken.name)).collect();
@@ -145,7 +145,13 @@ fn picture(args: &ImportArgs, world: &World, taken: &[Taken]) -> String {
 }
 
 /// Reports the result: on stdout, or on stderr if the world goes to stdout.
-fn tell(args: &ImportArgs, taken: &[Taken], notes: &[String], world: &World, text: &str) -> Result<(), Failure> {
+fn report(
+    args: &ImportArgs,
+    taken: &[ImportedObstacle],
+    notes: &[String],
+    world: &World,
+    text: &str,
+) -> Result<(), Failure> {
     let json = || {
         sinks::pretty(&Json {
             status: "imported",
@@ -157,14 +163,14 @@ fn tell(args: &ImportArgs, taken: &[Taken], notes: &[String], world: &World, tex
         })
     };
     if args.output.is_some() || args.print.json {
-        return args.print.tell(DONE, json, || summary(args, taken, notes, world));
+        return args.print.report(DONE, json, || summary(args, taken, notes, world));
     }
-    args.print.say(summary(args, taken, notes, world).trim_end());
+    args.print.print_status(summary(args, taken, notes, world).trim_end());
     sinks::print(text)
 }
 
 /// Returns the numbers of obstacles taken and left out, and the next command.
-fn summary(args: &ImportArgs, taken: &[Taken], notes: &[String], world: &World) -> String {
+fn summary(args: &ImportArgs, taken: &[ImportedObstacle], notes: &[String], world: &World) -> String {
     let [x, y] = draw::extent(&world.workspace.obstacles);
     let size = |(low, high): (f64, f64)| format!("{low:.3} to {high:.3}");
     let mut lines = vec![

@@ -1,21 +1,21 @@
 //! Converts shapes to obstacles: in their place, valid, and with unique names.
 
 use crate::geometry::{Point, Polygon};
-use crate::input::{Diagnostic, LARGEST, Position};
+use crate::input::{Diagnostic, MAX_LENGTH, Position};
 use cplan_drawing::{FillRule, Frame, Geometry, Notes, Ring, Shape, filled};
 use std::collections::{HashMap, HashSet};
 use std::f64::consts::PI;
 
 /// An obstacle of the world.
 #[derive(Clone)]
-pub(super) struct Taken {
+pub(super) struct ImportedObstacle {
     pub name: String,
     /// The shape in metres, in the frame of the world file, if it has one.
     pub shape: Shape,
 }
 
 /// Note for shapes that are too small for the file.
-const NO_EXTENT: &str = "parts without extent: left out";
+const NO_EXTENT_NOTE: &str = "parts without extent: left out";
 
 /// The placement of a drawing: turned, then moved.
 pub(super) struct Placement {
@@ -25,7 +25,7 @@ pub(super) struct Placement {
 
 /// Rounding of coordinates in the file, per metre: a nanometre is smaller than any measurement, and gives short
 /// numbers.
-const GRAINS: f64 = 1e9;
+const ROUNDING_STEPS_PER_METRE: f64 = 1e9;
 
 impl Placement {
     /// Returns the frame of a block, as it lies in the world.
@@ -54,12 +54,12 @@ impl Placement {
 
 /// Returns a length of the file, without a negative zero.
 pub(super) fn rounded(value: f64) -> f64 {
-    (value * GRAINS).round() / GRAINS + 0.0
+    (value * ROUNDING_STEPS_PER_METRE).round() / ROUNDING_STEPS_PER_METRE + 0.0
 }
 
 /// Returns the obstacles of a drawing, each with its name in the world. An outline that crosses itself becomes the area
 /// that it surrounds, or thin walls if even that is too narrow.
-pub(super) fn found(shapes: Vec<Shape>, placement: &Placement, notes: &mut Notes) -> Vec<Taken> {
+pub(super) fn found(shapes: Vec<Shape>, placement: &Placement, notes: &mut Notes) -> Vec<ImportedObstacle> {
     let mut sound: Vec<Shape> = Vec::new();
     for shape in shapes {
         let frame = shape.frame.as_ref();
@@ -69,7 +69,7 @@ pub(super) fn found(shapes: Vec<Shape>, placement: &Placement, notes: &mut Notes
                 if radius > 0.0 {
                     vec![Geometry::Circle { center, radius }]
                 } else {
-                    notes.add_of(shape.called(), NO_EXTENT, shape.line);
+                    notes.add_of(shape.called(), NO_EXTENT_NOTE, shape.line);
                     Vec::new()
                 }
             }
@@ -79,7 +79,7 @@ pub(super) fn found(shapes: Vec<Shape>, placement: &Placement, notes: &mut Notes
                 if points.len() > 1 {
                     vec![Geometry::Polyline(points)]
                 } else {
-                    notes.add_of(shape.called(), NO_EXTENT, shape.line);
+                    notes.add_of(shape.called(), NO_EXTENT_NOTE, shape.line);
                     Vec::new()
                 }
             }
@@ -112,7 +112,7 @@ fn untangled(outer: Ring, holes: Vec<Ring>, shape: &Shape, notes: &mut Notes) ->
     };
     let walls: Vec<_> =
         rings.into_iter().filter(|ring| ring.len() > 1).map(|ring| Geometry::Polyline(closed(ring))).collect();
-    let what = if walls.is_empty() { NO_EXTENT } else { "outlines that enclose no area: imported as thin walls" };
+    let what = if walls.is_empty() { NO_EXTENT_NOTE } else { "outlines that enclose no area: imported as thin walls" };
     notes.add_of(shape.called(), what, shape.line);
     walls
 }
@@ -123,20 +123,20 @@ fn is_sound(outer: &[[f64; 2]], holes: &[Ring]) -> bool {
 }
 
 /// Refuses shapes at coordinates that no arm can have; the drawing has been moved by `shift`.
-pub(super) fn within_reach(taken: &[Taken], shift: [f64; 2]) -> Result<(), Diagnostic> {
-    taken.iter().try_for_each(|Taken { shape, .. }| {
+pub(super) fn within_reach(taken: &[ImportedObstacle], shift: [f64; 2]) -> Result<(), Diagnostic> {
+    taken.iter().try_for_each(|ImportedObstacle { shape, .. }| {
         let greatest = |numbers: &mut dyn Iterator<Item = f64>| numbers.map(f64::abs).fold(0.0, f64::max);
         let farthest = greatest(&mut coordinates(shape).flatten());
         let highest = greatest(&mut shape.height.into_iter().flatten());
-        let (what, value, help) = if farthest > LARGEST {
+        let (what, value, help) = if farthest > MAX_LENGTH {
             ("a coordinate", farthest, far_off(taken, shift))
         } else {
             ("a height", highest, "give its extent with --height, or the drawing's --unit".into())
         };
-        if value <= LARGEST {
+        if value <= MAX_LENGTH {
             return Ok(());
         }
-        let message = format!("{} has {what} of {value:.2e} m (at most {LARGEST:e})", shape.kind);
+        let message = format!("{} has {what} of {value:.2e} m (at most {MAX_LENGTH:e})", shape.kind);
         let position = shape.line.map(|line| Position { line, column: 1 });
         Err(Diagnostic { position, ..Diagnostic::new("", message).help(help) })
     })
@@ -144,7 +144,7 @@ pub(super) fn within_reach(taken: &[Taken], shift: [f64; 2]) -> Result<(), Diagn
 
 /// Returns a hint for a drawing that is far away: the move that brings its middle to the arm, in whole metres, unless
 /// the drawing is too large.
-fn far_off(taken: &[Taken], shift: [f64; 2]) -> String {
+fn far_off(taken: &[ImportedObstacle], shift: [f64; 2]) -> String {
     let points: Vec<[f64; 2]> = taken.iter().flat_map(|taken| coordinates(&taken.shape)).collect();
     let ends = |k: usize| {
         let values = || points.iter().map(|p| p[k]);
@@ -154,7 +154,7 @@ fn far_off(taken: &[Taken], shift: [f64; 2]) -> String {
         let [low, high] = ends(k);
         (shift[k] - low.midpoint(high)).round()
     });
-    match [0, 1].iter().all(|&k| (ends(k)[1] - ends(k)[0]) / 2.0 + 1.0 <= LARGEST) {
+    match [0, 1].iter().all(|&k| (ends(k)[1] - ends(k)[0]) / 2.0 + 1.0 <= MAX_LENGTH) {
         true => format!("move the drawing to the arm with --move {x},{y} or similar, or give its --unit"),
         false => "give the drawing's --unit, or --scale it: the whole drawing is too large".into(),
     }
@@ -179,14 +179,18 @@ pub(super) fn placed(shape: &Shape, p: [f64; 2]) -> [f64; 2] {
 }
 
 /// Names that count as missing, such as that of the layer that every DXF has.
-const UNNAMED: [&str; 2] = ["", "0"];
+const MISSING_NAMES: [&str; 2] = ["", "0"];
 
 /// Gives each obstacle a unique name: its own, or that of its layer, with a number if several share it. Hidden
 /// obstacles are numbered after visible ones, so that names do not depend on the selection.
-fn named(shapes: Vec<Shape>) -> Vec<Taken> {
+fn named(shapes: Vec<Shape>) -> Vec<ImportedObstacle> {
     let base = |shape: &Shape| {
-        let name =
-            shape.name.as_deref().or(shape.layer.as_deref()).map(str::trim).filter(|name| !UNNAMED.contains(name));
+        let name = shape
+            .name
+            .as_deref()
+            .or(shape.layer.as_deref())
+            .map(str::trim)
+            .filter(|name| !MISSING_NAMES.contains(name));
         name.unwrap_or("obstacle").to_owned()
     };
     let mut given = vec![String::new(); shapes.len()];
@@ -204,7 +208,7 @@ fn named(shapes: Vec<Shape>) -> Vec<Taken> {
             given[i] = if single.contains(&base) { base } else { names.numbered(&base) };
         }
     }
-    given.into_iter().zip(shapes).map(|(name, shape)| Taken { name, shape }).collect()
+    given.into_iter().zip(shapes).map(|(name, shape)| ImportedObstacle { name, shape }).collect()
 }
 
 /// Names in use.
@@ -217,7 +221,7 @@ pub(super) struct Names {
 
 impl Names {
     /// Returns the names of obstacles.
-    pub fn of(taken: &[Taken]) -> Self {
+    pub fn of(taken: &[ImportedObstacle]) -> Self {
         Self { taken: taken.iter().map(|taken| taken.name.clone()).collect(), ..Self::default() }
     }
 

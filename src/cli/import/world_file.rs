@@ -1,16 +1,16 @@
 //! The world as text.
 
 use super::args::ImportArgs;
-use super::obstacles::{Taken, rounded};
+use super::obstacles::{ImportedObstacle, rounded};
 use crate::text::plain_line;
 use cplan_drawing::Geometry;
 use std::fmt::Write;
 
 /// Number of points per line of the file.
-const IN_LINE: usize = 6;
+const POINTS_PER_LINE: usize = 6;
 
 /// Returns the world: head, start and goal, obstacles.
-pub(super) fn text(args: &ImportArgs, taken: &[Taken], notes: &[String]) -> String {
+pub(super) fn text(args: &ImportArgs, taken: &[ImportedObstacle], notes: &[String]) -> String {
     let file = args.drawing.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
     let mut text = format!("# {}, by `cplan import`. Lengths in metres, angles in radians.\n", plain_line(&file));
     // Writing to a string cannot fail.
@@ -42,7 +42,7 @@ pub(super) fn text(args: &ImportArgs, taken: &[Taken], notes: &[String]) -> Stri
     text
 }
 
-fn obstacle(Taken { name, shape }: &Taken) -> String {
+fn obstacle(ImportedObstacle { name, shape }: &ImportedObstacle) -> String {
     let mut text = format!("\n# {}", plain_line(&shape.kind));
     if let Some(line) = shape.line {
         let _ = write!(text, ", line {line}");
@@ -81,7 +81,7 @@ fn obstacle(Taken { name, shape }: &Taken) -> String {
 /// Returns points in lines of moderate length.
 fn points(points: &[[f64; 2]]) -> String {
     let lines: Vec<String> = points
-        .chunks(IN_LINE)
+        .chunks(POINTS_PER_LINE)
         .map(|line| line.iter().map(|point| format!("{point:?}")).collect::<Vec<_>>().join(", "))
         .collect();
     match &lines[..] {

@@ -100,7 +100,7 @@ pub fn run(args: &VerifyArgs) -> Result<u8, Failure> {
     let sinks = sinks::sinks_with(&[], &args.picture, args.certificate.as_deref())?;
     let mut loaded = input::load_scene(args.files.robot(), &args.files.world)?.keeping(args.clearance)?;
     let about = Digests::of(&args.files.robot(), &args.files.world, &loaded.files())?;
-    loaded.robot.warnings.iter().for_each(|w| args.print.say(&format!("warning: {w}")));
+    loaded.robot.warnings.iter().for_each(|w| args.print.print_status(&format!("warning: {w}")));
     let mut recorded = match &args.topic {
         None => input::load_recording(&args.trajectory, &loaded)?,
         Some(topic) => input::load_topic(&args.trajectory, topic, &loaded)?,
@@ -129,7 +129,7 @@ pub fn run(args: &VerifyArgs) -> Result<u8, Failure> {
             Sink::Certificate(path) if !recorded.held.is_empty() => {
                 let joint = &recorded.held[0].joint.name;
                 let why = format!("joint \"{joint}\" moves, but certificates cover only the arm's two joints");
-                sinks::say(&format!("warning: {} is not written: {why}", path.display()));
+                sinks::print_status(&format!("warning: {} is not written: {why}", path.display()));
             }
             Sink::Certificate(path) if matches!(findings.verdict, Judgement::Free) => {
                 let (start, goals) = if args.anywhere { (None, Vec::new()) } else { loaded.ends(&overrides(args))? };
@@ -138,11 +138,11 @@ pub fn run(args: &VerifyArgs) -> Result<u8, Failure> {
                 let steps = task.as_ref().map(|loaded| &loaded.task).zip(steps);
                 match certificate_of_recording(scene, recording, steps, asked, [start, goals.first().copied()]) {
                     Ok(certificate) => write_whole(path, certificate.as_bytes())?,
-                    Err(why) => sinks::say(&format!("warning: {} is not written: {why}", path.display())),
+                    Err(why) => sinks::print_status(&format!("warning: {} is not written: {why}", path.display())),
                 }
             }
             Sink::Certificate(path) => {
-                sinks::say(&format!("warning: {} is not written: the motion is not accepted", path.display()));
+                sinks::print_status(&format!("warning: {} is not written: the motion is not accepted", path.display()));
             }
             Sink::Result(..) | Sink::CSpace(..) => {}
         }
@@ -152,7 +152,7 @@ pub fn run(args: &VerifyArgs) -> Result<u8, Failure> {
         Judgement::Undecided => UNKNOWN,
         Judgement::Collision | Judgement::Limits | Judgement::Task | Judgement::Ends | Judgement::Claims => REFUTED,
     };
-    args.print.tell(code, || sinks::pretty(&findings), || text::summary(scene.arm(), recording, &findings))?;
+    args.print.report(code, || sinks::pretty(&findings), || text::summary(scene.arm(), recording, &findings))?;
     Ok(code)
 }
 
@@ -169,7 +169,7 @@ fn draw(
 ) -> Result<(), Failure> {
     let (scene, path) = (timed.scene, recording.outline());
     // The picture shows the arm at its collision.
-    let shown = findings.way.first_contact.as_ref().map(|c| c.moment.configuration.into());
+    let shown = findings.collisions.first_contact.as_ref().map(|c| c.moment.configuration.into());
     let view = View::of_picture(&Picture {
         title: vec![title_of(scene), format!("{} samples", findings.samples)],
         status: findings.verdict.word().into(),

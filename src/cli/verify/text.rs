@@ -2,20 +2,20 @@
 
 use crate::check::Limit;
 use crate::engine::findings::{
-    EncounterFinding, Judgement, LimitFinding, MomentFinding, MotionFindings, StepFinding, WayFinding,
+    CollisionFinding, EncounterFinding, Judgement, LimitFinding, MomentFinding, MotionFindings, StepFinding,
 };
 use crate::model::Arm;
 use crate::output::{Line, StepLine, configuration, laid_out, step_lines};
 use crate::space::Recording;
-use crate::text::{at_least, counted, nonzero, told_apart};
+use crate::text::{counted, format_distinct, nonzero, round_down};
 
 /// Depths below this, metres, count as rounding.
-const TOUCHING: f64 = 1e-9;
+const TOUCHING_DEPTH: f64 = 1e-9;
 
 /// Returns the findings for people.
 pub(super) fn summary(arm: &Arm, recording: &Recording, findings: &MotionFindings) -> String {
     let mut lines = vec![("result", result(findings))];
-    lines.extend(way(arm, &findings.way, findings.verdict));
+    lines.extend(collisions(arm, &findings.collisions, findings.verdict));
     lines.extend(findings.steps.iter().flatten().filter_map(turn));
     lines.extend(findings.limits_broken.iter().map(|limit| ("limit", broken(arm, limit))));
     let exceeds =
@@ -46,41 +46,43 @@ fn when(m: &MomentFinding) -> String {
 }
 
 /// Returns the encounters along the motion.
-fn way(arm: &Arm, way: &WayFinding, verdict: Judgement) -> Vec<Line> {
+fn collisions(arm: &Arm, collisions: &CollisionFinding, verdict: Judgement) -> Vec<Line> {
     let place = |e: &EncounterFinding| {
         format!("{} {}, {}", e.pair, when(&e.moment), configuration(arm, e.moment.configuration.into()))
     };
     let depth = |e: &EncounterFinding| match e.depth {
-        d if (0.0..TOUCHING).contains(&d) => "just touching".into(),
+        d if (0.0..TOUCHING_DEPTH).contains(&d) => "just touching".into(),
         d if d >= 0.0 => format!("{} m deep", nonzero(d, 6)),
         d => format!("{} m apart", nonzero(-d, 6)),
     };
     let mut lines = Vec::new();
-    match (way.clearance, &way.nearest) {
+    match (collisions.clearance, &collisions.nearest) {
         (Some(proven), Some(nearest)) => {
             let seen = format!(
                 "{} m proven; least seen {} m: {}",
-                at_least(proven, 6),
+                round_down(proven, 6),
                 nonzero(-nearest.depth, 6),
                 place(nearest)
             );
             lines.push(("clearance", seen));
         }
-        (Some(clearance), None) => lines.push(("clearance", format!("{} m proven", at_least(clearance, 6)))),
-        (None, None) if verdict != Judgement::Collision && way.undecided.is_none() => {
+        (Some(clearance), None) => lines.push(("clearance", format!("{} m proven", round_down(clearance, 6)))),
+        (None, None) if verdict != Judgement::Collision && collisions.undecided.is_none() => {
             lines.push(("clearance", "no obstacle within reach".into()));
         }
         _ => {}
     }
-    if let Some(first) = &way.first_contact {
+    if let Some(first) = &collisions.first_contact {
         lines.push(("contact", format!("{}, {}", place(first), depth(first))));
-        lines.extend(way.free_until.map(|until| match first.moment.time {
+        lines.extend(collisions.free_until.map(|until| match first.moment.time {
             Some(_) => ("", format!("proven free before {until:.6} s")),
             None => ("", format!("proven free before waypoint {until:.4}")),
         }));
     }
-    lines.extend(way.deepest.iter().map(|deepest| ("deepest", format!("{}, {}", place(deepest), depth(deepest)))));
-    lines.extend(way.undecided.iter().map(|nearest| {
+    lines.extend(
+        collisions.deepest.iter().map(|deepest| ("deepest", format!("{}, {}", place(deepest), depth(deepest)))),
+    );
+    lines.extend(collisions.undecided.iter().map(|nearest| {
         let distance = nonzero(-nearest.depth, 6);
         ("undecided", format!("{}: {distance} m, too near to decide", place(nearest)))
     }));
@@ -93,11 +95,11 @@ fn broken(arm: &Arm, limit: &LimitFinding) -> String {
     let joint = &arm.joints[excess.joint];
     let unit = joint.unit();
     // The allowed value has no sign.
-    let [size, allowed] = told_apart([excess.value.abs(), excess.allowed], 6);
+    let [size, allowed] = format_distinct([excess.value.abs(), excess.allowed], 6);
     let value = if excess.value < 0.0 { format!("-{size}") } else { size };
     let what = match excess.limit {
         Limit::Position => {
-            let [value, allowed] = joint.told_apart([excess.value, excess.allowed]);
+            let [value, allowed] = joint.format_distinct([excess.value, excess.allowed]);
             format!("position {value} beyond {allowed}")
         }
         Limit::Velocity => format!("velocity {value} {unit}/s, at most {allowed}"),

@@ -106,7 +106,7 @@ fn paths_arrive_along_the_drift_unless_they_start_behind_the_goal() {
 
 /// The start in docs/fields.md whose path does not arrive along `v`, and some whose paths do.
 #[test]
-fn on_their_way_paths_bear_from_the_goal_as_the_closed_form_has_it() {
+fn path_bearings_agree_with_the_closed_form() {
     for (degrees, from) in [(180, [-7, -3]), (225, [-7, -3]), (0, [-7, -3]), (90, [-12, 0]), (0, [4, 12]), (0, [8, 4])]
     {
         let direction = f64::from(degrees).to_radians();

@@ -119,7 +119,7 @@ fn trapped_at(outcome: &Proposal) -> [f64; 2] {
 }
 
 #[test]
-fn four_times_the_charge_cures_the_trap_and_then_keeps_the_robot_from_the_goal() {
+fn a_fourfold_charge_removes_the_trap_and_then_blocks_the_goal() {
     const OPEN: &str = "................";
     const NARROW: &str = "#######..#######";
     let q = 0.8;

@@ -80,7 +80,7 @@ fn rates_in_empty_rectangles_are_the_closed_forms() {
 }
 
 #[test]
-fn central_differences_are_lost_where_the_closed_form_says_and_upwind_ones_are_not() {
+fn central_differences_fail_where_predicted_and_upwind_ones_do_not() {
     let cells = [12, 9];
     let domain = empty(cells);
     let gauss_seidel = Relaxation::gauss_seidel(ROWS);
@@ -192,7 +192,7 @@ proptest! {
     #![proptest_config(cplan_cases::cases(200))]
 
     #[test]
-    fn elimination_finds_what_dense_solution_finds(
+    fn elimination_agrees_with_a_dense_solution(
         (domain, equation) in random_domain().prop_flat_map(|d| { let n = d.kinds().len(); (Just(d), monotone(n)) })
     ) {
         let nonlinear = matches!(equation, Equation::Preference { .. } | Equation::AlteredPreference { .. });
@@ -207,7 +207,7 @@ proptest! {
     }
 
     #[test]
-    fn samples_are_what_relaxations_that_end_there_have(
+    fn samples_equal_relaxations_that_stop_there(
         (domain, equation) in random_domain().prop_flat_map(|d| { let n = d.kinds().len(); (Just(d), monotone(n)) }),
         relaxation in relaxation(),
         last in 1..12_usize,

@@ -28,7 +28,7 @@ fn oriented(epsilon: f64, difference: Difference) -> Equation {
 }
 
 #[test]
-fn a_factor_of_more_than_two_diverges_whatever_is_measured() {
+fn a_factor_above_two_diverges_for_every_measure() {
     for measure in MEASURES {
         for relaxation in
             [Relaxation::sor(Factor::Given(2.1), Order::Corners(Lines::Rows)), Relaxation::weighted_jacobi(1.2)]
@@ -71,7 +71,7 @@ fn numbers_that_are_none_are_never_converged() {
 }
 
 #[test]
-fn what_cannot_be_relaxed_is_refused() {
+fn invalid_relaxations_are_refused() {
     let domain = room();
     let refused = |equation: &Equation, relaxation: Relaxation, start: Vec<f64>| match relax_from(
         &domain,
@@ -113,12 +113,13 @@ fn a_clamp_keeps_over_relaxation_within_bounds() {
 }
 
 #[test]
-fn single_precision_rounds_what_is_kept_and_nothing_else() {
+fn single_precision_rounds_stored_values_only() {
     let domain = room();
     let order = Order::Lines(Scan::ROWS);
     let run = |precision: Precision, max_sweeps: usize| {
         let stopping = Stopping { max_sweeps, ..stopping(Measure::SumOfChange) };
-        relax(&domain, &Equation::Harmonic, &Relaxation::gauss_seidel(order).kept(precision), &stopping).unwrap()
+        relax(&domain, &Equation::Harmonic, &Relaxation::gauss_seidel(order).with_precision(precision), &stopping)
+            .unwrap()
     };
     for max_sweeps in [1, 5, 20] {
         let [double, single] = [Precision::Double, Precision::Single].map(|kept| run(kept, max_sweeps).values);
@@ -131,7 +132,7 @@ fn single_precision_rounds_what_is_kept_and_nothing_else() {
 }
 
 #[test]
-fn what_takes_too_long_says_so() {
+fn slow_relaxations_are_reported() {
     let stopping = Stopping { max_sweeps: 5, ..stopping(Measure::SumOfChange) };
     let field = relax(&room(), &Equation::Harmonic, &Relaxation::JACOBI, &stopping).unwrap();
     assert!(!field.converged());

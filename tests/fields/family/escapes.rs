@@ -37,7 +37,7 @@ fn stays_free(grid: &Grid, run: &Run) {
 }
 
 #[test]
-fn a_wave_and_a_walk_lead_out_of_the_u_and_say_so() {
+fn escapes_from_the_u_are_reported() {
     let (grid, start, goal) = u_trap();
     let zoned = ZonedGrid::new(grid, &scene(Vec::new()));
     assert!(reason(&run(by(None), &zoned, start, goal)).contains("local minimum at ("));
@@ -61,7 +61,7 @@ fn a_wave_and_a_walk_lead_out_of_the_u_and_say_so() {
 }
 
 #[test]
-fn a_way_that_meets_no_minimum_is_the_same_and_nothing_is_said() {
+fn paths_without_minima_are_unchanged() {
     let zoned = ZonedGrid::new(
         drawn("..............\n......##......\n......###.....\n..............\n.............."),
         &scene(Vec::new()),

@@ -52,7 +52,7 @@ fn potential(grid: &Grid, laws: &Khatib, goal: usize, cell: usize) -> f64 {
 }
 
 #[test]
-fn a_u_is_a_trap_and_the_local_minimum_is_told() {
+fn the_local_minimum_in_a_u_is_reported() {
     let (grid, start, goal) = u_trap();
     for attraction in ATTRACTIONS {
         for repulsion in REPULSIONS {

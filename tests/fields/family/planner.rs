@@ -167,7 +167,7 @@ fn a_positive_preference_keeps_out_of_a_region_and_a_negative_one_draws_in() {
 }
 
 #[test]
-fn where_doubles_end_the_planner_gives_up_and_says_where() {
+fn underflow_is_reported_with_its_place() {
     let zoned = ZonedGrid::new(grid([1, 1300], [false; 2], vec![false; 1300]), &scene(Vec::new()));
     let run = run(planner(EquationChoice::Harmonic, GAUSS_SEIDEL), &zoned, 1299, 0);
     let reason = reason(&run);
@@ -176,7 +176,7 @@ fn where_doubles_end_the_planner_gives_up_and_says_where() {
 }
 
 #[test]
-fn a_field_that_is_not_finished_says_so() {
+fn unconverged_fields_are_reported() {
     let zoned = ZonedGrid::new(drawn(&"..........\n".repeat(10)), &scene(Vec::new()));
     let hasty = |max_sweeps| {
         let relaxation = Relaxation::JACOBI;

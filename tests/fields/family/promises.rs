@@ -1,8 +1,8 @@
 //! Guarantees on random grids: the maximum principle, and that the goals are the only minima.
 
 use cplan::field::{
-    Boundary, Cell, Difference, Direction, Domain, Equation, Factor, Levels, Lines, Measure, Neighbor, Order,
-    Relaxation, Scan, Stopping, Stuck, descend, relax,
+    Boundary, Cell, DeadEnd, Difference, Direction, Domain, Equation, Factor, Levels, Lines, Measure, Neighbor, Order,
+    Relaxation, Scan, Stopping, descend, relax,
 };
 use proptest::prelude::*;
 
@@ -129,7 +129,7 @@ proptest! {
 /// Returns true if a path reaches a goal, or ends beside a cell whose value is equal up to rounding. Reflecting limits
 /// can make a field exactly level about a cell. Whether the computed values are then level too, or have a minimum by
 /// their last bit, is chance.
-fn leads(domain: &Domain, values: &[f64], way: &Result<Vec<usize>, Stuck>) -> bool {
+fn leads(domain: &Domain, values: &[f64], way: &Result<Vec<usize>, DeadEnd>) -> bool {
     let Err(stuck) = way else { return true };
     let level = |neighbor: Neighbor| matches!(neighbor, Neighbor::Cell(n) if (values[n] - stuck.value).abs() < 1e-14);
     domain.boundaries().contains(&Boundary::Reflecting) && domain.neighbors(stuck.cell).into_iter().any(level)
@@ -137,7 +137,7 @@ fn leads(domain: &Domain, values: &[f64], way: &Result<Vec<usize>, Stuck>) -> bo
 
 /// Found by the property above: a field that is level around the cell in the last row, except for rounding.
 #[test]
-fn a_field_that_rounding_keeps_from_being_level_is_told() {
+fn rounding_noise_in_flat_fields_is_reported() {
     let domain = drawn("G...\n...#\n....\n.#..", [Boundary::Reflecting; 2], Levels::PUBLISHED);
     let stopping = Stopping { measure: Measure::GreatestChange, below: 1e-15, max_sweeps: 30_000 };
     let relaxation = Relaxation::gauss_seidel(Order::Corners(Lines::Columns));
@@ -162,9 +162,9 @@ fn a_field_that_is_level_about_a_corner_is_crossed() {
     // Cells with the value of obstacles, or of goals, are not crossed; nor is a minimum.
     let at = |values: [f64; 9]| descend(&domain, &values, 0).unwrap_err();
     let zeros = [0.0, 0.0, 0.0, 0.0, 0.2, 0.3, 0.0, 0.3, 1.0];
-    assert_eq!(at(zeros), Stuck { cell: 0, value: 0.0, flat: true });
+    assert_eq!(at(zeros), DeadEnd { cell: 0, value: 0.0, flat: true });
     let ones = [1.0, 1.0, 0.0, 1.0, 1.0, 1.0, 0.0, 1.0, 1.0];
-    assert_eq!(at(ones), Stuck { cell: 0, value: 1.0, flat: true });
+    assert_eq!(at(ones), DeadEnd { cell: 0, value: 1.0, flat: true });
     let peak = [0.3, 0.1, 0.0, 0.1, 0.2, 0.3, 0.0, 0.3, 1.0];
-    assert_eq!(at(peak), Stuck { cell: 0, value: 0.3, flat: false });
+    assert_eq!(at(peak), DeadEnd { cell: 0, value: 0.3, flat: false });
 }

@@ -63,7 +63,7 @@ fn over_relaxed_values_never_pass_that_of_obstacles() {
         let lost = |relaxation: Relaxation| {
             let mut lost = 0;
             let stopping = Stopping { measure: Measure::SumOfChange, below: 0.01, max_sweeps: 1_000 };
-            let mut watch = |seen: cplan::field::Watched| {
+            let mut watch = |seen: cplan::field::SweepSnapshot| {
                 let is_past = |value: &&f64| if levels.obstacle > 0.5 { **value > 1.0 } else { **value < 0.0 };
                 lost += seen.values.iter().filter(is_past).count();
             };

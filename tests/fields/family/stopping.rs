@@ -16,7 +16,7 @@ fn measures(measure: Measure) -> Vec<f64> {
 }
 
 #[test]
-fn measures_are_what_their_names_say() {
+fn measures_match_their_definitions() {
     // The values are 0, 3/8, 9/16, 21/32.
     let changes = [f64::INFINITY, 0.375, 0.1875, 0.09375];
     assert_eq!(measures(Measure::SumOfChange), changes);

@@ -7,7 +7,7 @@ mod pictures;
 mod published;
 mod rectangles;
 
-use cplan::input::{InputError, Loaded, Overrides, World, load, load_scene};
+use cplan::input::{InputError, LoadedProblem, Overrides, World, load, load_scene};
 use std::fs;
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
@@ -31,7 +31,7 @@ fn world_in(folder: &TempDir) -> Result<World, InputError> {
 }
 
 /// Reads the problem of `world.toml`.
-fn problem_in(folder: &TempDir) -> Result<Loaded, InputError> {
+fn problem_in(folder: &TempDir) -> Result<LoadedProblem, InputError> {
     load(robot(), &folder.path().join("world.toml"), &Overrides::default())
 }
 

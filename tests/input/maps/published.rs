@@ -44,7 +44,7 @@ fn the_maps_have_the_lines_that_are_printed() {
 
 #[test]
 #[ignore = "needs the published data that CPLAN_REFERENCE names"]
-fn the_gantry_finds_its_way_in_all_three() {
+fn the_gantry_finds_paths_in_all_three_maps() {
     let data = published("data");
     // Map 1 with its goal in the lower left corner; maps 2 and 3 with the goal in the middle, where map 1 has a wall.
     for (map, preferences, start) in [(1, 1, [-9.0, 9.0]), (2, 2, [22.0, -22.0]), (3, 2, [8.0, -8.0])] {
@@ -62,7 +62,7 @@ fn the_gantry_finds_its_way_in_all_three() {
 
 #[test]
 #[ignore = "needs the published data that CPLAN_REFERENCE names"]
-fn there_is_no_way_out_of_a_letter() {
+fn no_path_leads_out_of_a_letter() {
     let data = published("data");
     let problem = problem(&data, 1, 1, [-9.0, 6.5]);
     for method in Method::ALL {

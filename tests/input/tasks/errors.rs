@@ -224,7 +224,7 @@ fn an_orientation_is_that_of_the_last_place() {
 }
 
 #[test]
-fn what_the_arm_cannot_do() {
+fn infeasible_steps() {
     let goal = "move = { joints = [0.1, 0.2] }";
     for (from, to, parts) in [
         (

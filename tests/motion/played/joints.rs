@@ -67,7 +67,7 @@ fn messages_name_every_movable_joint_of_the_robot() {
 }
 
 #[test]
-fn messages_name_the_planned_joints_alone_if_asked_to() {
+fn messages_can_name_only_the_planned_joints() {
     let run = rig(&["--joints", "planned"]);
     let message = files::yaml(&run.text("yaml"));
     assert_eq!(message.joints, ["shoulder", "elbow"]);

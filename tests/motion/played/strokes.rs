@@ -130,7 +130,7 @@ fn the_quill_goes_down_at_picks_and_places_and_nowhere_else() {
 }
 
 #[test]
-fn the_wrist_keeps_what_is_carried_level_and_turns_it() {
+fn the_wrist_levels_and_turns_the_payload() {
     let (run, _) = planned(&CELL.replace("STROKE", STROKE), &[]);
     let (message, result) = (files::yaml(&run.text("yaml")), run.json());
     // All three turn about z: the orientation of the flange is their sum.
@@ -153,7 +153,7 @@ fn the_wrist_keeps_what_is_carried_level_and_turns_it() {
 }
 
 #[test]
-fn what_the_lowered_tool_would_hit_is_seen() {
+fn collisions_of_the_lowered_tool_are_found() {
     // Beside the place, below everything that travels, and nearer than the width of the flange, which comes down to
     // 0.06 m.
     let post =

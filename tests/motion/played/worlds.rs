@@ -79,7 +79,7 @@ fn tasks() -> Vec<[PathBuf; 2]> {
 }
 
 #[test]
-fn what_a_controller_plays_of_every_shipped_world_is_certified() {
+fn interpolated_motions_of_shipped_worlds_are_certified() {
     let mut found = 0;
     for [robot, world] in shipped() {
         let name = world.file_stem().unwrap().to_str().unwrap().to_owned();
@@ -101,7 +101,7 @@ fn what_a_controller_plays_of_every_shipped_world_is_certified() {
 }
 
 #[test]
-fn what_a_controller_plays_of_every_shipped_task_is_certified() {
+fn interpolated_motions_of_shipped_tasks_are_certified() {
     let (mut found, mut dwells, mut accepted) = (0, 0, 0);
     for [robot, world] in tasks() {
         let name = world.file_stem().unwrap().to_str().unwrap().to_owned();
@@ -134,7 +134,7 @@ fn what_a_controller_plays_of_every_shipped_task_is_certified() {
 }
 
 #[test]
-fn what_a_controller_plays_in_random_worlds_is_certified() {
+fn interpolated_motions_in_random_worlds_are_certified() {
     let seeds = seeds(12);
     let count = seeds.end - seeds.start;
     let robot = root("robots/planar_2r.urdf");

@@ -38,16 +38,16 @@ const ENDS: usize = 3;
 const TRIES: usize = 200;
 
 /// Size above which certificates are not falsified, because it takes long and shows nothing new.
-const MOST_BOXES: usize = 30;
+const MAX_BOXES: usize = 30;
 
 /// Certificates to falsify, at the fewest.
 const FEWEST: usize = 3;
 
 /// Largest number of seeds whose certificates are falsified.
-const MOST_SEEDS: usize = 240;
+const MAX_SEEDS: usize = 240;
 
 /// An infeasible problem and its certificate.
-struct Closed {
+struct InfeasibleExplanation {
     drawn: Drawn,
     certificate: String,
 }
@@ -67,7 +67,7 @@ struct Tally {
 }
 
 /// Plans in a world between several starts and goals, and returns the infeasible problems, with valid certificates.
-fn closed(seed: u64, tally: &mut Tally) -> Vec<Closed> {
+fn closed(seed: u64, tally: &mut Tally) -> Vec<InfeasibleExplanation> {
     let mut dice = Dice::new(seed.wrapping_mul(0x2545_F491_4F6C_DD1D));
     let kind = seed % KINDS;
     let mut drawn = Drawn::new(&mut dice, kind);
@@ -115,7 +115,7 @@ fn closed(seed: u64, tally: &mut Tally) -> Vec<Closed> {
         tally.tips += usize::from(matches!(drawn.goal, Goal::Tip(_)));
         tally.boxes += count;
         tally.largest = tally.largest.max(certificate.len());
-        found.push(Closed { drawn: drawn.clone(), certificate });
+        found.push(InfeasibleExplanation { drawn: drawn.clone(), certificate });
     }
     found
 }
@@ -124,7 +124,7 @@ fn closed(seed: u64, tally: &mut Tally) -> Vec<Closed> {
 fn certificates_of_random_worlds_hold() {
     let mut tally = Tally::default();
     for seed in seeds(24) {
-        for Closed { drawn, certificate } in closed(seed, &mut tally) {
+        for InfeasibleExplanation { drawn, certificate } in closed(seed, &mut tally) {
             let read: Value = serde_json::from_str(&certificate).unwrap();
             assert_eq!(oracle::lie(&drawn, &read), None, "seed {seed}: the oracle");
         }
@@ -138,7 +138,7 @@ fn certificates_of_random_worlds_hold() {
 }
 
 /// Changes something in the certificate, or in the files that it is checked against.
-fn falsify(dice: &mut Dice, Closed { drawn, certificate }: &Closed) -> (Drawn, Value) {
+fn falsify(dice: &mut Dice, InfeasibleExplanation { drawn, certificate }: &InfeasibleExplanation) -> (Drawn, Value) {
     let (mut drawn, mut value): (Drawn, Value) = (drawn.clone(), serde_json::from_str(certificate).unwrap());
     let scale = drawn.scale;
     let moved = |dice: &mut Dice, x: f64, unit: f64| match dice.below(6) {
@@ -347,11 +347,11 @@ fn falsified_certificates_are_refused_or_true() {
     // Some worlds are infeasible: tries more until there is enough to falsify.
     let drawn = seeds(24);
     for seed in drawn.start.. {
-        if seed - drawn.start >= (MOST_SEEDS as u64).min(drawn.end - drawn.start) && pool.len() >= FEWEST {
+        if seed - drawn.start >= (MAX_SEEDS as u64).min(drawn.end - drawn.start) && pool.len() >= FEWEST {
             break;
         }
         pool.extend(
-            closed(seed, &mut tally).into_iter().filter(|c| c.certificate.matches("\"lower\"").count() <= MOST_BOXES),
+            closed(seed, &mut tally).into_iter().filter(|c| c.certificate.matches("\"lower\"").count() <= MAX_BOXES),
         );
     }
     let (mut held, mut failed, mut input, mut spelled) = (0_u64, 0_u64, 0_u64, 0_u64);

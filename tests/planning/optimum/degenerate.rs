@@ -4,7 +4,7 @@ use super::{LIMITS, ROUNDING, bound, metrics};
 use crate::common::{arm, asked, convex, disc, joint, link, q, rectangle, rr, scene};
 use cplan::geometry::{Convex, Point, Vector};
 use cplan::model::{JointType, MotionProblem};
-use cplan::search::{Motions, least_length};
+use cplan::search::{MotionQuery, least_length};
 use cplan::space::{Configuration, JointRange, Metric};
 use std::f64::consts::{PI, TAU};
 
@@ -25,7 +25,7 @@ fn assert_straight(axes: [JointRange; 2], start: Configuration, goals: &[Configu
         for factor in LIMITS {
             let limit = factor * straight.max(0.1);
             let found = least_length(
-                &Motions { scene: &scene, start, goals: &goals.iter().copied().collect(), clearance: 0.0, metric },
+                &MotionQuery { scene: &scene, start, goals: &goals.iter().copied().collect(), clearance: 0.0, metric },
                 limit,
                 1e-4,
                 &[],
@@ -40,7 +40,7 @@ fn assert_straight(axes: [JointRange; 2], start: Configuration, goals: &[Configu
 }
 
 #[test]
-fn without_obstacles_ways_are_straight() {
+fn without_obstacles_paths_are_straight() {
     assert_straight(CIRCLES, q(-3.0, 0.0), &[q(3.0, 0.5)]);
     assert_straight(CIRCLES, q(-3.0, 3.0), &[q(3.0, -3.0), q(0.0, 0.0)]);
     assert_straight(CIRCLES, q(9.0, -14.0), &[q(-2.0, 1.0), q(1.0, 1.0), q(100.0, 3.0)]);
@@ -146,7 +146,7 @@ fn the_same_to_the_last_bit() {
 /// collision interval leaves the lower limit of joint 2 and enters at the upper one, a turn away. All along, the elbow
 /// is in the link, and in no obstacle.
 #[test]
-fn what_is_in_the_link_all_along_closes_nothing() {
+fn permanent_contact_closes_nothing() {
     let (far, half, radius) = (0.9_f64, 0.1_f64, 0.1);
     // Link and obstacle are segments grown by the radius; the link just touches an end of the obstacle's.
     let touching = (half / far).atan() + (2.0 * radius / far.hypot(half)).asin();

@@ -91,7 +91,7 @@ fn around_a_disc() {
 
 /// A wall from side to side leaves no path, so the bound exceeds any limit.
 #[test]
-fn no_way_is_longer_than_any_limit() {
+fn no_path_is_shorter_than_any_limit() {
     let problem = square(vec![rectangle(-0.1, 0.1, -3.0, 3.0)], q(-1.0, 0.0), q(1.0, 0.0));
     for limit in [3.0, 50.0] {
         let found = bound(&problem, Metric::Euclidean, limit, 1e-4);

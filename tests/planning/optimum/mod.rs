@@ -9,7 +9,7 @@ mod shipped;
 mod worlds;
 
 use cplan::model::MotionProblem;
-use cplan::search::{Motions, least_length};
+use cplan::search::{MotionQuery, least_length};
 use cplan::space::Metric;
 
 /// Relative error that rounding may add to a length.
@@ -22,7 +22,7 @@ const LIMITS: [f64; 2] = [3.0, 10.0];
 fn bound(problem: &MotionProblem, metric: Metric, limit: f64, gap: f64) -> f64 {
     let (scene, start, goals) = (problem.scene(), problem.start(), problem.goals());
     let clearance = scene.workspace().clearance;
-    least_length(&Motions { scene, start, goals, clearance, metric }, limit, gap, &[])
+    least_length(&MotionQuery { scene, start, goals, clearance, metric }, limit, gap, &[])
 }
 
 /// Returns the metrics: Euclidean, weighted, and time.

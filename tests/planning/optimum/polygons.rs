@@ -120,7 +120,7 @@ proptest! {
     #![proptest_config(cplan_cases::cases(200))]
 
     #[test]
-    fn no_way_among_polygons_is_shorter_than_the_bound(
+    fn no_path_among_polygons_is_shorter_than_the_bound(
         polygons in prop::collection::vec(polygon(), 1..9), oblique in prop_oneof![Just(TAU / 4.0), 0.5..2.6_f64],
         first in prop_oneof![Just(0.0), 0.0..TAU], start in (-REACH..=REACH, -REACH..=REACH),
         goals in prop::collection::vec((-REACH..=REACH, -REACH..=REACH), 1..4),

@@ -71,7 +71,7 @@ fn obstacle() -> impl Strategy<Value = Convex> {
 /// The walls of a pair part and meet within a strip. Level barriers through all of them once closed the path by
 /// mistake, because the elbow, in the link all along, counted as in the obstacle.
 #[test]
-fn walls_that_part_and_meet_close_no_way() {
+fn walls_that_part_and_meet_block_no_path() {
     for gap in [1e-2, 1e-4] {
         keeps_below(&world::world("PR", 5_703_491_533_213_168_642).unwrap(), gap);
     }

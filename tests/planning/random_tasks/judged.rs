@@ -30,7 +30,7 @@ fn is_free(step: &ReplayedStep) -> bool {
 }
 
 #[test]
-fn what_is_planned_is_judged_free() {
+fn planned_tasks_are_judged_free() {
     let count = times(100);
     let options = Options { drive: Drive::default(), ..options() };
     let (mut done, mut turns, mut refuted) = (0_u64, 0_u64, 0_u64);

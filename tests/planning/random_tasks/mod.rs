@@ -31,7 +31,7 @@ fn options() -> Options {
 }
 
 #[test]
-fn what_is_planned_can_be_done() {
+fn planned_tasks_are_feasible() {
     let mut found = Count::default();
     for seed in seeds(200) {
         let task = task::task(seed);
@@ -54,7 +54,7 @@ fn what_is_planned_can_be_done() {
 
 /// The oracle does refuse plans: those for smaller objects are not valid for larger ones, nor for other targets.
 #[test]
-fn what_is_planned_for_another_task_is_refused() {
+fn recordings_of_another_task_are_refused() {
     let (mut larger, mut elsewhere, mut done) = (0, 0, 0);
     for seed in seeds(40) {
         let task = task::task(seed);

@@ -200,7 +200,7 @@ fn is_true(problem: &MotionProblem, sensor: &Sensor, done: &Exploration) -> &'st
 }
 
 #[test]
-fn explorations_say_what_is_true() {
+fn explorations_report_true_results() {
     let worlds: Option<u64> = std::env::var("CPLAN_WORLDS").ok().map(|n| n.parse().expect("a number of worlds"));
     let mut endings = std::collections::BTreeMap::<&str, usize>::new();
     let mut lengths = [const { Vec::new() }; 3];

@@ -6,7 +6,7 @@ use cplan::model::{Carrier, JointType, Scene};
 use cplan::space::{Configuration, Path};
 
 /// A part of a link and the obstacles that it can hit.
-struct Mover {
+struct MovingObstacle {
     /// 0 or 1; 2 for link 2 with joint 1 at zero, which can hit obstacles fixed to link 1.
     link: usize,
     solid: Solid,
@@ -23,7 +23,7 @@ pub struct Oracle {
     motions: [JointType; 2],
     base: V,
     offset: V,
-    movers: Vec<Mover>,
+    movers: Vec<MovingObstacle>,
     obstacles: Vec<Solid>,
     clearance: f64,
     /// Lower and upper value of each axis; whether it is a circle.
@@ -96,10 +96,10 @@ impl Oracle {
                 let own = || standing as u16..obstacles.len() as u16;
                 let stand = own().filter(|i| hits(i, Carrier::Base));
                 let all = (0..standing as u16).filter(meets).chain(stand).collect();
-                movers.push(Mover { link, solid, obstacles: all, speed: [first, second] });
+                movers.push(MovingObstacle { link, solid, obstacles: all, speed: [first, second] });
                 let carried: Vec<u16> = own().filter(|i| link == 1 && hits(i, Carrier::FirstJoint)).collect();
                 if !carried.is_empty() {
-                    movers.push(Mover { link: 2, solid, obstacles: carried, speed: [0.0, second] });
+                    movers.push(MovingObstacle { link: 2, solid, obstacles: carried, speed: [0.0, second] });
                 }
             }
         }

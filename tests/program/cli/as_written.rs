@@ -47,7 +47,7 @@ fn rings_that_repeat_points_are_the_rings_without() {
 }
 
 #[test]
-fn preferred_regions_are_read_like_obstacles_and_verify_says_so() {
+fn preferred_regions_are_read_like_obstacles_and_noted_by_verify() {
     let place = Place::new();
     let robot = shipped("robots/planar_2r.urdf");
     let wish = |shape: &str| format!("{FREE}[[preference]]\nname = \"wish\"\nepsilon = 0.3\n{shape}\n");
@@ -155,7 +155,7 @@ fn arm(limit: &str) -> String {
 const TURN: &str = "[start]\njoints = [0, 1]\n[goal]\njoints = [1, -1]\n";
 
 #[test]
-fn speeds_that_nobody_gives_are_assumed_and_said() {
+fn missing_speeds_are_assumed_and_reported() {
     let place = Place::new();
     place.write("world.toml", TURN);
     let run = |urdf: String, options: &str| {

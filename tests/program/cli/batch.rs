@@ -17,7 +17,7 @@ impl Done {
 }
 
 #[test]
-fn rows_are_what_the_main_job_says() {
+fn rows_equal_the_results_of_plan() {
     let place = Place::new();
     let [urdf, world] = shelf();
     let walled = shipped("workspaces/singular_closed.toml");

@@ -28,7 +28,7 @@ fn closed() -> Vec<(String, String)> {
 }
 
 #[test]
-fn every_shipped_world_without_a_way_has_a_certificate_that_holds() {
+fn every_infeasible_shipped_world_has_a_valid_certificate() {
     let closed = closed();
     assert!(closed.len() >= 7, "{closed:?}");
     for (world, robot) in closed {
@@ -60,7 +60,7 @@ fn every_shipped_world_without_a_way_has_a_certificate_that_holds() {
 }
 
 #[test]
-fn what_is_asked_on_the_command_line_is_in_the_certificate() {
+fn the_certificate_states_the_query_of_the_command_line() {
     let place = Place::new();
     let files = [shipped("robots/planar_2r.urdf"), shipped("workspaces/limits_closed.toml")];
     let done = place.run(&files, "--quiet --certificate c.json --start 0.4,10deg --goal 2.5,0.1 --clearance 0.01");
@@ -109,7 +109,7 @@ fn start_of(world: &str) -> Value {
 
 /// The robot stands elsewhere, and the world with it: everything is turned to the left and moved by (2, -1).
 #[test]
-fn a_robot_that_stands_elsewhere_has_a_certificate_too() {
+fn moved_robots_have_certificates() {
     let place = Place::new();
     place.write(
         "world.toml",
@@ -132,7 +132,7 @@ fn a_robot_that_stands_elsewhere_has_a_certificate_too() {
 
 /// The links have only visual geometry, or no shapes, so that bars replace them.
 #[test]
-fn whatever_stands_for_a_link_is_named() {
+fn every_shape_of_a_link_is_named() {
     let place = Place::new();
     let whole = std::fs::read_to_string(shipped("robots/planar_2r_continuous.urdf")).unwrap();
     let world = std::fs::read_to_string(shipped("workspaces/no_path.toml")).unwrap();

@@ -33,7 +33,7 @@ fn altered(certificate: &str, alter: impl FnOnce(&mut Vec<Value>)) -> String {
 }
 
 #[test]
-fn every_shipped_world_with_a_way_has_a_certificate_that_holds() {
+fn every_solved_shipped_world_has_a_valid_certificate() {
     let open = open();
     assert!(open.len() >= 20, "{open:?}");
     let mut bounds = 0;
@@ -76,7 +76,7 @@ fn every_shipped_world_with_a_way_has_a_certificate_that_holds() {
 }
 
 #[test]
-fn what_is_played_and_what_is_asked_is_in_the_certificate() {
+fn the_certificate_states_motion_and_query() {
     let place = Place::new();
     let files = shelf();
     let said = |options: &str| {
@@ -120,7 +120,7 @@ fn motions_of_every_planner_hold() {
 }
 
 #[test]
-fn a_motion_where_nothing_is_in_the_way() {
+fn a_motion_without_obstacles() {
     let place = Place::new();
     let done = place.plan(FREE, "--quiet --certificate c.json");
     assert_eq!(done.code, 0, "{}", done.stderr);

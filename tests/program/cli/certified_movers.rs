@@ -13,7 +13,7 @@ const WORLDS: [&str; 8] =
     ["belt_pick", "belt_stop", "cart_in_task", "conveyor", "crossing", "gate", "swing", "traffic"];
 
 #[test]
-fn every_shipped_motion_among_what_moves_has_a_certificate_that_holds() {
+fn every_shipped_motion_among_moving_obstacles_has_a_valid_certificate() {
     let robot = shipped("robots/planar_2r.urdf");
     for name in WORLDS {
         let (place, world) = (Place::new(), shipped(&format!("workspaces/moving/{name}.toml")));
@@ -99,7 +99,7 @@ fn drawn(dice: &mut Dice) -> String {
 }
 
 #[test]
-fn certificates_among_random_movers_hold() {
+fn certificates_among_random_moving_obstacles_hold() {
     let (robot, mut found, mut waited) = (shipped("robots/planar_2r.urdf"), 0, 0);
     for seed in seeds(24) {
         let (place, mut dice) = (Place::new(), Dice::new(seed ^ 0x6d6f_7665));
@@ -120,7 +120,7 @@ fn certificates_among_random_movers_hold() {
 
 /// The object stands still on a part of its trajectory. There it has no direction.
 #[test]
-fn what_waits_out_of_reach_is_never_within_reach() {
+fn obstacles_waiting_out_of_reach_stay_out_of_reach() {
     let place = Place::new();
     let urdf = shipped("robots/planar_2r.urdf");
     let world = "[start]\njoints = [0.4, 1.0]\n[[object]]\nname = \"p\"\ncircle = { center = [0, 0], radius = 0.05 }\nat = [2.5, 0.0]\n\

@@ -255,7 +255,7 @@ fn worlds_whose_numbers_are_no_doubles() {
 /// The links that a wrist turns cover a disc, and at all angles a smaller one. The program refuses a link away from the
 /// wrist's axis, and one that mimics a joint of the arm or the tool.
 #[test]
-fn what_moves_besides_the_arm() {
+fn other_joints_that_move() {
     let place = Place::new();
     let bar = |at: &str| {
         format!(

@@ -245,7 +245,7 @@ fn every_file_is_written_or_none() {
     let json: Value = serde_json::from_str(&place.read("r.json")).unwrap();
     assert_eq!(json["problems"].as_array().unwrap().len(), 2);
     assert!(place.read("r.log").ends_with("\n.\n"));
-    well_formed(&place.read("r.html"));
+    check_knots(&place.read("r.html"));
     for (options, code, part) in [
         ("--output new.txt", 2, ".md, .csv, .json, .html or .log"),
         ("--output new.md --output new.md", 1, "are the same file"),
@@ -260,7 +260,7 @@ fn every_file_is_written_or_none() {
 }
 
 /// Checks that HTML is also XML, as our pages must be, and counts its figures.
-fn well_formed(html: &str) -> usize {
+fn check_knots(html: &str) -> usize {
     let body = html.strip_prefix("<!DOCTYPE html>\n").expect("a page");
     let document = roxmltree::Document::parse(body).unwrap_or_else(|e| panic!("{e}: {html}"));
     for node in document.descendants() {
@@ -284,11 +284,11 @@ fn odd_names_stay_names_in_the_page() {
     assert_eq!(done.code, 0, "{}", done.stderr);
     let html = place.read("page.html");
     assert!(html.contains("&lt;b&gt;&amp;&quot;]]&gt;") && !html.contains("<b>"));
-    assert!(well_formed(&html) >= 5);
+    assert!(check_knots(&html) >= 5);
     let queries = place.run(&files, &format!("{QUICK} --queries 3 --output page.html"));
     assert_eq!(queries.code, 0, "{}", queries.stderr);
     let html = place.read("page.html");
-    assert!(well_formed(&html) >= 5 && html.contains("id=\"blocked0\""));
+    assert!(check_knots(&html) >= 5 && html.contains("id=\"blocked0\""));
 }
 
 #[test]

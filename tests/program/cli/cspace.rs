@@ -8,7 +8,7 @@ fn schema() -> String {
 }
 
 #[test]
-fn the_kept_schema_is_the_one_of_the_program() {
+fn the_committed_schema_is_up_to_date() {
     let printed = Place::new().run(&["schema", "cspace"], "");
     assert_eq!((printed.code, printed.stdout), (0, schema()), "run `cplan schema cspace > docs/cspace.schema.json`");
 }

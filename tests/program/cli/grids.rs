@@ -18,7 +18,7 @@ fn matrix(place: &Place, options: &str) -> Vec<Vec<f64>> {
 }
 
 /// Number of cells with a label.
-fn labelled(matrix: &[Vec<f64>]) -> usize {
+fn labeled(matrix: &[Vec<f64>]) -> usize {
     matrix.iter().flatten().filter(|value| value.is_finite()).count()
 }
 
@@ -27,17 +27,17 @@ fn labelled(matrix: &[Vec<f64>]) -> usize {
 fn a_search_from_the_start_with_ties_first_labels_the_published_50_cells() {
     let place = Place::new();
     let wave = matrix(&place, "");
-    assert_eq!((wave.len(), wave[0].len(), labelled(&wave)), (20, 12, 110));
+    assert_eq!((wave.len(), wave[0].len(), labeled(&wave)), (20, 12, 110));
     // Start and goal, row by row from the top, and the blocked corner.
     assert_eq!((wave[4][2], wave[18][10], wave[0][0]), (22.0, 0.0, f64::INFINITY));
     let costs = matrix(&place, "--search astar --forward --ties first");
-    assert_eq!((costs[4][2], costs[18][10], labelled(&costs)), (0.0, 22.0, 50));
+    assert_eq!((costs[4][2], costs[18][10], labeled(&costs)), (0.0, 22.0, 50));
     // The dead end beside the start has labels, other cells do not.
     assert_eq!((costs[3][2], costs[3][3], costs[5][1]), (1.0, 2.0, 2.0));
     assert!(costs[1][1].is_nan() && costs[19][11].is_infinite());
     // The other rule for ties, and a search from the other end, label fewer and different cells.
-    assert_eq!(labelled(&matrix(&place, "--search astar --forward")), 41);
-    assert_eq!(labelled(&matrix(&place, "--search astar")), 40);
+    assert_eq!(labeled(&matrix(&place, "--search astar --forward")), 41);
+    assert_eq!(labeled(&matrix(&place, "--search astar")), 40);
 }
 
 /// Compares all of both matrices, cell by cell.

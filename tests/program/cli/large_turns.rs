@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::common::{random, recheck};
-use cplan::check::{Cell, ProofError, StuckBox};
+use cplan::check::{Cell, CollisionBox, ProofError};
 use cplan::input::{LoadedScene, load_scene};
 use cplan::model::Pair;
 use cplan::space::Configuration;
@@ -43,9 +43,9 @@ fn starts(last_free: f64) -> impl Iterator<Item = (f64, f64)> {
 }
 
 /// Returns a tiny box around a configuration in which the first link is in the wall.
-fn stuck(q1: f64) -> StuckBox {
+fn stuck(q1: f64) -> CollisionBox {
     let cell = Cell { lower: [q1 - 1e-14, FOLDED - 1e-14], upper: [q1 + 1e-14, FOLDED + 1e-14] };
-    StuckBox { cell, pair: Pair { link: 0, part: 0, obstacle: 0, piece: 0 } }
+    CollisionBox { cell, pair: Pair { link: 0, part: 0, obstacle: 0, piece: 0 } }
 }
 
 #[test]
@@ -67,7 +67,7 @@ fn a_start_half_a_million_radians_from_zero_is_not_moved_into_a_stuck_box() {
 
     // Through the front door.
     let (start, careless) = candidates[0];
-    let StuckBox { cell, .. } = stuck(careless);
+    let CollisionBox { cell, .. } = stuck(careless);
     place.write(
         "proof.json",
         format!(

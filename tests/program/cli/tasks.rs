@@ -1,7 +1,7 @@
 //! Worlds with steps.
 
 use super::{Done, Place, shipped};
-use cplan::check::limits_kept;
+use cplan::check::limit_violations;
 use cplan::input::load_scene;
 use cplan::model::Arm;
 use cplan::space::{Configuration, Recording};
@@ -90,7 +90,7 @@ fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
 fn moves_within_limits(arm: &Arm, time: &[f64], position: &[[f64; 2]], velocity: &[[f64; 2]]) {
     let vectors = |rows: &[[f64; 2]]| rows.iter().map(|row| Configuration::new(row[0], row[1])).collect();
     let recording = Recording::new(vectors(position), Some(time.to_vec()), Some(vectors(velocity))).unwrap();
-    assert_eq!(limits_kept(&arm.joints, &recording), []);
+    assert_eq!(limit_violations(&arm.joints, &recording), []);
 }
 
 /// Checks everything that holds for every finished task.

@@ -176,7 +176,7 @@ fn a_proof_is_shown_where_it_is() {
         panic!("walls of link 1 close the way")
     };
     let proof = claim.checked(&scene, start, &goal.into(), 0.0).expect("the proof holds");
-    let corners = proof.stuck().iter().flat_map(|stuck| [stuck.cell.lower, stuck.cell.upper]).flatten();
+    let corners = proof.collision_boxes().iter().flat_map(|stuck| [stuck.cell.lower, stuck.cell.upper]).flatten();
     let corners: Vec<f64> = corners.collect();
     let picture = Picture { proof: Some(&proof), ending: Some(Status::Infeasible), ..bare(&scene, &[]) };
     let value = inspected("page_proof", &View::of_picture(&picture));

@@ -2,7 +2,7 @@
 //! formulas.
 
 use crate::common::rr;
-use cplan::check::{Limit, limits_kept};
+use cplan::check::{Limit, limit_violations};
 use cplan::input::{load_recording, load_scene};
 use cplan::model::Joint;
 use cplan::space::{Configuration, Derivative, Interpolation, JointRange, Recording};
@@ -122,7 +122,7 @@ proptest! {
             for (joint, greatest) in joints.iter_mut().zip(greatest) {
                 (joint.velocity, joint.acceleration) = (greatest[1] * factor, greatest[2].max(1e-3) * factor);
             }
-            let found = limits_kept(&joints, &recording);
+            let found = limit_violations(&joints, &recording);
             move |joint: usize, limit: Limit| found.iter().any(|e| e.joint == joint && e.limit == limit)
         };
         let (above, below) = (broken(1.001), broken(0.999));

@@ -1,6 +1,6 @@
 //! The program's own outputs in all formats, unchanged and tampered with.
 
-use cplan::check::{CollisionCheck, Excess, Limit, check_collision, limits_kept};
+use cplan::check::{CollisionCheck, Limit, LimitViolation, check_collision, limit_violations};
 use cplan::engine::{Method, Plan, Problem, plan};
 use cplan::input::{self, LoadedScene, Overrides, load_recording, load_scene};
 use cplan::model::RobotJoints;
@@ -40,9 +40,9 @@ fn read(scene: &LoadedScene, name: &str, content: impl AsRef<[u8]>) -> Recording
     load_recording(&file, scene).unwrap_or_else(|e| panic!("{e}")).recording
 }
 
-fn judge(scene: &LoadedScene, recording: &Recording) -> (CollisionCheck, Vec<Excess>) {
+fn judge(scene: &LoadedScene, recording: &Recording) -> (CollisionCheck, Vec<LimitViolation>) {
     let clearance = scene.scene.workspace().clearance;
-    (check_collision(&scene.scene, recording, clearance), limits_kept(&scene.scene.arm().joints, recording))
+    (check_collision(&scene.scene, recording, clearance), limit_violations(&scene.scene.arm().joints, recording))
 }
 
 #[test]
@@ -104,7 +104,7 @@ fn tampered_results_are_caught() {
         change(&mut motion);
         motion
     };
-    let kinds = |broken: &[Excess]| broken.iter().map(|e| (e.joint, e.limit)).collect::<Vec<_>>();
+    let kinds = |broken: &[LimitViolation]| broken.iter().map(|e| (e.joint, e.limit)).collect::<Vec<_>>();
 
     // Twice as fast in the same shape: speeds double, accelerations quadruple.
     let fast = with(&|t| {

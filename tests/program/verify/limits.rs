@@ -1,7 +1,7 @@
 //! Limits of recorded motions, also between the samples.
 
 use crate::common::{q, rr};
-use cplan::check::{Excess, Limit, limits_kept};
+use cplan::check::{Limit, LimitViolation, limit_violations};
 use cplan::model::Joint;
 use cplan::space::{Configuration, Derivative, JointRange, Recording};
 use proptest::prelude::*;
@@ -11,11 +11,11 @@ fn joints() -> [Joint; 2] {
     rr([JointRange::Interval { lower: -1.0, upper: 1.0 }; 2]).joints
 }
 
-fn judged(times: &[f64], position: Vec<Configuration>, velocity: Option<Vec<Configuration>>) -> Vec<Excess> {
-    limits_kept(&joints(), &Recording::new(position, Some(times.to_vec()), velocity).unwrap())
+fn judged(times: &[f64], position: Vec<Configuration>, velocity: Option<Vec<Configuration>>) -> Vec<LimitViolation> {
+    limit_violations(&joints(), &Recording::new(position, Some(times.to_vec()), velocity).unwrap())
 }
 
-fn only(found: &[Excess]) -> Excess {
+fn only(found: &[LimitViolation]) -> LimitViolation {
     assert_eq!(found.len(), 1, "{found:?}");
     found[0]
 }
@@ -27,7 +27,7 @@ fn a_cubic_that_leaves_the_range_between_its_samples() {
     let found = judged(&[0.0, 1.0], vec![q(0.0, 0.95); 2], velocity);
     let out: Vec<_> = found.iter().filter(|e| e.limit == Limit::Position).collect();
     assert_eq!(out.len(), 1);
-    let Excess { joint, value, allowed, moment, .. } = *out[0];
+    let LimitViolation { joint, value, allowed, moment, .. } = *out[0];
     assert_eq!((joint, allowed, moment.sample), (1, 1.0, 0));
     assert!((value - 1.075).abs() < 1e-12 && (moment.time - 0.5).abs() < 1e-9, "{value} at {}", moment.time);
     let rest: Vec<_> = found.iter().map(|e| e.limit).filter(|l| *l != Limit::Position).collect();
@@ -50,11 +50,11 @@ fn a_cubic_that_is_too_fast_between_its_samples() {
 #[test]
 fn without_velocities_the_mean_ones_are_judged() {
     let found = judged(&[0.0, 1.0, 1.25], vec![q(0.0, 0.0), q(0.5, 0.0), q(0.8, -0.1)], None);
-    let Excess { joint, limit, value, moment, .. } = only(&found);
+    let LimitViolation { joint, limit, value, moment, .. } = only(&found);
     assert_eq!((joint, limit, moment.sample), (0, Limit::Velocity, 1));
     assert!((value - 1.2).abs() < 1e-12);
     let path = Recording::new(vec![q(0.0, 0.0), q(0.5, 0.0), q(0.8, 1.2)], None, None).unwrap();
-    let Excess { joint, limit, value, moment, .. } = only(&limits_kept(&joints(), &path));
+    let LimitViolation { joint, limit, value, moment, .. } = only(&limit_violations(&joints(), &path));
     assert_eq!((joint, limit, value, moment.time), (1, Limit::Position, 1.2, 2.0));
 }
 
@@ -70,7 +70,7 @@ fn a_single_sample_may_not_move() {
 
 /// Judges a constant acceleration `a` from rest for 0.25 s and the same back, every `h` seconds, with numbers rounded
 /// to `decimals`.
-fn ramps(a: f64, h: f64, decimals: i32) -> Vec<Excess> {
+fn ramps(a: f64, h: f64, decimals: i32) -> Vec<LimitViolation> {
     let round = |v: f64| (v * 10f64.powi(decimals)).round() / 10f64.powi(decimals);
     let n = (0.5 / h).round() as u32;
     let times: Vec<f64> = (0..=n).map(|k| round(f64::from(k) * h)).collect();
@@ -167,7 +167,7 @@ proptest! {
                 seen = [seen[0].max(of(Derivative::Velocity)), seen[1].max(of(Derivative::Acceleration))];
             }
         }
-        let found = limits_kept(&joints(), &recording);
+        let found = limit_violations(&joints(), &recording);
         let is_found = |limit| found.iter().any(|e| e.joint == 0 && e.limit == limit);
         for (limit, seen, allowed) in [(Limit::Velocity, seen[0], 1.0), (Limit::Acceleration, seen[1], 4.0)] {
             if seen > 1.02 * allowed + 1e-3 {

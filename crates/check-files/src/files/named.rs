@@ -7,7 +7,7 @@ use std::io::Read as _;
 use std::path::Path;
 
 /// Maximum size of a file, bytes.
-const LARGEST: u64 = 256 << 20;
+const MAX_FILE_BYTES: u64 = 256 << 20;
 
 impl Files {
     /// Returns the path of the URDF or the world. Other files lie relative to it.
@@ -28,13 +28,13 @@ impl Files {
             return Err(CheckError::in_file(of, format!("{} cannot be read: there is no such file", path.display())));
         }
         let mut bytes = Vec::new();
-        let read = File::open(path).and_then(|file| file.take(LARGEST + 1).read_to_end(&mut bytes));
+        let read = File::open(path).and_then(|file| file.take(MAX_FILE_BYTES + 1).read_to_end(&mut bytes));
         let name = path.display();
         read.map_err(|error| CheckError::in_file(of, format!("{name} cannot be read: {error}")))?;
-        if bytes.len() as u64 > LARGEST {
-            return Err(CheckError::in_file(of, format!("{name} is larger than {} MiB", LARGEST >> 20)));
+        if bytes.len() as u64 > MAX_FILE_BYTES {
+            return Err(CheckError::in_file(of, format!("{name} is larger than {} MiB", MAX_FILE_BYTES >> 20)));
         }
-        let is_said = |said: &Vec<String>| said.iter().any(|said| said.eq_ignore_ascii_case(&digest(&bytes)));
+        let is_said = |stated: &Vec<String>| stated.iter().any(|stated| stated.eq_ignore_ascii_case(&digest(&bytes)));
         match self.others.as_ref().is_none_or(is_said) {
             true => Ok(bytes),
             false => CheckError::fails(format!("it is about another {name}, whose SHA-256 is not in \"others\"")),

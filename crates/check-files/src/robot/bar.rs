@@ -1,18 +1,18 @@
 //! Bars that replace links without geometry.
 
 use super::Robot;
-use super::tree::Read;
+use super::tree::ReadResult;
 use cplan_check::decimal::Decimal;
 use cplan_check::interval::Interval;
 use cplan_check::overlap::Shape;
-use cplan_check::shapes::{Body, Counted};
+use cplan_check::shapes::{Body, CollisionShape};
 use cplan_check::{CheckError, Input};
 use num_bigint::Sign;
 use std::collections::BTreeSet;
 
 impl Robot<'_> {
     /// Makes the bar: all points within a radius of the segment from a joint to the next joint or to the tip.
-    pub(super) fn bar(&self, last: usize, radius: &Decimal) -> Read<Counted> {
+    pub(super) fn bar(&self, last: usize, radius: &Decimal) -> ReadResult<CollisionShape> {
         if radius.sign() != Sign::Plus {
             return Err(CheckError::in_file(Input::World, "the radius of a bar must be positive"));
         }
@@ -30,6 +30,6 @@ impl Robot<'_> {
             Body { link: last, shape: Shape { points: vec![[0, 0].map(Interval::whole), end], radius }, heights };
         let (link, around, within) = (link.to_owned(), body.clone(), body);
         let (layer, ignored) = (None, BTreeSet::new());
-        Ok(Counted { link, kind: "bar", number: 0, last: Some(last), layer, around, within, ignored })
+        Ok(CollisionShape { link, kind: "bar", number: 0, last: Some(last), layer, around, within, ignored })
     }
 }

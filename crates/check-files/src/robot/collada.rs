@@ -9,16 +9,16 @@ use roxmltree::{Document, Node, ParsingOptions};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Maximum depth of nested nodes, number of nodes in the scene, and number of visible vertices.
-const DEEPEST: usize = 64;
-const MOST_NODES: usize = 1 << 16;
-const MOST_POINTS: usize = 1 << 22;
+const MAX_NODE_DEPTH: usize = 64;
+const MAX_NODES: usize = 1 << 16;
+const MAX_POINTS: usize = 1 << 22;
 
 /// Elements that place a node, and their maximum number per node.
-const PLACING: [&str; 6] = ["matrix", "translate", "rotate", "scale", "lookat", "skew"];
-const MOST_PLACINGS: usize = 16;
+const TRANSFORM_ELEMENTS: [&str; 6] = ["matrix", "translate", "rotate", "scale", "lookat", "skew"];
+const MAX_TRANSFORM_ELEMENTS: usize = 16;
 
-/// Numbers that differ by less than `2^-ROUNDED` count as equal.
-const ROUNDED: u32 = 40;
+/// Numbers that differ by less than `2^-EQUALITY_BITS` count as equal.
+const EQUALITY_BITS: u32 = 40;
 
 /// A linear map followed by a translation. It is stored as a pose, but usually is not a rotation.
 type Affine = Pose;
@@ -90,7 +90,7 @@ impl<'a> Scene<'a> {
     /// Adds everything that a node shows. The map converts its coordinates to those of the file.
     fn show(&mut self, node: Node<'a, 'a>, to_file: &Affine, depth: usize) -> Result<(), String> {
         self.nodes += 1;
-        if depth > DEEPEST || self.nodes > MOST_NODES {
+        if depth > MAX_NODE_DEPTH || self.nodes > MAX_NODES {
             return Err("a node contains itself, or too many nodes".into());
         }
         for child in node.children().filter(Node::is_element) {
@@ -131,7 +131,7 @@ impl<'a> Scene<'a> {
             && self.target(accessor) == Some(array)
             && (names.is_empty() || names == [Some("X"), Some("Y"), Some("Z")]);
         self.numbers += numbers.len();
-        if !is_plain || stride < 3 || count.checked_mul(stride) != Some(numbers.len()) || self.numbers > 3 * MOST_POINTS
+        if !is_plain || stride < 3 || count.checked_mul(stride) != Some(numbers.len()) || self.numbers > 3 * MAX_POINTS
         {
             return Err("a mesh's numbers do not form positions x, y and z, or form too many".into());
         }
@@ -189,8 +189,8 @@ fn scaled(by: Vector) -> Affine {
 /// Returns the map from a node's coordinates to those of its parent: its transformations, the first of them outermost.
 fn placing(node: Node) -> Result<Affine, String> {
     let mut all = Pose::identity();
-    let is_one = |part: &Node| PLACING.contains(&part.tag_name().name());
-    if node.children().filter(is_one).count() > MOST_PLACINGS {
+    let is_one = |part: &Node| TRANSFORM_ELEMENTS.contains(&part.tag_name().name());
+    if node.children().filter(is_one).count() > MAX_TRANSFORM_ELEMENTS {
         return Err("a node has too many transformations".into());
     }
     for part in node.children().filter(is_one) {
@@ -200,7 +200,7 @@ fn placing(node: Node) -> Result<Affine, String> {
         // Up to rounding, the last row must be 0 0 0 1.
         let is_last_row = |k: usize| {
             (&values[k] - &Interval::whole(i32::from(k == 15))).magnitude()
-                < Interval::whole(1).in_halves(ROUNDED).lower
+                < Interval::whole(1).in_halves(EQUALITY_BITS).lower
         };
         let map = match (kind, values.len()) {
             ("matrix", 16) if (12..16).all(is_last_row) => {
@@ -244,7 +244,7 @@ mod tests {
     }
 
     #[test]
-    fn what_no_scene_shows_is_where_it_lies() {
+    fn geometry_without_a_scene_keeps_its_own_frame() {
         let instance = "<instance_geometry url=\"#g\"/>";
         let found = |text: &str| format!("{:?}", vertices(text.as_bytes()).unwrap());
         let whole = triangle(instance, SHOWN);

@@ -6,10 +6,10 @@ use cplan_check::interval::{BITS, Interval, Point, minus, sum, times};
 use num_bigint::BigInt;
 
 /// Least thickness of a layer, metres: `10^-6`.
-const THINNEST: u32 = 6;
+const MIN_THICKNESS_DECIMALS: u32 = 6;
 
 /// Tolerance of layers, metres: `10^-9`. Vertices at most this far outside a layer belong to it.
-const ROUNDED: u32 = 9;
+const LAYER_TOLERANCE_DECIMALS: u32 = 9;
 
 fn metres(digits: u32) -> BigInt {
     Interval::from(&Decimal::power_of_ten(digits)).lower
@@ -17,7 +17,7 @@ fn metres(digits: u32) -> BigInt {
 
 /// Sorts heights, and drops those that are too close to the one before.
 pub fn cuts(mut ends: Vec<BigInt>) -> Vec<BigInt> {
-    let thinnest = metres(THINNEST);
+    let thinnest = metres(MIN_THICKNESS_DECIMALS);
     ends.sort();
     ends.dedup_by(|next, last| &*next - &*last <= thinnest);
     ends
@@ -30,7 +30,7 @@ impl Surface {
     /// The result is empty if no cut goes through the surface, or if the edges are unknown.
     pub fn layers(&self, cuts: &[BigInt]) -> Vec<(Vec<Point>, [Interval; 2])> {
         let [low, high] = self.heights();
-        let (thinnest, rounded) = (metres(THINNEST), metres(ROUNDED));
+        let (thinnest, rounded) = (metres(MIN_THICKNESS_DECIMALS), metres(LAYER_TOLERANCE_DECIMALS));
         let [least, most] = [low.middle().0 + &thinnest, high.middle().0 - &thinnest];
         let cuts: Vec<&BigInt> = cuts.iter().filter(|cut| least < **cut && **cut < most).collect();
         if cuts.is_empty() || self.edges.is_empty() {

@@ -4,18 +4,18 @@ use roxmltree::Document;
 use std::path::{Path, PathBuf};
 
 /// Depth of the search below a folder.
-const LEVELS: usize = 4;
+const MAX_FOLDER_DEPTH: usize = 4;
 
 /// Maximum number of folders searched below a folder.
-const MOST: usize = 1_000;
+const MAX_FOLDERS: usize = 1_000;
 
 /// Finds the folders that are packages with this name: the folder itself, or those below it, nearest first.
 pub fn declared(package: &str, folder: &Path) -> Vec<PathBuf> {
     let mut level = vec![folder.to_owned()];
     let (mut found, mut seen) = (Vec::new(), 0);
-    for _ in 0..=LEVELS {
+    for _ in 0..=MAX_FOLDER_DEPTH {
         found.extend(level.iter().filter(|folder| name(folder).as_deref() == Some(package)).cloned());
-        level = level.iter().flat_map(|folder| inside(folder)).take(MOST - seen).collect();
+        level = level.iter().flat_map(|folder| inside(folder)).take(MAX_FOLDERS - seen).collect();
         seen += level.len();
     }
     found

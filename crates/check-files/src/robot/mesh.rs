@@ -2,7 +2,7 @@
 
 use super::pose::Vector;
 use super::solid::Mesh;
-use super::tree::{Read, Tree};
+use super::tree::{ReadResult, Tree};
 use super::{collada, manifest};
 use crate::files::Files;
 use cplan_check::decimal::Decimal;
@@ -14,19 +14,19 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 /// Bytes of a binary STL before its triangles, bytes per triangle, and bytes of a triangle's normal before its corners.
-const HEADER: usize = 84;
-const TRIANGLE: usize = 50;
-const NORMAL: usize = 12;
+const STL_HEADER_BYTES: usize = 84;
+const STL_TRIANGLE_BYTES: usize = 50;
+const STL_NORMAL_BYTES: usize = 12;
 
 /// Number of folders above the URDF in which packages are searched.
-const MOST_ABOUT: usize = 5;
+const MAX_PARENT_FOLDERS: usize = 5;
 
 /// A corner in single precision, as in STL.
 type Single = [u32; 3];
 
 impl<'a> Tree<'a> {
     /// Reads the surface of a `<mesh>`. The inner error is the reason why its file cannot be read.
-    pub(super) fn mesh(&self, node: Node<'a, 'a>) -> Read<Read<Mesh>> {
+    pub(super) fn mesh(&self, node: Node<'a, 'a>) -> ReadResult<ReadResult<Mesh>> {
         let is_scaled = node.has_attribute("scale");
         let scale = if is_scaled { self.vector(node, "scale")? } else { [1; 3].map(Interval::whole) };
         let Mesh { points, edges } = match read(self.files, self.text(node, "filename")?) {
@@ -74,10 +74,13 @@ fn read(files: &Files, name: &str) -> Result<Mesh, CheckError> {
 
 /// Reads the triangles of an STL, in text or binary form.
 fn stl(bytes: &[u8]) -> Result<Mesh, String> {
-    let count =
-        bytes.get(HEADER - 4..HEADER).map(|count| count.iter().rev().fold(0, |sum, b| sum << 8 | usize::from(*b)));
+    let count = bytes
+        .get(STL_HEADER_BYTES - 4..STL_HEADER_BYTES)
+        .map(|count| count.iter().rev().fold(0, |sum, b| sum << 8 | usize::from(*b)));
     let triangles = match count {
-        Some(count) if bytes.len() == HEADER + TRIANGLE * count => in_bytes(&bytes[HEADER..]),
+        Some(count) if bytes.len() == STL_HEADER_BYTES + STL_TRIANGLE_BYTES * count => {
+            in_bytes(&bytes[STL_HEADER_BYTES..])
+        }
         _ => std::str::from_utf8(bytes).ok().and_then(as_text).ok_or("it is not an STL file")?,
     };
     let (corners, edges) = of_faces(&triangles);
@@ -130,8 +133,8 @@ fn obj(bytes: &[u8]) -> Result<Mesh, String> {
 fn in_bytes(triangles: &[u8]) -> Vec<Vec<Single>> {
     let number = |bytes: &[u8]| bytes.iter().rev().fold(0, |sum, byte| sum << 8 | u32::from(*byte));
     let corner = |bytes: &[u8]| [0, 4, 8].map(|at| number(&bytes[at..at + 4]));
-    let triangle = |bytes: &[u8]| bytes[NORMAL..NORMAL + 36].chunks_exact(12).map(corner).collect();
-    triangles.chunks_exact(TRIANGLE).map(triangle).collect()
+    let triangle = |bytes: &[u8]| bytes[STL_NORMAL_BYTES..STL_NORMAL_BYTES + 36].chunks_exact(12).map(corner).collect();
+    triangles.chunks_exact(STL_TRIANGLE_BYTES).map(triangle).collect()
 }
 
 /// Reads consecutive solids of an STL in text form.
@@ -199,8 +202,10 @@ fn candidates(name: &str, urdf: &Path) -> Vec<PathBuf> {
     };
     let places: Vec<PathBuf> = above.chain(ros).collect();
     // A repository ends the search.
-    let repository = places.iter().position(|place| place.join(".git").exists()).map_or(MOST_ABOUT, |at| at + 1);
-    let declared = places.iter().take(repository.min(MOST_ABOUT)).flat_map(|place| manifest::declared(package, place));
+    let repository =
+        places.iter().position(|place| place.join(".git").exists()).map_or(MAX_PARENT_FOLDERS, |at| at + 1);
+    let declared =
+        places.iter().take(repository.min(MAX_PARENT_FOLDERS)).flat_map(|place| manifest::declared(package, place));
     let called = places.iter().cloned().chain(ament).flat_map(named);
     declared.chain(called).map(|package| package.join(inside)).collect()
 }

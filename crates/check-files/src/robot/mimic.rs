@@ -1,16 +1,16 @@
 //! Joints that mimic others.
 
 use super::Robot;
-use super::tree::{MOST_JOINTS, Read, Tree, child, moves};
+use super::tree::{MAX_JOINTS, ReadResult, Tree, child, moves};
 use cplan_check::interval::Interval;
 use roxmltree::Node;
 
 impl<'a> Tree<'a> {
     /// Returns the joint that a joint mimics, directly or through others. Returns `None` if it mimics no joint.
-    fn leader(&self, joint: Node<'a, 'a>) -> Read<Option<Node<'a, 'a>>> {
+    fn leader(&self, joint: Node<'a, 'a>) -> ReadResult<Option<Node<'a, 'a>>> {
         let mut leader = None;
         let mut at = joint;
-        for _ in 0..MOST_JOINTS {
+        for _ in 0..MAX_JOINTS {
             let Some(mimic) = child(at, "mimic") else { return Ok(leader) };
             let Some(next) = self.named.get(self.text(mimic, "joint")?) else { return Ok(None) };
             (leader, at) = (Some(*next), *next);
@@ -20,7 +20,7 @@ impl<'a> Tree<'a> {
 
     /// Returns the value of a joint: 0 for the two planned joints, and the value that follows from its leader for a
     /// mimic joint.
-    pub(super) fn value(&self, joint: Node<'a, 'a>, followed: usize) -> Read<Interval> {
+    pub(super) fn value(&self, joint: Node<'a, 'a>, followed: usize) -> ReadResult<Interval> {
         let Some(mimic) = child(joint, "mimic") else {
             return match self.values.get(self.text(joint, "name")?) {
                 Some(value) => Ok(value.clone()),
@@ -33,7 +33,7 @@ impl<'a> Tree<'a> {
             false => Ok(Interval::whole(else_)),
         };
         match self.named.get(self.text(mimic, "joint")?) {
-            Some(leader) if followed < MOST_JOINTS => {
+            Some(leader) if followed < MAX_JOINTS => {
                 let by = &number("multiplier", 1)? * &self.value(*leader, followed + 1)?;
                 Ok(&by + &number("offset", 0)?)
             }
@@ -45,7 +45,7 @@ impl<'a> Tree<'a> {
 impl<'a> Robot<'a> {
     /// Checks that no joint which carries the tip or shapes mimics one of these joints: its links would move in ways
     /// that the arm does not model.
-    pub(super) fn move_alone(&self, joints: &[Node<'a, 'a>]) -> Read<()> {
+    pub(super) fn check_independence(&self, joints: &[Node<'a, 'a>]) -> ReadResult<()> {
         for &link in &self.tree.order {
             let has_shapes = ["collision", "visual"].iter().any(|kind| child(self.tree.links[link], kind).is_some());
             let counts = has_shapes || link == self.tip_link;

@@ -9,10 +9,10 @@ const ELLIPSE_STEPS: i32 = 16;
 
 /// Tolerance for simple projections, as one part in this many. An end that deviates from a disc by less is enclosed by
 /// a disc. An end that is flatter than this is enclosed by a rectangle.
-const OBLIQUE: u32 = 200;
+const PROJECTION_TOLERANCE_DIVISOR: u32 = 200;
 
 /// A cylinder with an axis out of the plane by less than this power of a half counts as lying in it.
-const LYING: u64 = 44;
+const IN_PLANE_BITS: u64 = 44;
 
 /// Returns core and radius of the projection of an oblique cylinder: the hull of two ellipses at its ends, with
 /// half-axes `radius` across the projected axis and `radius * tilt` along it. The core is symmetric about the middle.
@@ -25,7 +25,7 @@ pub fn oblique(
 ) -> (Vec<Point>, Interval) {
     let end = along.each_ref().map(|c| c * half);
     let length = length(along);
-    let (one, least) = (Interval::whole(1), Interval::whole(1).over(OBLIQUE));
+    let (one, least) = (Interval::whole(1), Interval::whole(1).over(PROJECTION_TOLERANCE_DIVISOR));
     // An axis whose enclosure is too wide to be useful is treated in the same way.
     if length.lower.sign() != Sign::Plus || tilt.lower >= (&one - &least).lower {
         return (vec![end], if outline == Outline::Around { radius.clone() } else { radius * tilt });
@@ -48,7 +48,9 @@ pub fn oblique(
             let grown = &step.sin_cos()[1];
             (0..ELLIPSE_STEPS).map(|k| rim(2 * k + 1).map(|c| c.divided(grown))).collect()
         }
-        Outline::Within if tilt.upper.bits() + LYING < u64::from(BITS) => [0, 2 * ELLIPSE_STEPS].map(rim).to_vec(),
+        Outline::Within if tilt.upper.bits() + IN_PLANE_BITS < u64::from(BITS) => {
+            [0, 2 * ELLIPSE_STEPS].map(rim).to_vec()
+        }
         Outline::Within => (0..=ELLIPSE_STEPS).map(|k| rim(2 * k)).collect(),
     };
     (half_way.iter().map(|by| sum(&end, by)).collect(), Interval::whole(0))

@@ -2,27 +2,27 @@
 
 use super::Robot;
 use super::layers::cuts;
-use super::shapes::Placed;
+use super::shapes::PlacedShape;
 use super::solid::bodies;
-use super::tree::{Read, Tree};
+use super::tree::{ReadResult, Tree};
 use crate::world::WorldFile;
 use cplan_check::interval::{Interval, Point, sum};
 use cplan_check::obstacle::Obstacle;
-use cplan_check::shapes::{Counted, Outline};
+use cplan_check::shapes::{CollisionShape, Outline};
 use cplan_check::{CheckError, Input};
 use num_bigint::BigInt;
 use std::collections::{BTreeMap, BTreeSet};
 
 impl<'a> Tree<'a> {
     /// Returns the links from the root to this one.
-    fn chain(&self, link: &'a str) -> Read<Vec<&'a str>> {
+    fn chain(&self, link: &'a str) -> ReadResult<Vec<&'a str>> {
         let parents = self.above(link)?.into_iter().rev().map(|joint| self.parent(joint));
         parents.chain([Ok(link)]).collect()
     }
 }
 
 /// Returns true if no solid link lies between the ends of two chains that begin at the root.
-fn are_neighbours(left: &[&str], right: &[&str], is_solid: impl Fn(&str) -> bool) -> bool {
+fn are_neighbors(left: &[&str], right: &[&str], is_solid: impl Fn(&str) -> bool) -> bool {
     let common = left.iter().zip(right).take_while(|(a, b)| a == b).count();
     let mut between = left[common.saturating_sub(1)..].iter().chain(&right[common..]);
     let is_end = |link: &str| [left.last(), right.last()].contains(&Some(&link));
@@ -33,7 +33,7 @@ impl<'a> Robot<'a> {
     /// Finds the last of the two joints that moves a link; `Some(None)` if neither does.
     ///
     /// Returns `None` below a joint of the rest of the robot, where the place of the link is unknown.
-    pub(super) fn group(&self, link: &'a str) -> Read<Option<Option<usize>>> {
+    pub(super) fn group(&self, link: &'a str) -> ReadResult<Option<Option<usize>>> {
         if let Some(last) = self.moved_by(link)? {
             return Ok(Some(Some(last)));
         }
@@ -47,7 +47,7 @@ impl<'a> Robot<'a> {
     ///
     /// # Errors
     /// If the world names a link that the robot does not have.
-    pub(super) fn arrange(&mut self, all: Vec<Placed<'a>>, world: &WorldFile) -> Read<()> {
+    pub(super) fn arrange(&mut self, all: Vec<PlacedShape<'a>>, world: &WorldFile) -> ReadResult<()> {
         let ignored = &world.robot.ignore_contact;
         if let Some(odd) = ignored.iter().flatten().find(|link| !self.tree.links.contains_key(link.as_str())) {
             let message = format!("[robot] ignore_contact: the robot has no link \"{odd}\"");
@@ -56,20 +56,20 @@ impl<'a> Robot<'a> {
         let groups: BTreeMap<&'a str, Option<usize>> =
             all.iter().map(|placed| (placed.link, placed.whole.last)).collect();
         let chain = |link: &&'a str| Ok((*link, self.tree.chain(link)?));
-        let chains = groups.keys().map(chain).collect::<Read<BTreeMap<&str, Vec<&str>>>>()?;
+        let chains = groups.keys().map(chain).collect::<ReadResult<BTreeMap<&str, Vec<&str>>>>()?;
         let mut apart = BTreeSet::new();
         for (a, of_a) in &groups {
             for (b, _) in groups.iter().filter(|(_, of_b)| world.robot.own_body && *of_b != of_a) {
                 let may_meet = ignored.iter().any(|[c, d]| [c, d] == [a, b] || [d, c] == [a, b]);
-                if !may_meet && !are_neighbours(&chains[a], &chains[b], |link| groups.contains_key(link)) {
+                if !may_meet && !are_neighbors(&chains[a], &chains[b], |link| groups.contains_key(link)) {
                     apart.insert((*a, *b));
                 }
             }
         }
-        let ends = |placed: &Placed| placed.whole.around.heights.iter().flatten().map(|h| h.middle().0).collect();
+        let ends = |placed: &PlacedShape| placed.whole.around.heights.iter().flatten().map(|h| h.middle().0).collect();
         let ends: Vec<(&str, Vec<BigInt>)> = all.iter().map(|placed| (placed.link, ends(placed))).collect();
         let wrist = world.task.as_ref().and_then(|task| task.wrist.as_ref()?.joint.as_deref());
-        for Placed { link, mut whole, surface } in all {
+        for PlacedShape { link, mut whole, surface } in all {
             let last = whole.last;
             let ignored = groups.keys().filter(|other| !apart.contains(&(link, **other)));
             whole.ignored = ignored.map(|other| (*other).to_owned()).collect();
@@ -81,9 +81,9 @@ impl<'a> Robot<'a> {
             let layer = |(number, (points, heights)): (usize, (Vec<Point>, [Interval; 2]))| {
                 let (link, ignored, layer) = (whole.link.clone(), whole.ignored.clone(), Some(number));
                 let [around, within] = bodies(last, points.into_iter(), &heights);
-                Counted { link, layer, around, within, ignored, ..whole }
+                CollisionShape { link, layer, around, within, ignored, ..whole }
             };
-            let mut layers: Vec<Counted> = layers.into_iter().enumerate().map(layer).collect();
+            let mut layers: Vec<CollisionShape> = layers.into_iter().enumerate().map(layer).collect();
             if layers.is_empty() {
                 layers.push(whole);
             }
@@ -95,7 +95,7 @@ impl<'a> Robot<'a> {
                 self.arm.shapes.append(&mut layers);
             }
         }
-        let obstacle = |own: &Counted| {
+        let obstacle = |own: &CollisionShape| {
             let heights = own.around.kept(Outline::Around);
             Obstacle::link(own.to_string(), own.owner(), own.around.shape.clone(), heights)
         };
@@ -105,7 +105,7 @@ impl<'a> Robot<'a> {
 }
 
 /// Places a shape of a static link, or of one that joint 1 carries, in the plane, with joint 1 at zero.
-fn at_zero(own: &Counted, base: &Point) -> Counted {
+fn at_zero(own: &CollisionShape, base: &Point) -> CollisionShape {
     let mut own = own.clone();
     if own.last.is_some() {
         for point in own.around.shape.points.iter_mut().chain(&mut own.within.shape.points) {

@@ -7,10 +7,10 @@ use cplan_check::polygon::Corner;
 use num_bigint::{BigInt, Sign};
 
 /// Directions within this angle of each other count as equal, radians: `10^-3`.
-const ALIGNED: u32 = 3;
+const ALIGNMENT_DECIMALS: u32 = 3;
 
 /// Directions within `10^-12` of each other differ by rounding only.
-const ROUNDED: u32 = 12;
+const ROUNDING_DECIMALS: u32 = 12;
 
 /// The plane of two joints, in the root frame.
 pub struct Plane {
@@ -32,7 +32,7 @@ impl Plane {
     /// about half a radian of the normal. The second coordinate is a quarter turn further.
     pub fn common(axes: &[Vector; 2], slides: [bool; 2]) -> Option<Self> {
         let [a, b] = axes;
-        let aligned = &Interval::from(&Decimal::power_of_ten(ALIGNED)).sin_cos()[0];
+        let aligned = &Interval::from(&Decimal::power_of_ten(ALIGNMENT_DECIMALS)).sin_cos()[0];
         let beside = cross(a, b);
         let [parallel, square] = [size(&beside), dot(a, b).abs()].map(|off| off.upper <= aligned.lower);
         let normal = match slides {
@@ -70,8 +70,8 @@ impl Plane {
     /// more than rounding.
     pub fn idealized(&self) -> String {
         let is_within = |digits: &u32| Interval::from(&Decimal::power_of_ten(*digits)).lower >= self.off;
-        match (0..=ROUNDED).rev().find(is_within) {
-            Some(ROUNDED) => String::new(),
+        match (0..=ROUNDING_DECIMALS).rev().find(is_within) {
+            Some(ROUNDING_DECIMALS) => String::new(),
             digits => {
                 let digits = digits.unwrap_or(0);
                 format!("; the joints' axes are up to 1e-{digits} rad off the assumed common plane")

@@ -1,14 +1,14 @@
 //! Rotations by quaternions.
 
 use super::pose::Pose;
-use super::tree::{Read, Tree};
+use super::tree::{ReadResult, Tree};
 use cplan_check::interval::{Interval, twice};
 use num_bigint::Sign;
 use roxmltree::Node;
 
 impl<'a> Tree<'a> {
     /// Returns the rotation that an `<origin>` states by its `quat_xyzw`.
-    pub(super) fn quaternion(&self, origin: Node<'a, 'a>) -> Read<Pose> {
+    pub(super) fn quaternion(&self, origin: Node<'a, 'a>) -> ReadResult<Pose> {
         let numbers = self.numbers::<4>(origin, "quat_xyzw")?.each_ref().map(Interval::from);
         Pose::of_quaternion(&numbers).map_or_else(|| self.error(origin, "the quaternion is too short"), Ok)
     }

@@ -2,17 +2,17 @@
 
 use super::Robot;
 use super::solid::{Solid, Surface};
-use super::tree::{Read, child, children};
+use super::tree::{ReadResult, child, children};
 use crate::world::WorldFile;
-use cplan_check::shapes::{Counted, Outline};
+use cplan_check::shapes::{CollisionShape, Outline};
 use cplan_check::{CheckError, Input};
 use roxmltree::Node;
 use std::collections::BTreeSet;
 
 /// A whole shape at its place.
-pub struct Placed<'a> {
+pub struct PlacedShape<'a> {
     pub link: &'a str,
-    pub whole: Counted,
+    pub whole: CollisionShape,
     /// Its points and edges, if it can be cut into layers.
     pub surface: Option<Surface>,
 }
@@ -24,7 +24,7 @@ impl<'a> Robot<'a> {
     /// # Errors
     /// If there are shapes that the checker does not know, regardless of the certificate. It omits only two kinds of
     /// unreadable shapes: those of static links, and visual shapes if other links of the part have collision shapes.
-    pub(super) fn count(&mut self, world: &WorldFile) -> Read<()> {
+    pub(super) fn count(&mut self, world: &WorldFile) -> ReadResult<()> {
         let mut all = Vec::new();
         let still = world.robot.own_body.then_some(None);
         for last in [Some(0), Some(1)].into_iter().chain(still) {
@@ -34,7 +34,7 @@ impl<'a> Robot<'a> {
                     self.gather(link, last, &mut found, &mut unread)?;
                 }
             }
-            let has_collision = found.iter().any(|placed: &Placed| placed.whole.kind == "collision");
+            let has_collision = found.iter().any(|placed: &PlacedShape| placed.whole.kind == "collision");
             let is_no_matter = |kind: &str| last.is_none() || kind == "visual" && has_collision;
             let (left, unread): (Vec<_>, Vec<_>) = unread.into_iter().partition(|(_, kind, _)| is_no_matter(kind));
             self.arm.notes.extend(
@@ -44,7 +44,7 @@ impl<'a> Robot<'a> {
             match (last, &world.robot.bar, unread.into_iter().next()) {
                 (Some(last), Some(bar), unread) if found.is_empty() || unread.is_some() => {
                     let (link, whole) = (self.children[last], self.bar(last, bar)?);
-                    found.push(Placed { link, whole, surface: None });
+                    found.push(PlacedShape { link, whole, surface: None });
                 }
                 (_, None, Some((.., unread))) => return Err(unread),
                 _ => {}
@@ -63,9 +63,9 @@ impl<'a> Robot<'a> {
         &self,
         link: &'a str,
         last: Option<usize>,
-        found: &mut Vec<Placed<'a>>,
+        found: &mut Vec<PlacedShape<'a>>,
         unread: &mut Vec<(&'a str, &'static str, CheckError)>,
-    ) -> Read<()> {
+    ) -> ReadResult<()> {
         let before = found.len() + unread.len();
         for kind in ["collision", "visual"] {
             let mut number = 0;
@@ -95,8 +95,9 @@ impl<'a> Robot<'a> {
                     }
                 };
                 let (layer, ignored) = (None, BTreeSet::new());
-                let whole = Counted { link: link.to_owned(), kind, number, last, layer, around, within, ignored };
-                found.push(Placed { link, whole, surface });
+                let whole =
+                    CollisionShape { link: link.to_owned(), kind, number, last, layer, around, within, ignored };
+                found.push(PlacedShape { link, whole, surface });
                 number += 1;
             }
             if found.len() + unread.len() > before {

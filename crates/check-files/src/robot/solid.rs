@@ -3,7 +3,7 @@
 use super::Robot;
 use super::oblique::oblique;
 use super::pose::{Pose, Vector, dot};
-use super::tree::{Read, Tree};
+use super::tree::{ReadResult, Tree};
 use cplan_check::decimal::Decimal;
 use cplan_check::interval::{Interval, Point, length, minus, sum};
 use cplan_check::overlap::{Shape, hull};
@@ -41,7 +41,7 @@ impl Solid {
 impl<'a> Tree<'a> {
     /// Reads a solid of the URDF. Returns `None` if it has no size. The inner error is the reason why its mesh cannot
     /// be read.
-    pub fn solid(&self, node: Node<'a, 'a>) -> Read<Option<Read<Solid>>> {
+    pub fn solid(&self, node: Node<'a, 'a>) -> ReadResult<Option<ReadResult<Solid>>> {
         let half = |n: &Decimal| Interval::from(n).half();
         let read = |name: &str| self.number(node, name);
         let (numbers, solid) = match node.tag_name().name() {

@@ -2,33 +2,33 @@
 
 use super::Robot;
 use super::pose::{cross, size};
-use super::tree::{Read, child, moves};
+use super::tree::{ReadResult, child, moves};
 use crate::world::task::Task;
 use cplan_check::arm::Arm;
 use cplan_check::decimal::Decimal;
 use cplan_check::interval::{BITS, Interval, Point, length, minus, sum};
 use cplan_check::overlap::{Shape, overlap_by_more_than};
-use cplan_check::shapes::{Body, Counted};
+use cplan_check::shapes::{Body, CollisionShape};
 use cplan_check::{CheckError, Input};
 use num_bigint::{BigInt, Sign};
 use roxmltree::Node;
 
 /// Maximum depth to which an object may press into its support, as a share of the arm's reach: `10^-4`.
-const PRESSED: u32 = 4;
+const PENETRATION_DECIMALS: u32 = 4;
 
 /// Maximum distance of the tip from the wrist's axis, metres: `10^-6`. It allows for rounding.
-const ON_AXIS: u32 = 6;
+const ON_AXIS_DECIMALS: u32 = 6;
 
 /// Tolerance of axes along the normal: the cosine of the angle between them is at least `1 - 10^-9`.
-const UPRIGHT: u32 = 9;
+const UPRIGHT_DECIMALS: u32 = 9;
 
 /// Returns a lower bound on the depth of a point in a shape, accurate to one part in some `10^12`. Returns 0 if the
 /// point is not certainly inside.
 fn depth(shape: &Shape, point: &Point) -> BigInt {
     let own = Shape { points: vec![point.clone()], radius: Interval::whole(0) };
     let mut depth = BigInt::ZERO;
-    for halvings in 0..DIGITS {
-        let deeper = &depth + (BigInt::from(1) << (BITS + DEEPEST - halvings));
+    for halvings in 0..DEPTH_BITS {
+        let deeper = &depth + (BigInt::from(1) << (BITS + MAX_DEPTH_BITS - halvings));
         if overlap_by_more_than(&own, shape, &deeper) {
             depth = deeper;
         }
@@ -36,16 +36,16 @@ fn depth(shape: &Shape, point: &Point) -> BigInt {
     depth
 }
 
-/// Depths are searched below `2^DEEPEST` metres, one binary digit after another.
-const DEEPEST: u32 = 10;
-const DIGITS: u32 = 60;
+/// Depths are searched below `2^MAX_DEPTH_BITS` metres, one binary digit after another.
+const MAX_DEPTH_BITS: u32 = 10;
+const DEPTH_BITS: u32 = 60;
 
 /// Replaces a shape by discs: an outer disc that covers the shape in all orientations about a point, and an inner disc
 /// that all orientations cover.
 ///
 /// # Errors
 /// If the shape does not contain the point: then no disc is covered in all orientations.
-fn turn_about(counted: &mut Counted, axis: &Point) -> Read<()> {
+fn turn_about(counted: &mut CollisionShape, axis: &Point) -> ReadResult<()> {
     let off = |point: &Point| length(&minus(point, axis));
     let shape = &counted.around.shape;
     let farthest = shape.points.iter().map(|p| off(p).upper).max().expect("a shape has points");
@@ -67,13 +67,13 @@ impl<'a> Robot<'a> {
     ///
     /// # Errors
     /// If a joint is not suitable for the tool, or if a shape does not contain the wrist's axis.
-    pub(super) fn with_tool(&mut self, task: &Task) -> Read<()> {
+    pub(super) fn with_tool(&mut self, task: &Task) -> ReadResult<()> {
         if let Some(name) = task.wrist.as_ref().and_then(|wrist| wrist.joint.as_deref()) {
             let (joint, carried) = self.of_the_tool(name, "wrist")?;
             let [at, axis] = [&self.arm.base, &self.arm.offset];
             let axis = minus(&self.plane.flat(&self.tree.pose(carried)?.at), &sum(at, axis));
             let off = length(&minus(&axis, &self.arm.tip.shape.points[0])).upper;
-            if off > Interval::from(&Decimal::power_of_ten(ON_AXIS)).lower {
+            if off > Interval::from(&Decimal::power_of_ten(ON_AXIS_DECIMALS)).lower {
                 let message = format!(
                     "the wrist's joint \"{name}\" moves the tip, because its axis does not pass through the tip"
                 );
@@ -91,13 +91,13 @@ impl<'a> Robot<'a> {
 
     /// Returns a joint of the tool and the link that it carries. The joint must carry the tip, and move about the
     /// plane's normal or along it. Joints that mimic it must not carry shapes or the tip.
-    fn of_the_tool(&mut self, name: &str, what: &str) -> Read<(Node<'a, 'a>, &'a str)> {
+    fn of_the_tool(&mut self, name: &str, what: &str) -> ReadResult<(Node<'a, 'a>, &'a str)> {
         let wrong = |why: &str| Err(CheckError::in_file(Input::World, format!("the {what}'s joint \"{name}\" {why}")));
         let found = self.tree.joints.iter().find(|(_, node)| node.attribute("name") == Some(name));
         let Some((&carried, &joint)) = found else { return wrong("does not exist in the robot") };
         let axis = self.tree.pose(carried)?.direction(&self.tree.axis(joint)?);
         let along = self.plane.height(&axis).abs();
-        let least = &Decimal::whole(1) - &Decimal::power_of_ten(UPRIGHT);
+        let least = &Decimal::whole(1) - &Decimal::power_of_ten(UPRIGHT_DECIMALS);
         let slides = joint.attribute("type") == Some("prismatic");
         let is_of_kind = moves(&joint) && slides == (what == "stroke") && child(joint, "mimic").is_none();
         if !is_of_kind || along.lower < Interval::from(&least).lower || self.moved_by(carried)? != Some(1) {
@@ -106,7 +106,7 @@ impl<'a> Robot<'a> {
         if !self.tree.above(self.tip_link)?.contains(&joint) {
             return wrong("does not carry the tip");
         }
-        self.move_alone(&[joint])?;
+        self.check_independence(&[joint])?;
         self.plane.off = size(&cross(&axis, &self.plane.normal)).upper.max(self.plane.off.clone());
         Ok((joint, carried))
     }
@@ -116,7 +116,7 @@ impl<'a> Robot<'a> {
     ///
     /// # Errors
     /// If the links do not form a tree.
-    pub fn lowers(&self, joint: &str, shape: &Counted) -> Read<bool> {
+    pub fn lowers(&self, joint: &str, shape: &CollisionShape) -> ReadResult<bool> {
         let is_bar = shape.kind == "bar" && shape.around.link == 1;
         let link =
             self.tree.order.iter().find(|name| if is_bar { **name == self.tip_link } else { **name == shape.link });
@@ -135,7 +135,7 @@ pub fn pressed(arm: &Arm) -> Interval {
     };
     let out = &length(&arm.offset) + &greatest(1, length(&arm.tip.shape.points[0]));
     let near = greatest(0, Interval::whole(0));
-    &(if near.lower > out.lower { near } else { out }) * &Interval::from(&Decimal::power_of_ten(PRESSED))
+    &(if near.lower > out.lower { near } else { out }) * &Interval::from(&Decimal::power_of_ten(PENETRATION_DECIMALS))
 }
 
 /// Extends a body to all heights between its own and those after lowering it by a length.

@@ -12,15 +12,15 @@ use roxmltree::{Document, Node};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Maximum range of a revolute joint. A longer range counts as no limits.
-const LONGEST_TURN: i32 = 1000;
+const MAX_TURN_RANGE: i32 = 1000;
 
 /// Limits this far away count as none, radians or metres.
-const FARTHEST: i32 = 1_000_000;
+const MAX_LIMIT: i32 = 1_000_000;
 
 /// Maximum number of joints in a chain.
-pub const MOST_JOINTS: usize = 1000;
+pub const MAX_JOINTS: usize = 1000;
 
-pub type Read<T> = Result<T, CheckError>;
+pub type ReadResult<T> = Result<T, CheckError>;
 
 /// Links and joints by name, and the values of the joints.
 pub struct Tree<'a> {
@@ -76,7 +76,7 @@ impl<'a> Tree<'a> {
     ///
     /// # Errors
     /// If it does not describe a robot.
-    pub fn read(document: &'a Document<'a>, files: &'a Files) -> Read<(Self, Vec<&'a str>)> {
+    pub fn read(document: &'a Document<'a>, files: &'a Files) -> ReadResult<(Self, Vec<&'a str>)> {
         let (links, joints, named, values) = Default::default();
         let root = Pose::identity();
         let mut tree = Self { files, document, root, links, order: Vec::new(), joints, named, values };
@@ -115,7 +115,7 @@ impl<'a> Tree<'a> {
             tree.text(node, "type")?;
             movable.extend((moves(&node) && child(node, "mimic").is_none()).then_some(name));
         }
-        let parents = tree.named.values().map(|joint| tree.parent(*joint)).collect::<Read<Vec<_>>>()?;
+        let parents = tree.named.values().map(|joint| tree.parent(*joint)).collect::<ReadResult<Vec<_>>>()?;
         let all: BTreeSet<&str> = tree.order.iter().copied().chain(parents).collect();
         if all.iter().filter(|link| !tree.joints.contains_key(**link)).count() > 1 {
             return tree.error(robot, "several links have no joint above them: a robot has one root");
@@ -123,23 +123,23 @@ impl<'a> Tree<'a> {
         Ok((tree, movable))
     }
 
-    pub fn error<T>(&self, node: Node, message: impl Into<String>) -> Read<T> {
+    pub fn error<T>(&self, node: Node, message: impl Into<String>) -> ReadResult<T> {
         Err(CheckError::at(Input::Urdf, self.document.input_text(), node.range().start, message))
     }
 
     /// Checks that a node has at most one child of each of these names.
-    fn has_one(&self, node: Node<'a, 'a>, names: &[&'static str]) -> Read<()> {
+    fn has_one(&self, node: Node<'a, 'a>, names: &[&'static str]) -> ReadResult<()> {
         match names.iter().find_map(|name| children(node, name).nth(1)) {
             Some(second) => self.error(second, "a second element of this kind"),
             None => Ok(()),
         }
     }
 
-    pub fn text(&self, node: Node<'a, 'a>, name: &str) -> Read<&'a str> {
+    pub fn text(&self, node: Node<'a, 'a>, name: &str) -> ReadResult<&'a str> {
         node.attribute(name).map_or_else(|| self.error(node, format!("the attribute {name} is missing")), Ok)
     }
 
-    pub fn numbers<const N: usize>(&self, node: Node<'a, 'a>, name: &str) -> Read<[Decimal; N]> {
+    pub fn numbers<const N: usize>(&self, node: Node<'a, 'a>, name: &str) -> ReadResult<[Decimal; N]> {
         let numbers: Result<Vec<Decimal>, String> =
             self.text(node, name)?.split_whitespace().map(Decimal::read).collect();
         match numbers.map(<[Decimal; N]>::try_from) {
@@ -149,17 +149,17 @@ impl<'a> Tree<'a> {
         }
     }
 
-    pub fn number(&self, node: Node<'a, 'a>, name: &str) -> Read<Decimal> {
+    pub fn number(&self, node: Node<'a, 'a>, name: &str) -> ReadResult<Decimal> {
         self.numbers::<1>(node, name).map(|[n]| n)
     }
 
-    pub fn vector(&self, node: Node<'a, 'a>, name: &str) -> Read<Vector> {
+    pub fn vector(&self, node: Node<'a, 'a>, name: &str) -> ReadResult<Vector> {
         Ok(self.numbers::<3>(node, name)?.each_ref().map(Interval::from))
     }
 
     /// Reads the `<origin>`: a rotation by roll, pitch and yaw about the fixed axes x, y and z, followed by a
     /// translation.
-    pub fn origin(&self, node: Node<'a, 'a>) -> Read<Pose> {
+    pub fn origin(&self, node: Node<'a, 'a>) -> ReadResult<Pose> {
         let mut pose = Pose::identity();
         let Some(origin) = child(node, "origin") else { return Ok(pose) };
         if origin.has_attribute("quat_xyzw") {
@@ -180,7 +180,7 @@ impl<'a> Tree<'a> {
     }
 
     /// Returns a joint's axis in its frame, of unit length; x by default.
-    pub fn axis(&self, joint: Node<'a, 'a>) -> Read<Vector> {
+    pub fn axis(&self, joint: Node<'a, 'a>) -> ReadResult<Vector> {
         let Some(axis) = child(joint, "axis") else { return Ok([1, 0, 0].map(Interval::whole)) };
         let numbers = self.numbers::<3>(axis, "xyz")?;
         let signs = numbers.each_ref().map(Decimal::sign);
@@ -205,13 +205,13 @@ impl<'a> Tree<'a> {
     }
 
     /// Returns the pose of a link in the world.
-    pub fn pose(&self, link: &'a str) -> Read<Pose> {
-        let below = |pose: Read<Pose>, joint: &Node<'a, 'a>| Ok(pose?.after(&self.step(*joint)?));
+    pub fn pose(&self, link: &'a str) -> ReadResult<Pose> {
+        let below = |pose: ReadResult<Pose>, joint: &Node<'a, 'a>| Ok(pose?.after(&self.step(*joint)?));
         self.above(link)?.iter().rev().fold(Ok(self.root.clone()), below)
     }
 
     /// Returns the pose of a joint's child in the frame of its parent.
-    pub fn step(&self, joint: Node<'a, 'a>) -> Read<Pose> {
+    pub fn step(&self, joint: Node<'a, 'a>) -> ReadResult<Pose> {
         let origin = self.origin(joint)?;
         let value = || self.value(joint, 0);
         match self.text(joint, "type")? {
@@ -225,15 +225,15 @@ impl<'a> Tree<'a> {
         }
     }
 
-    pub fn parent(&self, joint: Node<'a, 'a>) -> Read<&'a str> {
+    pub fn parent(&self, joint: Node<'a, 'a>) -> ReadResult<&'a str> {
         child(joint, "parent").map_or_else(|| self.error(joint, "the joint has no parent"), |p| self.text(p, "link"))
     }
 
     /// Returns the joints above a link, from the link to the root.
-    pub fn above(&self, mut link: &'a str) -> Read<Vec<Node<'a, 'a>>> {
+    pub fn above(&self, mut link: &'a str) -> ReadResult<Vec<Node<'a, 'a>>> {
         let mut above = Vec::new();
         while let Some(&joint) = self.joints.get(link) {
-            if above.len() > MOST_JOINTS {
+            if above.len() > MAX_JOINTS {
                 return self.error(joint, "the joints form a ring, or a chain that is too long");
             }
             above.push(joint);
@@ -243,8 +243,8 @@ impl<'a> Tree<'a> {
     }
 
     /// Reads a limit of a joint. Values beyond all limits become very large ones.
-    fn limit(&self, limit: Node<'a, 'a>, name: &str) -> Read<Decimal> {
-        let endless = |sign: f64| Decimal::whole(10 * FARTHEST * sign as i32);
+    fn limit(&self, limit: Node<'a, 'a>, name: &str) -> ReadResult<Decimal> {
+        let endless = |sign: f64| Decimal::whole(10 * MAX_LIMIT * sign as i32);
         let Some(text) = limit.attribute(name) else {
             // From version 1.2 on, a missing limit means unlimited. Before that it means 0.
             let version = self.document.root_element().attribute("version").unwrap_or("1.0").trim();
@@ -253,13 +253,13 @@ impl<'a> Tree<'a> {
             return Ok(if is_new { endless(if name == "lower" { -1.0 } else { 1.0 }) } else { Decimal::whole(0) });
         };
         match text.trim().parse::<f64>() {
-            Ok(number) if number.abs() > f64::from(10 * FARTHEST) => Ok(endless(number.signum())),
+            Ok(number) if number.abs() > f64::from(10 * MAX_LIMIT) => Ok(endless(number.signum())),
             _ => self.number(limit, name),
         }
     }
 
     /// Returns the limits of a joint: those of the world, or else those of the URDF, reduced by its soft limits.
-    pub fn limits(&self, joint: Node<'a, 'a>, world: &WorldFile) -> Read<Limits> {
+    pub fn limits(&self, joint: Node<'a, 'a>, world: &WorldFile) -> ReadResult<Limits> {
         let turns = joint.attribute("type") != Some("prismatic");
         if let Some(ends) = world.robot.limits.get(self.text(joint, "name")?) {
             return Ok(Limits::Ends(ends.clone()));
@@ -284,29 +284,29 @@ impl<'a> Tree<'a> {
         if low >= high {
             return self.error(joint, "its limits are reversed, or do not overlap its soft limits");
         }
-        let [least, most] = [-FARTHEST, FARTHEST].map(Decimal::whole);
+        let [least, most] = [-MAX_LIMIT, MAX_LIMIT].map(Decimal::whole);
         if turns && low <= least && high >= most {
             return Ok(Limits::Endless);
         }
-        if !turns && &high - &low > Decimal::whole(2 * FARTHEST) {
+        if !turns && &high - &low > Decimal::whole(2 * MAX_LIMIT) {
             [low, high] = [low.max(least), high.min(most)];
             if low >= high {
                 return Ok(Limits::Unset);
             }
         }
-        if &high - &low > Decimal::whole(if turns { LONGEST_TURN } else { 2 * FARTHEST }) {
+        if &high - &low > Decimal::whole(if turns { MAX_TURN_RANGE } else { 2 * MAX_LIMIT }) {
             return Ok(Limits::Unset);
         }
         Ok(Limits::Ends([[low.clone(), low], [high.clone(), high]]))
     }
 
     /// Returns an outer and an inner enclosure of a joint's limits. Returns `None` for a continuous joint.
-    pub fn ends(&self, joint: Node<'a, 'a>, world: &WorldFile) -> Read<Option<[Range; 2]>> {
+    pub fn ends(&self, joint: Node<'a, 'a>, world: &WorldFile) -> ReadResult<Option<[Range; 2]>> {
         let (name, turns) = (self.text(joint, "name")?, joint.attribute("type") != Some("prismatic"));
         match self.limits(joint, world)? {
             Limits::Endless => Ok(None),
             Limits::Ends([[least, low], [high, most]])
-                if low < high && !(turns && &most - &least > Decimal::whole(LONGEST_TURN)) =>
+                if low < high && !(turns && &most - &least > Decimal::whole(MAX_TURN_RANGE)) =>
             {
                 Ok(Some([[least, most], [low, high]]))
             }
@@ -318,7 +318,7 @@ impl<'a> Tree<'a> {
     }
 
     /// Returns the default value of a held joint: 0, or the limit nearest to 0.
-    pub fn rest(&self, joint: Node<'a, 'a>, world: &WorldFile) -> Read<Interval> {
+    pub fn rest(&self, joint: Node<'a, 'a>, world: &WorldFile) -> ReadResult<Interval> {
         let zero = Interval::whole(0);
         let Limits::Ends(ends) = self.limits(joint, world)? else { return Ok(zero) };
         let [low, high] = ends.each_ref().map(Interval::around);

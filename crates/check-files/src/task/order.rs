@@ -2,24 +2,24 @@
 
 use crate::world::task::{Group, Node, Step};
 use cplan_check::CheckError;
-use cplan_check::certificate::{Done, Motion};
+use cplan_check::certificate::{ExecutedStep, Motion};
 use cplan_check::decimal::Decimal;
 use std::iter::{Enumerate, Peekable};
 use std::slice::Iter;
 
 /// A step of the world with its execution.
-pub(super) struct Matched<'a> {
+pub(super) struct MatchedStep<'a> {
     pub(super) step: &'a Step,
-    pub(super) done: &'a Done,
+    pub(super) done: &'a ExecutedStep,
     /// Objects that return to their initial poses before the step.
     pub(super) renewed: Vec<usize>,
 }
 
 /// The executed steps, matched with those of the world.
 pub(super) struct Order<'a> {
-    pub(super) left: Peekable<Enumerate<Iter<'a, Done>>>,
+    pub(super) left: Peekable<Enumerate<Iter<'a, ExecutedStep>>>,
     pub(super) renewed: Vec<usize>,
-    pub(super) matched: Vec<Matched<'a>>,
+    pub(super) matched: Vec<MatchedStep<'a>>,
 }
 
 impl<'a> Order<'a> {
@@ -50,7 +50,7 @@ impl<'a> Order<'a> {
         };
         match self.left.next() {
             Some((_, done)) if done.step == step.number => {
-                self.matched.push(Matched { step, done, renewed: std::mem::take(&mut self.renewed) });
+                self.matched.push(MatchedStep { step, done, renewed: std::mem::take(&mut self.renewed) });
                 Ok(())
             }
             Some((index, done)) => CheckError::fails(format!(
@@ -66,7 +66,7 @@ impl<'a> Order<'a> {
 
 /// Returns the time that the arm rests after each step. Checks that it rests between steps, before the first and after
 /// the last.
-pub(super) fn stands(motion: &Motion, steps: &[Matched]) -> Result<Vec<Decimal>, CheckError> {
+pub(super) fn stands(motion: &Motion, steps: &[MatchedStep]) -> Result<Vec<Decimal>, CheckError> {
     let knots = &motion.knots;
     let (mut last, mut all) = (0, Vec::new());
     let end = knots.len() - 1;

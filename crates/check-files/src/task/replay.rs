@@ -2,31 +2,31 @@
 
 mod held;
 
-use super::order::Matched;
+use super::order::MatchedStep;
 use crate::robot::Robot;
 use crate::robot::tool::{lowered, pressed};
-use crate::world::task::{Action, RESTING, Step, Stroke, Task};
+use crate::world::task::{Action, RESTING_DECIMALS, Step, Stroke, Task};
 use cplan_check::CheckError;
 use cplan_check::arm::Arm;
 use cplan_check::certificate::Motion;
 use cplan_check::curve::Piece;
 use cplan_check::decimal::Decimal;
 use cplan_check::ends::missed;
-use cplan_check::free::{Chain, Edge, On, Solid, guard};
+use cplan_check::free::{Attachment, Chain, Edge, Solid, guard};
 use cplan_check::interval::{Interval, Point};
 use cplan_check::motion::piece;
 use cplan_check::obstacle::Obstacle;
-use cplan_check::scene::{Part, Present, stay_off};
-use cplan_check::shapes::Counted;
+use cplan_check::scene::{Part, PlacedObstacle, stay_off};
+use cplan_check::shapes::CollisionShape;
 use cplan_check::world::World;
-use held::Held;
+use held::HeldObject;
 use num_bigint::BigInt;
 use std::iter;
 use std::ops::Range;
 
 /// The rule by which a carried object must keep away from an obstacle.
 #[derive(PartialEq)]
-enum Manner {
+enum ContactRule {
     Off,
     /// It may press into a support up to the allowed depth.
     Pressed,
@@ -43,7 +43,7 @@ pub(super) struct Replay<'a> {
     chain: Chain,
     tip: Point,
     /// Shapes of the arm, and whether the stroke lowers them.
-    shapes: Vec<(&'a Counted, Solid, bool)>,
+    shapes: Vec<(&'a CollisionShape, Solid, bool)>,
     /// Required distance of the shapes. `keeps` is its description in words.
     kept: BigInt,
     keeps: String,
@@ -51,12 +51,12 @@ pub(super) struct Replay<'a> {
     pressed: Interval,
     /// Obstacles and objects at their poses or on their trajectories, then moving obstacles, then links of the robot.
     /// `None` for a carried object.
-    present: Vec<Option<Present>>,
+    present: Vec<Option<PlacedObstacle>>,
     /// All of them in their initial state.
     all: Vec<&'a Obstacle>,
     /// The last knot of the previous step.
     knot: usize,
-    held: Option<Held>,
+    held: Option<HeldObject>,
     /// The object that was released last, by its number among the obstacles.
     released: Option<usize>,
     /// The greatest deviation of anything from its required place.
@@ -66,7 +66,7 @@ pub(super) struct Replay<'a> {
 /// The heights at which the shapes lowered by a stroke are checked: their own, or all heights of the stroke. `Lying`
 /// checks the carried object at its final pose.
 #[derive(Clone, Copy, PartialEq)]
-enum Tool {
+enum ToolHeights {
     Raised,
     Swept,
     Lying,
@@ -83,13 +83,14 @@ impl<'a> Replay<'a> {
         let arm = &robot.arm;
         let chain = Chain::from(arm);
         let kept = Interval::from(clearance).upper + guard();
-        let shape = |shape: &'a Counted| {
+        let shape = |shape: &'a CollisionShape| {
             let around = &shape.around;
             let is_lowered = task.stroke.as_ref().map_or(Ok(false), |stroke| robot.lowers(&stroke.joint, shape))?;
-            Ok((shape, Solid::new(&chain, On::Link(around.link), &around.shape, &kept), is_lowered))
+            Ok((shape, Solid::new(&chain, Attachment::Link(around.link), &around.shape, &kept), is_lowered))
         };
         let shapes = arm.shapes.iter().map(shape).collect::<Result<_, CheckError>>()?;
-        let present = world.all().chain(&arm.own).map(|obstacle| Present::new(&chain, obstacle.clone()).map(Some));
+        let present =
+            world.all().chain(&arm.own).map(|obstacle| PlacedObstacle::new(&chain, obstacle.clone()).map(Some));
         let present = present.collect::<Result<_, _>>()?;
         Ok(Self {
             arm,
@@ -120,13 +121,13 @@ impl<'a> Replay<'a> {
     /// Executes a step.
     pub(super) fn step(
         &mut self,
-        Matched { step, done, renewed }: &Matched,
-        after: &[Matched],
+        MatchedStep { step, done, renewed }: &MatchedStep,
+        after: &[MatchedStep],
     ) -> Result<(), CheckError> {
         // An object to be renewed is still there while the arm is at rest.
         if !renewed.is_empty() {
             let at = [1, 2].map(|k| Interval::from(&self.motion.knots[self.knot][k]));
-            self.free(&self.pieces(self.knot..done.knots[0])?, &at, None, Tool::Raised)?;
+            self.free(&self.pieces(self.knot..done.knots[0])?, &at, None, ToolHeights::Raised)?;
         }
         for object in renewed {
             let number = self.task.first + object;
@@ -136,7 +137,7 @@ impl<'a> Replay<'a> {
             if self.all[number].course.is_some() {
                 return CheckError::fails("a moving object cannot be renewed");
             }
-            self.present[number] = Some(Present::new(&self.chain, self.all[number].clone())?);
+            self.present[number] = Some(PlacedObstacle::new(&self.chain, self.all[number].clone())?);
             // Another object, which may now be touched.
             self.released = self.released.filter(|released| *released != number);
         }
@@ -151,19 +152,19 @@ impl<'a> Replay<'a> {
             Action::Pick { object, .. } => Some(self.task.first + object),
             _ => None,
         };
-        self.free(&pieces, &from, target, Tool::Raised)?;
+        self.free(&pieces, &from, target, ToolHeights::Raised)?;
         match &step.action {
             Action::Pick { object, grasp, supports, passing } => {
                 let places = |step: &&Step| matches!(step.action, Action::Place { .. });
                 let placing = after.iter().map(|next| next.step).find(places);
                 let carrying = self.task.carrying(*object, supports, placing);
                 self.grasp(*object, grasp, carrying, &to, (time, passing))?;
-                self.free(&still, &to, None, Tool::Swept)?;
+                self.free(&still, &to, None, ToolHeights::Swept)?;
                 self.turn(done, &to)?;
             }
             Action::Place { at, angle, .. } => {
                 self.turn(done, &to)?;
-                let tool = if self.task.stroke.is_some() { Tool::Swept } else { Tool::Lying };
+                let tool = if self.task.stroke.is_some() { ToolHeights::Swept } else { ToolHeights::Lying };
                 self.free(&still, &to, None, tool)?;
                 self.release(at, angle.as_ref(), &to)?;
             }
@@ -175,7 +176,7 @@ impl<'a> Replay<'a> {
         }
         // The last step leaves the arm there, and the exemptions of that step still apply.
         if let Some(rest) = rest {
-            self.free(&rest, &to, released, Tool::Raised)?;
+            self.free(&rest, &to, released, ToolHeights::Raised)?;
         }
         Ok(())
     }
@@ -188,52 +189,61 @@ impl<'a> Replay<'a> {
 
     /// Returns the rule by which the carried object must keep away from an obstacle. Returns `None` if they cannot
     /// collide.
-    fn meets(&self, held: &Held, obstacle: usize, tool: Tool) -> Option<Manner> {
+    fn meets(&self, held: &HeldObject, obstacle: usize, tool: ToolHeights) -> Option<ContactRule> {
         let own = self.task.first + held.object;
         let [heights, others] = [own, obstacle].map(|number| self.all[number].heights.as_ref());
         if let (Some(lying), Some([low, high])) = (heights, others) {
             let carried = lying.each_ref().map(|height| height + &self.task.objects[held.object].lift);
             let [least, most] = match tool {
-                Tool::Raised => carried,
-                Tool::Lying => lying.clone(),
-                Tool::Swept => [lying[0].clone().min(carried[0].clone()), lying[1].clone().max(carried[1].clone())],
+                ToolHeights::Raised => carried,
+                ToolHeights::Lying => lying.clone(),
+                ToolHeights::Swept => {
+                    [lying[0].clone().min(carried[0].clone()), lying[1].clone().max(carried[1].clone())]
+                }
             };
-            if most < *low || *high <= &least + &Decimal::power_of_ten(RESTING) {
+            if most < *low || *high <= &least + &Decimal::power_of_ten(RESTING_DECIMALS) {
                 return None;
             }
         }
         // A moving obstacle may or may not be there when the object arrives, so this check skips it.
-        let moves = |present: &Present| present.obstacle.course.is_some();
-        if tool == Tool::Lying && self.present[obstacle].as_ref().is_some_and(moves) {
+        let moves = |present: &PlacedObstacle| present.obstacle.course.is_some();
+        if tool == ToolHeights::Lying && self.present[obstacle].as_ref().is_some_and(moves) {
             return None;
         }
         (obstacle != own).then(|| match held.carrying.supports.contains(&obstacle) {
-            true => Manner::Pressed,
-            false if held.round.is_some() && self.all[obstacle].is_carried() => Manner::Round,
-            false => Manner::Off,
+            true => ContactRule::Pressed,
+            false if held.round.is_some() && self.all[obstacle].is_carried() => ContactRule::Round,
+            false => ContactRule::Off,
         })
     }
 
     /// Returns the parts of the carried object.
-    fn hanging<'h>(&'h self, held: &'h Held, solids: &'h [Vec<Solid>; 2], tool: Tool) -> Vec<Part<'h>> {
+    fn hanging<'h>(&'h self, held: &'h HeldObject, solids: &'h [Vec<Solid>; 2], tool: ToolHeights) -> Vec<Part<'h>> {
         let all = 0..self.present.len();
-        let part = |solid, keeps, manner: Manner| {
+        let part = |solid, keeps, manner: ContactRule| {
             let is_met = |obstacle| self.meets(held, obstacle, tool).is_some_and(|of| of == manner);
             let meets = all.clone().map(is_met).collect();
             Part { name: "the payload".to_owned(), keeps, solid, meets }
         };
         let [others, supports] = solids;
-        let supported = supports.iter().map(|solid| part(solid, "no deeper than it may press into", Manner::Pressed));
-        let round = held.round.iter().map(|solid| part(solid, &*self.keeps, Manner::Round));
-        others.iter().map(|solid| part(solid, &*self.keeps, Manner::Off)).chain(supported).chain(round).collect()
+        let supported =
+            supports.iter().map(|solid| part(solid, "no deeper than it may press into", ContactRule::Pressed));
+        let round = held.round.iter().map(|solid| part(solid, &*self.keeps, ContactRule::Round));
+        others.iter().map(|solid| part(solid, &*self.keeps, ContactRule::Off)).chain(supported).chain(round).collect()
     }
 
     /// Checks that no obstacle is initially inside the carried object, and no support inside the part of it that must
     /// keep away from supports.
-    fn surrounds_none(&self, held: &Held, values: &Point, time: &Decimal, tool: Tool) -> Result<(), CheckError> {
+    fn require_outside(
+        &self,
+        held: &HeldObject,
+        values: &Point,
+        time: &Decimal,
+        tool: ToolHeights,
+    ) -> Result<(), CheckError> {
         let of_second = [Interval::whole(0), values[1].clone()];
-        let pressed = held.pressed.iter().map(|own| (own, Manner::Pressed));
-        for (hanging, manner) in iter::once((&held.hanging, Manner::Off)).chain(pressed) {
+        let pressed = held.pressed.iter().map(|own| (own, ContactRule::Pressed));
+        for (hanging, manner) in iter::once((&held.hanging, ContactRule::Off)).chain(pressed) {
             let [lying, beside] = [values, &of_second].map(|at| self.chain.lying(&held.on, hanging, at));
             for (number, present) in self.present.iter().enumerate() {
                 if self.meets(held, number, tool).is_some_and(|of| of == manner) {
@@ -251,19 +261,19 @@ impl<'a> Replay<'a> {
 
     /// Checks that the arm, with its load, is free on pieces that begin in a configuration. The second link may touch
     /// the object released last, and the obstacle `also`.
-    fn free(&self, pieces: &[Piece], from: &Point, also: Option<usize>, tool: Tool) -> Result<(), CheckError> {
+    fn free(&self, pieces: &[Piece], from: &Point, also: Option<usize>, tool: ToolHeights) -> Result<(), CheckError> {
         let stroke = match (tool, &self.task.stroke, &self.held) {
-            (Tool::Raised | Tool::Lying, ..) => None,
-            (Tool::Swept, Some(Stroke { travel, .. }), Some(held)) => {
+            (ToolHeights::Raised | ToolHeights::Lying, ..) => None,
+            (ToolHeights::Swept, Some(Stroke { travel, .. }), Some(held)) => {
                 Some(travel.as_ref().unwrap_or(&self.task.objects[held.object].lift))
             }
-            (Tool::Swept, ..) => return Ok(()),
+            (ToolHeights::Swept, ..) => return Ok(()),
         };
         if stroke.is_some() {
-            self.nothing_moves("a stroke of the tool")?;
+            self.require_static("a stroke of the tool")?;
         }
         let own = |shape| {
-            let (counted, solid, is_lowered): &(&Counted, Solid, bool) = shape;
+            let (counted, solid, is_lowered): &(&CollisionShape, Solid, bool) = shape;
             let body = &counted.around;
             let lowered = stroke.filter(|_| *is_lowered).map(|by| lowered(body, by));
             let heights = lowered.as_ref().unwrap_or(body);
@@ -277,7 +287,7 @@ impl<'a> Replay<'a> {
         let mut parts: Vec<Part> = self.shapes.iter().map(own).collect();
         if let Some(held) = &self.held {
             parts.extend(self.hanging(held, &held.solids, tool));
-            self.surrounds_none(held, from, &pieces[0].time[0], tool)?;
+            self.require_outside(held, from, &pieces[0].time[0], tool)?;
         }
         stay_off(&self.chain, pieces, from, &parts, &self.present)
     }

@@ -23,10 +23,10 @@ pub struct Cells {
 }
 
 /// Maximum number of border pieces. This many take some gigabyte.
-const MOST_PIECES: usize = 1 << 18;
+const MAX_PIECES: usize = 1 << 18;
 
 /// Darkness, of 255, that means unknown, regardless of the thresholds: ROS's map savers write it for unseen cells.
-const UNSEEN: i32 = 50;
+const UNSEEN_DARKNESS: i32 = 50;
 
 /// A map description: the YAML of ROS's map server. Numbers are kept as written; keys of other programs are ignored.
 #[derive(Deserialize)]
@@ -81,7 +81,7 @@ impl Cells {
         let is_solid = |shade: u32| {
             let dark = whole(if is_light { shade } else { white - shade });
             let above = |share: &Decimal| dark > share * &whole(white);
-            let is_unseen = &dark * &Decimal::whole(255) == &whole(white) * &Decimal::whole(UNSEEN);
+            let is_unseen = &dark * &Decimal::whole(255) == &whole(white) * &Decimal::whole(UNSEEN_DARKNESS);
             above(&occupied) || unknown_is_solid && (is_unseen || dark >= &free * &whole(white))
         };
         let table: Vec<bool> = (0..=white).map(is_solid).collect();
@@ -152,9 +152,9 @@ impl Squares for Cells {
                 }
             }
         }
-        if border.len() > MOST_PIECES {
+        if border.len() > MAX_PIECES {
             let message = format!(
-                "a picture has a border of {} pieces, but the checker takes at most {MOST_PIECES}",
+                "a picture has a border of {} pieces, but the checker takes at most {MAX_PIECES}",
                 border.len()
             );
             return Err(CheckError::in_file(Input::World, message));

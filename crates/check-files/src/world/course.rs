@@ -1,15 +1,15 @@
 //! Motions of obstacles and objects in time.
 
-use super::{Read, Reader, Value};
+use super::{ReadResult, Reader, Value};
 use cplan_check::decimal::Decimal;
 use cplan_check::interval::{Interval, Point, length, minus, sum, times, turned};
-use cplan_check::obstacle::{Course, point};
+use cplan_check::obstacle::{ObstacleTrajectory, point};
 use cplan_check::overlap::Shape;
 use num_bigint::{BigInt, Sign};
 
 /// Uniform straight motion from stop to stop. The obstacle waits at the first stop until its time, and leaves the last
 /// one at a constant velocity.
-pub struct Stops {
+pub struct StopTrajectory {
     stops: Vec<Stop>,
     velocity: Point,
 }
@@ -21,7 +21,7 @@ struct Stop {
     angle: Interval,
 }
 
-impl Stops {
+impl StopTrajectory {
     /// Returns the position of the frame's origin at a time, and the orientation of the frame.
     fn pose(&self, time: &Decimal) -> (Point, Interval) {
         let next = self.stops.partition_point(|stop| stop.time <= *time);
@@ -39,7 +39,7 @@ impl Stops {
     }
 }
 
-impl Course for Stops {
+impl ObstacleTrajectory for StopTrajectory {
     fn place(&self, time: &Decimal) -> [Point; 2] {
         let (at, angle) = self.pose(time);
         [at, angle.sin_cos()]
@@ -69,7 +69,7 @@ impl Course for Stops {
 
 impl Reader<'_> {
     /// Reads the `motion` of an obstacle. Position and angle are the defaults of its stops.
-    pub(super) fn course(&self, value: &Value, at: &Point, angle: &Interval) -> Read<Stops> {
+    pub(super) fn course(&self, value: &Value, at: &Point, angle: &Interval) -> ReadResult<StopTrajectory> {
         let table = self.table(value)?;
         if let Some((key, _)) = table.iter().find(|(key, _)| !["stops", "velocity"].contains(&&**key.get_ref())) {
             return self.error(value, &format!("the checker does not know the key {} of a motion", key.get_ref()));
@@ -87,7 +87,7 @@ impl Reader<'_> {
             })
         };
         let stops: Vec<Stop> = match table.get("stops") {
-            Some(stops) => self.list(stops)?.into_iter().map(stop).collect::<Read<_>>()?,
+            Some(stops) => self.list(stops)?.into_iter().map(stop).collect::<ReadResult<_>>()?,
             None => vec![Stop { time: Decimal::whole(0), at: at.clone(), angle: angle.clone() }],
         };
         let is_later = |pair: &[Stop]| Interval::from(&(&pair[1].time - &pair[0].time)).lower.sign() == Sign::Plus;
@@ -95,6 +95,6 @@ impl Reader<'_> {
             return self.error(value, "a motion needs stops, each later than the previous one");
         }
         let velocity = table.get("velocity").map(|v| self.two(v, |n| self.number(n))).transpose()?;
-        Ok(Stops { stops, velocity: velocity.map_or_else(|| [0, 0].map(Interval::whole), |v| point(&v)) })
+        Ok(StopTrajectory { stops, velocity: velocity.map_or_else(|| [0, 0].map(Interval::whole), |v| point(&v)) })
     }
 }

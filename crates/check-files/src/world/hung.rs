@@ -1,6 +1,6 @@
 //! Shapes of carried objects that must keep away from obstacles.
 
-use super::Read;
+use super::ReadResult;
 use cplan_check::decimal::Decimal;
 use cplan_check::interval::{BITS, Interval, Point, length, minus, sum, times};
 use cplan_check::obstacle::{Obstacle, Outline, point};
@@ -9,19 +9,19 @@ use cplan_check::polygon::{Corner, edges, is_convex, side, surrounds};
 use cplan_check::{CheckError, Input};
 use num_bigint::Sign;
 
-/// Lower bound `2^-SHARPEST` on the sines of half the corner angles, and on the side lengths, of objects that press
+/// Lower bound `2^-MIN_SINE_BITS` on the sines of half the corner angles, and on the side lengths, of objects that press
 /// into supports.
-const SHARPEST: u64 = 30;
+const MIN_SINE_BITS: u64 = 30;
 
 /// Corners that turn inwards are moved by slightly less than others: by this power of a half of the length.
-const REFLEX: u32 = 30;
+const REFLEX_CORNER_BITS: u32 = 30;
 
 /// Returns the obstacle as convex shapes at its place: itself if it is convex, or else its sides. A set that stays off
 /// them is off the obstacle, provided that neither contains the other.
 ///
 /// # Errors
 /// Same as [`Obstacle::sides`].
-pub fn solids(obstacle: &Obstacle) -> Read<Vec<Shape>> {
+pub fn solids(obstacle: &Obstacle) -> ReadResult<Vec<Shape>> {
     match (&obstacle.outline, convex(obstacle)) {
         (_, Some(corners)) => Ok(vec![hull(obstacle, &corners)]),
         _ => obstacle.sides(),
@@ -34,7 +34,7 @@ pub fn solids(obstacle: &Obstacle) -> Read<Vec<Shape>> {
 ///
 /// # Errors
 /// If the object has no interior, or is too thin.
-pub fn pressed(object: &Obstacle, by: &Interval) -> Read<Obstacle> {
+pub fn pressed(object: &Obstacle, by: &Interval) -> ReadResult<Obstacle> {
     let wrong = |why: &str| CheckError::in_file(Input::World, why);
     let outline = match &object.outline {
         Outline::Circle(center, radius) => {
@@ -102,9 +102,9 @@ fn inset(mut ring: Vec<Corner>, outwards: bool, by: &Interval) -> Option<Vec<Cor
         ring.reverse();
     }
     let points: Vec<Point> = ring.iter().map(point).collect();
-    let along = |way: &Point| {
-        let far = length(way);
-        (far.lower.bits() + SHARPEST > BITS.into()).then(|| way.each_ref().map(|c| c.divided(&far)))
+    let along = |direction: &Point| {
+        let far = length(direction);
+        (far.lower.bits() + MIN_SINE_BITS > BITS.into()).then(|| direction.each_ref().map(|c| c.divided(&far)))
     };
     let corner = |k: usize| {
         let to = |other: usize| along(&minus(&points[other % points.len()], &points[k]));
@@ -113,7 +113,7 @@ fn inset(mut ring: Vec<Corner>, outwards: bool, by: &Interval) -> Option<Vec<Cor
         // turns inwards must stay off the lines of others despite rounding.
         let [last, next] = [points.len() - 1, 1].map(|other| &ring[(k + other) % ring.len()]);
         let is_reflex = side(last, &ring[k], next) == Sign::Minus;
-        let by = if is_reflex { by - &by.in_halves(REFLEX) } else { by.clone() };
+        let by = if is_reflex { by - &by.in_halves(REFLEX_CORNER_BITS) } else { by.clone() };
         let moved = sum(&points[k], &times(&along(&[-&y, x])?, &by));
         Some(moved.map(|c| Decimal::dyadic(&c.middle().0, BITS)))
     };
@@ -130,7 +130,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn corners_move_into_the_solid_whichever_way_rings_turn() {
+    fn corners_move_inwards_for_both_orientations() {
         let ring = |text: &str| {
             let numbers: Vec<Decimal> = text.split(' ').map(|n| n.parse().unwrap()).collect();
             numbers.chunks(2).map(|p| [p[0].clone(), p[1].clone()]).collect::<Vec<Corner>>()

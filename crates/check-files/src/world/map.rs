@@ -1,6 +1,6 @@
 //! Line maps, and the goals of a preference file.
 
-use super::{Read, Reader, Value, origin};
+use super::{ReadResult, Reader, Value, origin};
 use crate::files::Files;
 use cplan_check::decimal::Decimal;
 use cplan_check::interval::Interval;
@@ -25,7 +25,7 @@ impl Unit {
 
 impl Reader<'_> {
     /// Reads `[map]`. Its walls follow the obstacles. Its goal applies if the world has neither a goal nor steps.
-    pub(super) fn map(&self, value: &Value, has_steps: bool, world: &mut World) -> Read<()> {
+    pub(super) fn map(&self, value: &Value, has_steps: bool, world: &mut World) -> ReadResult<()> {
         let (mut file, mut wishes, mut is_framed, mut heights) = (None, None, true, None);
         let mut unit = Unit { scale: Decimal::power_of_ten(3), offset: origin() };
         for (key, value) in self.table(value)? {

@@ -4,7 +4,7 @@ use png::{BitDepth, ColorType, Decoder, DecodingError, Transformations};
 use std::io::Cursor;
 
 /// Maximum number of pixels of a picture.
-const MOST_PIXELS: usize = 1 << 26;
+const MAX_PIXELS: usize = 1 << 26;
 
 /// The brightness of pixels.
 pub struct Picture {
@@ -25,7 +25,7 @@ pub fn read(bytes: &[u8]) -> Result<Picture, String> {
 }
 
 fn pixels([width, height]: [usize; 2]) -> Result<usize, String> {
-    let count = width.checked_mul(height).filter(|count| (1..=MOST_PIXELS).contains(count));
+    let count = width.checked_mul(height).filter(|count| (1..=MAX_PIXELS).contains(count));
     count.ok_or_else(|| "its size is 0 or too large".into())
 }
 
@@ -156,7 +156,7 @@ mod tests {
     }
 
     #[test]
-    fn what_a_palette_lacks_is_of_no_shade() {
+    fn missing_palette_entries_have_no_shade() {
         let Picture { size, white, shades } = indexed(&[0b0110_1111, 0b1000_1100]).unwrap();
         assert_eq!((size, white), ([2, 2], 765));
         assert_eq!(shades, [60, 765, 765, 0].map(Some));

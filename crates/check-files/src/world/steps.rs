@@ -1,7 +1,7 @@
 //! Reads objects, pallets and steps of the world file.
 
-use super::task::{Action, Group, Node, Object, Passing, Step, Stroke, Task, Wrist};
-use super::{Read, Reader, Value};
+use super::task::{Action, Group, MovingPick, Node, Object, Step, Stroke, Task, Wrist};
+use super::{ReadResult, Reader, Value};
 use cplan_check::decimal::Decimal;
 use cplan_check::interval::{Interval, Point, both_turns, sum, turned};
 use cplan_check::obstacle::{Obstacle, point};
@@ -11,7 +11,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use toml::de::{DeTable, DeValue};
 
 /// Maximum number of places on a pallet.
-const MOST_PLACES: usize = 10_000;
+const MAX_PLACES: usize = 10_000;
 
 /// Places in rows and columns.
 struct Pallet {
@@ -32,7 +32,7 @@ struct Steps<'r, 'w> {
 
 impl Reader<'_> {
     /// Reads the objects of a world and, if it has any, its steps.
-    pub(super) fn task(&self, table: &DeTable, world: &mut World) -> Read<Option<Task>> {
+    pub(super) fn task(&self, table: &DeTable, world: &mut World) -> ReadResult<Option<Task>> {
         let list = |key: &str| table.get(key).map_or(Ok(Vec::new()), |value| self.list(value));
         let mut pallets = BTreeMap::new();
         for value in list("pallet")? {
@@ -71,7 +71,8 @@ impl Reader<'_> {
         let mut reading = Steps { reader: self, world, first, objects: &objects, pallets: &pallets, count: 0 };
         let dwell = manner.and_then(|task| task.get("dwell"));
         let dwell = dwell.map_or(Ok(Decimal::whole(0)), |dwell| self.number(dwell))?;
-        if let Some((key, _)) = manner.and_then(|task| task.iter().find(|(key, _)| !MANNER.contains(&&**key.get_ref())))
+        if let Some((key, _)) =
+            manner.and_then(|task| task.iter().find(|(key, _)| !SHARED_STEP_KEYS.contains(&&**key.get_ref())))
         {
             return self.error(steps, &format!("the checker does not know [task] {}", key.get_ref()));
         }
@@ -83,7 +84,7 @@ impl Reader<'_> {
     }
 
     /// Reads a whole number from 1 on.
-    fn count(&self, value: &Value) -> Read<usize> {
+    fn count(&self, value: &Value) -> ReadResult<usize> {
         let count = match value.get_ref() {
             DeValue::Integer(_) => self.number(value)?.to_string().parse().ok(),
             _ => None,
@@ -91,7 +92,7 @@ impl Reader<'_> {
         count.filter(|count| *count > 0).map_or_else(|| self.error(value, "expected a whole number from 1 on"), Ok)
     }
 
-    fn is_level(&self, value: &Value) -> Read<bool> {
+    fn is_level(&self, value: &Value) -> ReadResult<bool> {
         match &*self.text(value)? {
             "level" => Ok(true),
             "rigid" => Ok(false),
@@ -99,13 +100,13 @@ impl Reader<'_> {
         }
     }
 
-    fn stroke(&self, value: &Value) -> Read<Stroke> {
+    fn stroke(&self, value: &Value) -> ReadResult<Stroke> {
         let table = self.table(value)?;
         let Some(joint) = table.get("joint") else { return self.error(value, "a stroke needs a joint") };
         Ok(Stroke { joint: self.text(joint)?, travel: table.get("travel").map(|n| self.number(n)).transpose()? })
     }
 
-    fn pallet(&self, value: &Value) -> Read<(String, Pallet)> {
+    fn pallet(&self, value: &Value) -> ReadResult<(String, Pallet)> {
         let table = self.table(value)?;
         let (Some(name), Some(rows), Some(columns), Some(pitch), Some(at)) =
             (table.get("name"), table.get("rows"), table.get("columns"), table.get("pitch"), table.get("at"))
@@ -113,7 +114,7 @@ impl Reader<'_> {
             return self.error(value, "a pallet needs a name, rows, columns, a pitch and a place");
         };
         let [rows, columns] = [self.count(rows)?, self.count(columns)?];
-        if rows.saturating_mul(columns) > MOST_PLACES {
+        if rows.saturating_mul(columns) > MAX_PLACES {
             return self.error(value, "the pallet has too many places");
         }
         let (pitch, at) = (self.two(pitch, |n| self.number(n))?, point(&self.two(at, |n| self.number(n))?));
@@ -135,7 +136,7 @@ impl Reader<'_> {
         is_level: bool,
         pallets: &BTreeMap<String, Pallet>,
         objects: &mut Vec<Object>,
-    ) -> Read<Vec<Obstacle>> {
+    ) -> ReadResult<Vec<Obstacle>> {
         let (table, lying) = (self.table(value)?, self.obstacle(value, true)?);
         let Some(family) = lying.name.clone() else { return self.error(value, "an object needs a name") };
         let number = |key: &str| table.get(key).map(|value| self.number(value)).transpose();
@@ -176,7 +177,7 @@ impl Reader<'_> {
 
     /// Returns the numbers of the named obstacles and objects. A name may stand for all objects on a pallet that share
     /// it.
-    fn supports(&self, list: &Value, world: &World, first: usize, objects: &[Object]) -> Read<Vec<usize>> {
+    fn supports(&self, list: &Value, world: &World, first: usize, objects: &[Object]) -> ReadResult<Vec<usize>> {
         let mut all = Vec::new();
         for value in self.list(list)? {
             let (name, before) = (self.text(value)?, all.len());
@@ -194,11 +195,11 @@ impl Reader<'_> {
 }
 
 /// Keys that apply to several steps.
-const MANNER: [&str; 4] = ["repeat", "order", "speed", "dwell"];
+const SHARED_STEP_KEYS: [&str; 4] = ["repeat", "order", "speed", "dwell"];
 
 impl Steps<'_, '_> {
     /// Reads a list of steps as one group. The table `manner` has its repetitions and order.
-    fn group(&mut self, list: &Value, manner: Option<&DeTable>, dwell: &Decimal) -> Read<Group> {
+    fn group(&mut self, list: &Value, manner: Option<&DeTable>, dwell: &Decimal) -> ReadResult<Group> {
         let reader = self.reader;
         let mut nodes = Vec::new();
         for value in reader.list(list)? {
@@ -236,12 +237,12 @@ impl Steps<'_, '_> {
     }
 
     /// Reads a table: a step, a group, or the steps of a transfer.
-    fn nodes(&mut self, value: &Value, dwell: &Decimal) -> Read<Vec<Node>> {
+    fn nodes(&mut self, value: &Value, dwell: &Decimal) -> ReadResult<Vec<Node>> {
         let reader = self.reader;
         let table = reader.table(value)?;
         let dwell = table.get("dwell").map_or(Ok(dwell.clone()), |value| reader.number(value))?;
         let known = ["pick", "place", "move", "transfer", "steps", "grasp", "supports", "at", "window"];
-        let is_known = |key: &str| known.contains(&key) || MANNER.contains(&key);
+        let is_known = |key: &str| known.contains(&key) || SHARED_STEP_KEYS.contains(&key);
         if let Some((key, _)) = table.iter().find(|(key, _)| !is_known(key.get_ref())) {
             return reader.error(value, &format!("the checker does not know the key {} of a step", key.get_ref()));
         }
@@ -258,7 +259,7 @@ impl Steps<'_, '_> {
                 let object = self.world.obstacles[self.first..].iter().position(|object| object.name == named);
                 let Some(object) = object else { return reader.error(of, "there is no object of this name") };
                 let grasp = table.get("grasp").map(|grasp| reader.two(grasp, |n| reader.number(n))).transpose()?;
-                let passing = Passing {
+                let passing = MovingPick {
                     window: table.get("window").map(|w| reader.two(w, |n| reader.number(n))).transpose()?,
                     at: table.get("at").map(|at| Ok(point(&reader.two(at, |n| reader.number(n))?))).transpose()?,
                 };
@@ -275,23 +276,23 @@ impl Steps<'_, '_> {
         Ok(actions.into_iter().map(step).collect())
     }
 
-    fn pick(&self, object: usize, grasp: Option<Corner>, supports: Option<Vec<usize>>, passing: Passing) -> Action {
+    fn pick(&self, object: usize, grasp: Option<Corner>, supports: Option<Vec<usize>>, passing: MovingPick) -> Action {
         let own = &self.objects[object];
         let (grasp, supports) = (grasp.unwrap_or(own.grasp.clone()), supports.unwrap_or(own.supports.clone()));
         Action::Pick { object, grasp, supports, passing: Box::new(passing) }
     }
 
     /// Reads the supports that a table names.
-    fn supports(&self, table: &DeTable) -> Read<Option<Vec<usize>>> {
+    fn supports(&self, table: &DeTable) -> ReadResult<Option<Vec<usize>>> {
         let list = table.get("supports");
         list.map(|list| self.reader.supports(list, self.world, self.first, self.objects)).transpose()
     }
 
-    fn angle(&self, table: &DeTable) -> Read<Option<Interval>> {
+    fn angle(&self, table: &DeTable) -> ReadResult<Option<Interval>> {
         table.get("angle").map(|angle| Ok(Interval::around(&self.reader.quantity(angle)?))).transpose()
     }
 
-    fn place(&self, value: &Value) -> Read<Action> {
+    fn place(&self, value: &Value) -> ReadResult<Action> {
         let (reader, table) = (self.reader, self.reader.table(value)?);
         let at = match (table.get("at"), table.get("on")) {
             (Some(at), None) => point(&reader.two(at, |n| reader.number(n))?),
@@ -309,7 +310,7 @@ impl Steps<'_, '_> {
     }
 
     /// Returns picks and places of all objects on a pallet that share a name, one after the other.
-    fn transfer(&self, value: &Value) -> Read<Vec<Action>> {
+    fn transfer(&self, value: &Value) -> ReadResult<Vec<Action>> {
         let (reader, table) = (self.reader, self.reader.table(value)?);
         let (Some(name), Some(to)) = (table.get("objects"), table.get("to")) else {
             return reader.error(value, "a transfer needs objects and a pallet for them");
@@ -322,7 +323,7 @@ impl Steps<'_, '_> {
         let (angle, supports) = (self.angle(table)?, self.supports(table)?);
         let pair = |(object, (_, at)): (usize, &(String, Point))| {
             let (at, angle, supports) = (at.clone(), angle.clone(), supports.clone());
-            [self.pick(object, None, None, Passing::default()), Action::Place { at, angle, supports }]
+            [self.pick(object, None, None, MovingPick::default()), Action::Place { at, angle, supports }]
         };
         Ok(objects.into_iter().zip(&pallet.places).flat_map(pair).collect())
     }

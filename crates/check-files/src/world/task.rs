@@ -8,7 +8,7 @@ use cplan_check::world::Goal;
 
 /// Tolerance of resting heights, metres: `10^-6`. An object rests on a support if its lower end reaches into the
 /// support by no more than this.
-pub const RESTING: u32 = 6;
+pub const RESTING_DECIMALS: u32 = 6;
 
 /// The task that the steps of a world describe.
 pub struct Task {
@@ -73,7 +73,7 @@ pub struct Step {
 
 /// Time and place at which a moving object is to be picked, as far as the step states them.
 #[derive(Default)]
-pub struct Passing {
+pub struct MovingPick {
     /// Seconds after the task began.
     pub window: Option<Range>,
     /// Position of its origin at that time.
@@ -87,7 +87,7 @@ pub enum Action {
         object: usize,
         grasp: Corner,
         supports: Vec<usize>,
-        passing: Box<Passing>,
+        passing: Box<MovingPick>,
     },
     /// The origin of the carried object moves to a position, where the object is released.
     Place {
@@ -99,7 +99,7 @@ pub enum Action {
 }
 
 /// Rules that apply from a pick to the place that follows.
-pub struct Carrying {
+pub struct CarryRules {
     /// Obstacles that the object may touch.
     pub supports: Vec<usize>,
     /// True if the wrist may turn it, to the angle of the place.
@@ -108,8 +108,8 @@ pub struct Carrying {
 
 impl Task {
     /// Returns the rules for an object that is picked from supports, and placed by the step `placing` if there is one.
-    pub fn carrying(&self, object: usize, supports: &[usize], placing: Option<&Step>) -> Carrying {
-        let mut carrying = Carrying { supports: supports.to_vec(), may_turn: false };
+    pub fn carrying(&self, object: usize, supports: &[usize], placing: Option<&Step>) -> CarryRules {
+        let mut carrying = CarryRules { supports: supports.to_vec(), may_turn: false };
         if let Some(Action::Place { angle, supports, .. }) = placing.map(|step| &step.action) {
             carrying.supports.extend(supports.as_ref().unwrap_or(&self.objects[object].supports));
             carrying.may_turn = self.wrist.is_some() && angle.is_some();

@@ -22,39 +22,39 @@ pub(super) type Line = (Decimal, i64);
 
 /// Limit on the distance of places from the origin, in coarse units. It keeps products of differences exact in 128
 /// bits.
-pub(super) const FARTHEST: i64 = 1 << 58;
+pub(super) const MAX_COORDINATE: i64 = 1 << 58;
 
-/// Coarse units are `2^-40`, which is `2^COARSER` fine units.
-pub(super) const COARSER: u32 = BITS - 40;
+/// Coarse units are `2^-40`, which is `2^COARSE_SHIFT` fine units.
+pub(super) const COARSE_SHIFT: u32 = BITS - 40;
 
 /// A copy of a wall, shifted by whole turns of each joint.
-pub(super) struct Copy {
+pub(super) struct WallCopy {
     pub(super) wall: usize,
     pub(super) turns: [i64; 2],
     pub(super) ends: [Place; 2],
 }
 
 /// Overlapping walls on one line, from end to end, with the ends of other walls that touch them from either side.
-pub(super) struct Run {
+pub(super) struct WallRun {
     pub(super) ends: [Interval; 2],
     pub(super) beside: [Vec<Interval>; 2],
 }
 
 /// Merges upright walls into runs, and collects the ends of other walls that lie within them.
-pub(super) fn runs(copies: &[Copy]) -> BTreeMap<Line, Vec<Run>> {
-    let mut runs: BTreeMap<Line, Vec<Run>> = BTreeMap::new();
-    for Copy { ends: [a, b], .. } in copies {
+pub(super) fn runs(copies: &[WallCopy]) -> BTreeMap<Line, Vec<WallRun>> {
+    let mut runs: BTreeMap<Line, Vec<WallRun>> = BTreeMap::new();
+    for WallCopy { ends: [a, b], .. } in copies {
         if let (Some(line), true) = (&a.line, a.line == b.line) {
             let mut ends = [a.at[1].clone(), b.at[1].clone()];
             if ends[1].lower < ends[0].lower {
                 ends.reverse();
             }
-            runs.entry(line.clone()).or_default().push(Run { ends, beside: [vec![], vec![]] });
+            runs.entry(line.clone()).or_default().push(WallRun { ends, beside: [vec![], vec![]] });
         }
     }
     for list in runs.values_mut() {
         list.sort_by(|a, b| a.ends[0].lower.cmp(&b.ends[0].lower));
-        let mut merged: Vec<Run> = Vec::new();
+        let mut merged: Vec<WallRun> = Vec::new();
         for run in list.drain(..) {
             match merged.last_mut() {
                 Some(last) if below(&run.ends[0], &last.ends[1]) => {
@@ -67,7 +67,7 @@ pub(super) fn runs(copies: &[Copy]) -> BTreeMap<Line, Vec<Run>> {
         }
         *list = merged;
     }
-    for Copy { ends: [a, b], .. } in copies {
+    for WallCopy { ends: [a, b], .. } in copies {
         for (end, other) in [(a, b), (b, a)] {
             let side = match (below(&other.at[0], &end.at[0]), below(&end.at[0], &other.at[0])) {
                 (true, _) => 0,
@@ -75,7 +75,7 @@ pub(super) fn runs(copies: &[Copy]) -> BTreeMap<Line, Vec<Run>> {
                 _ => continue,
             };
             let list = end.line.as_ref().and_then(|line| runs.get_mut(line));
-            let is_within = |run: &&mut Run| below(&run.ends[0], &end.at[1]) && below(&end.at[1], &run.ends[1]);
+            let is_within = |run: &&mut WallRun| below(&run.ends[0], &end.at[1]) && below(&end.at[1], &run.ends[1]);
             if let Some(run) = list.and_then(|list| list.iter_mut().find(is_within)) {
                 run.beside[side].push(end.at[1].clone());
             }
@@ -91,9 +91,10 @@ impl Place {
             let turns = Interval::exactly(BigInt::from(2 * turns[k]) << BITS);
             metric.scaled(k, &(&Interval::around(&rectangle[k]) + &(Interval::pi() * &turns)))
         });
-        let coarse = |n: BigInt| i64::try_from(n).ok().filter(|n| n.abs() < FARTHEST);
-        let both =
-            at.each_ref().map(|value| Some([coarse(&value.lower >> COARSER)?, coarse((&value.upper >> COARSER) + 1)?]));
+        let coarse = |n: BigInt| i64::try_from(n).ok().filter(|n| n.abs() < MAX_COORDINATE);
+        let both = at
+            .each_ref()
+            .map(|value| Some([coarse(&value.lower >> COARSE_SHIFT)?, coarse((&value.upper >> COARSE_SHIFT) + 1)?]));
         let [first, second] = both;
         let line = (rectangle[0][0] == rectangle[0][1]).then(|| (rectangle[0][0].clone(), turns[0]));
         Some(Self { at, coarse: [first?, second?], line })
@@ -132,7 +133,7 @@ impl Place {
     }
 }
 
-impl Copy {
+impl WallCopy {
     /// Returns the least value along joint 1, in coarse units.
     pub(super) fn begins(&self) -> i64 {
         self.ends[0].coarse[0][0].min(self.ends[1].coarse[0][0])

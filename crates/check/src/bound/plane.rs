@@ -1,6 +1,6 @@
 //! Copies of walls on all turns, and the legs that they block.
 
-use super::places::{COARSER, Copy, Line, Place, Run, below, runs};
+use super::places::{COARSE_SHIFT, Line, Place, WallCopy, WallRun, below, runs};
 use crate::certificate::{Bound, Metric};
 use crate::decimal::Decimal;
 use crate::domain::{Axis, Rectangle};
@@ -12,7 +12,7 @@ use std::collections::BTreeMap;
 use std::ops::RangeInclusive;
 
 /// Maximum number of wall copies, on all turns that a path of the given length can reach.
-const MOST_COPIES: usize = 200_000;
+const MAX_COPIES: usize = 200_000;
 
 /// An end of a wall at which shortest paths may turn.
 pub(super) struct Corner {
@@ -30,10 +30,10 @@ pub(super) struct Plane<'a> {
     length: Interval,
     start: Place,
     /// Sorted by the least value of joint 1.
-    copies: Vec<Copy>,
+    copies: Vec<WallCopy>,
     /// Maximum extent of a wall along joint 1, in coarse units.
     widest: i64,
-    runs: BTreeMap<Line, Vec<Run>>,
+    runs: BTreeMap<Line, Vec<WallRun>>,
     goals: Vec<Place>,
 }
 
@@ -62,7 +62,7 @@ impl<'a> Plane<'a> {
             let [first, second] = turns;
             let (first, second) = (first?, second?);
             let count = |range: &RangeInclusive<i64>| range.end().abs_diff(*range.start()).saturating_add(1);
-            if count(&first).saturating_mul(count(&second)) > MOST_COPIES as u64 {
+            if count(&first).saturating_mul(count(&second)) > MAX_COPIES as u64 {
                 return None;
             }
             let pairs = first.flat_map(|a| second.clone().map(move |b| [a, b]));
@@ -75,9 +75,9 @@ impl<'a> Plane<'a> {
             for (turns, _) in copies(&whole).ok_or_else(too_long)? {
                 let end = |at: &[Decimal; 2]| Place::new(metric, &at.each_ref().map(|v| [v.clone(), v.clone()]), turns);
                 let (Some(a), Some(b)) = (end(&wall.from), end(&wall.to)) else { return Err(too_long()) };
-                walls.push(Copy { wall: number, turns, ends: [a, b] });
+                walls.push(WallCopy { wall: number, turns, ends: [a, b] });
             }
-            if walls.len() > MOST_COPIES {
+            if walls.len() > MAX_COPIES {
                 return Err(too_long());
             }
         }
@@ -85,7 +85,7 @@ impl<'a> Plane<'a> {
         for goal in goals {
             everywhere.extend(copies(goal).ok_or_else(too_long)?.into_iter().map(|(_, place)| place));
         }
-        walls.sort_by_key(Copy::begins);
+        walls.sort_by_key(WallCopy::begins);
         let widest = walls.iter().map(|copy| copy.stops() - copy.begins()).max().unwrap_or(0);
         let runs = runs(&walls);
         Ok(Self { metric, length, start: from, copies: walls, widest, runs, goals: everywhere })
@@ -113,7 +113,7 @@ impl<'a> Plane<'a> {
                     Axis::Circle => false,
                 };
                 let runs = at.line.as_ref().and_then(|line| self.runs.get(line));
-                let is_within = |run: &Run| below(&run.ends[0], &at.at[1]) && below(&at.at[1], &run.ends[1]);
+                let is_within = |run: &WallRun| below(&run.ends[0], &at.at[1]) && below(&at.at[1], &run.ends[1]);
                 if is_outside(0) || is_outside(1) || runs.is_some_and(|runs| runs.iter().any(is_within)) {
                     continue;
                 }
@@ -134,7 +134,7 @@ impl<'a> Plane<'a> {
     ///
     /// # Errors
     /// Names the leg along which a potential grows too much.
-    pub(super) fn legs_are_long(&self, corners: &[Corner]) -> Result<(), CheckError> {
+    pub(super) fn check_potentials(&self, corners: &[Corner]) -> Result<(), CheckError> {
         let claimed: Vec<BigInt> = corners
             .iter()
             .map(|corner| corner.potential.clone().unwrap_or_else(|| &self.length.upper - &corner.rest))
@@ -167,7 +167,7 @@ impl<'a> Plane<'a> {
             return true;
         }
         // Compare in coarse units first: most legs are much longer.
-        let Ok(coarse) = i64::try_from((length >> COARSER) + 1) else { return false };
+        let Ok(coarse) = i64::try_from((length >> COARSE_SHIFT) + 1) else { return false };
         let [x, y] = [0, 1].map(|k| {
             let ([a, b], [c, d]) = (from.coarse[k], to.coarse[k]);
             i128::from((c - b).max(a - d).max(0))
@@ -189,7 +189,7 @@ impl<'a> Plane<'a> {
         let last = self.copies.partition_point(|copy| copy.begins() <= high);
         let near = &self.copies[first..last.max(first)];
         // A wall that blocks a leg is usually near the leg's beginning.
-        let crosses = |copy: &Copy| copy.crosses(from, to);
+        let crosses = |copy: &WallCopy| copy.crosses(from, to);
         let is_onward = from.coarse[0][0] <= to.coarse[0][0];
         if let Some(at) = if is_onward { near.iter().position(crosses) } else { near.iter().rposition(crosses) } {
             latest.set(first + at);

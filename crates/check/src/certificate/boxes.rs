@@ -43,7 +43,7 @@ pub struct PartName {
 /// A box of configurations. A shape and a part overlap in all of them.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct StuckBox {
+pub struct CollisionBox {
     /// Least value of each joint.
     pub lower: [Decimal; 2],
     /// Greatest value of each joint.
@@ -58,8 +58,8 @@ pub struct StuckBox {
 ///
 /// # Errors
 /// If an upper end of a box is below its lower end.
-pub fn rectangles(boxes: &[StuckBox]) -> Result<Vec<Rectangle>, CheckError> {
-    let ranges = |stuck: &StuckBox| [0, 1].map(|k| [stuck.lower[k].clone(), stuck.upper[k].clone()]);
+pub fn rectangles(boxes: &[CollisionBox]) -> Result<Vec<Rectangle>, CheckError> {
+    let ranges = |stuck: &CollisionBox| [0, 1].map(|k| [stuck.lower[k].clone(), stuck.upper[k].clone()]);
     let boxes: Vec<Rectangle> = boxes.iter().map(ranges).collect();
     match boxes.iter().position(|ranges| ranges.iter().any(|[low, high]| low > high)) {
         Some(empty) => CheckError::fails(format!("box {empty}: an upper end is below the lower one")),

@@ -6,7 +6,7 @@ use serde::Deserialize;
 /// A step with its part of the motion.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Done {
+pub struct ExecutedStep {
     /// Number in the world file, from 1.
     pub step: usize,
     /// First and last knot of its motion.

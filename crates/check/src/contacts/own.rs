@@ -1,6 +1,6 @@
 //! Parts of proofs that are links of the robot.
 
-use super::{Evident, PART};
+use super::{Evident, PART_HINT};
 use crate::arm::Arm;
 use crate::certificate::PartName;
 use crate::error::{CheckError, Input};
@@ -14,7 +14,7 @@ pub fn part(arm: &Arm, name: &PartName) -> Result<Evident, CheckError> {
     let (link, kind, number) = match (&name.own, name.collision, name.visual, &name.corners) {
         (Some(link), Some(number), None, None) => (link, "collision", number),
         (Some(link), None, Some(number), None) => (link, "visual", number),
-        _ => return Err(CheckError::in_file(Input::Certificate, PART)),
+        _ => return Err(CheckError::in_file(Input::Certificate, PART_HINT)),
     };
     let own = named(&arm.bases, (link, kind, number), name.height.as_ref())?;
     let within = &own.within;

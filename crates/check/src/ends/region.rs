@@ -10,10 +10,10 @@ use crate::polygon::Corner;
 use crate::world::Goal;
 
 /// Maximum number of parts of the domain in which the tip may be at a position, for proofs that enclose these parts.
-pub const MOST_PARTS: usize = 2000;
+pub const MAX_ENCLOSED_PARTS: usize = 2000;
 
 /// Maximum number of parts if only their location must be known.
-pub const FEW_PARTS: usize = 500;
+pub const MAX_LOCATED_PARTS: usize = 500;
 
 impl End {
     /// Returns an enclosure of the end, if it is a single configuration.

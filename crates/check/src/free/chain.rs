@@ -28,7 +28,7 @@ pub struct Chain {
 
 /// Attachment of a shape.
 #[derive(Clone)]
-pub enum On {
+pub enum Attachment {
     /// A link. Coordinates are relative to the link's joint.
     Link(usize),
     /// A point of the second link. The shape follows the point but never turns.
@@ -111,10 +111,10 @@ impl Chain {
     }
 
     /// Returns the position of a point that is attached to a link or a level point.
-    pub(super) fn hanging(&self, on: &On, a: &Point) -> Terms {
+    pub(super) fn hanging(&self, on: &Attachment, a: &Point) -> Terms {
         match on {
-            On::Link(link) => self.carried(*link, a),
-            On::Level(point) => {
+            Attachment::Link(link) => self.carried(*link, a),
+            Attachment::Level(point) => {
                 let mut terms = self.carried(1, point);
                 shifted(&mut terms, a);
                 terms
@@ -123,7 +123,7 @@ impl Chain {
     }
 
     /// Returns the position of an attached point in a configuration.
-    pub fn point_at(&self, on: &On, a: &Point, values: &Point) -> Point {
+    pub fn point_at(&self, on: &Attachment, a: &Point, values: &Point) -> Point {
         self.still(&self.hanging(on, a), values)
     }
 
@@ -133,10 +133,10 @@ impl Chain {
     }
 
     /// Converts an attached object to plane coordinates in a configuration.
-    pub fn lying(&self, on: &On, hanging: &Obstacle, values: &Point) -> Obstacle {
+    pub fn lying(&self, on: &Attachment, hanging: &Obstacle, values: &Point) -> Obstacle {
         let turn = match on {
-            On::Level(_) => hanging.turn.clone(),
-            On::Link(link) => self.turn(*link, &hanging.turn, false, values),
+            Attachment::Level(_) => hanging.turn.clone(),
+            Attachment::Link(link) => self.turn(*link, &hanging.turn, false, values),
         };
         hanging.clone().moved(self.point_at(on, &hanging.at, values), turn)
     }

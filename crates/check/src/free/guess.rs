@@ -43,9 +43,9 @@ pub(super) fn direction(here: &[[f64; 2]], there: &[[f64; 2]], apart: f64) -> Op
         [to[0] + share * along[0], to[1] + share * along[1]]
     };
     let mut nearest = ([0.0; 2], f64::INFINITY);
-    let mut see = |way: [f64; 2]| {
-        if dot(way, way) < nearest.1 {
-            nearest = (way, dot(way, way));
+    let mut see = |direction: [f64; 2]| {
+        if dot(direction, direction) < nearest.1 {
+            nearest = (direction, dot(direction, direction));
         }
     };
     let sides = |ring: &[[f64; 2]]| (0..ring.len()).map(|i| [ring[i], ring[(i + 1) % ring.len()]]).collect::<Vec<_>>();

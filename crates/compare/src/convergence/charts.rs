@@ -1,15 +1,15 @@
 //! The charts: one for each equation, one for the factor, one for the drift.
 
-use super::lines::{self, Line, LineChart, SIZE};
+use super::lines::{self, CHART_SIZE, Line, LineChart};
 use super::{Convergence, Course, FactorScan, Point, StrengthScan, WeightScan, files};
 use crate::page::number;
 use cplan_fields::{Factor, Order, Sample, Scheme};
 use cplan_text::markup;
 
 /// Charts side by side.
-const COLUMNS: usize = 2;
+const CHARTS_PER_ROW: usize = 2;
 /// Above the charts, for the title.
-const HEAD: f64 = 44.0;
+const TITLE_HEIGHT: f64 = 44.0;
 
 /// The PNG writer has the first font; viewers use those that they have.
 const FONTS: &str = "Ubuntu, 'DejaVu Sans', Helvetica, Arial, sans-serif";
@@ -19,7 +19,10 @@ impl Convergence {
     #[must_use]
     pub fn to_svg(&self) -> String {
         let charts = self.charts();
-        let [width, height] = [SIZE[0] * COLUMNS as f64, HEAD + SIZE[1] * charts.len().div_ceil(COLUMNS) as f64];
+        let [width, height] = [
+            CHART_SIZE[0] * CHARTS_PER_ROW as f64,
+            TITLE_HEIGHT + CHART_SIZE[1] * charts.len().div_ceil(CHARTS_PER_ROW) as f64,
+        ];
         let mut svg = format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\">\n\
              <rect width=\"{0}\" height=\"{1}\" fill=\"#ffffff\"/>\n\
@@ -31,7 +34,10 @@ impl Convergence {
         let title = format!("{}: {rows} x {columns} cells, {} free", self.title, self.free);
         svg += &format!("<text x=\"20\" y=\"28\" font-size=\"17\">{}</text>\n", markup(&title));
         for (k, chart) in charts.iter().enumerate() {
-            svg += &chart.svg([SIZE[0] * (k % COLUMNS) as f64, HEAD + SIZE[1] * (k / COLUMNS) as f64]);
+            svg += &chart.svg([
+                CHART_SIZE[0] * (k % CHARTS_PER_ROW) as f64,
+                TITLE_HEIGHT + CHART_SIZE[1] * (k / CHARTS_PER_ROW) as f64,
+            ]);
         }
         svg + "</g>\n</svg>\n"
     }

@@ -7,7 +7,7 @@ use cplan_text::plain_line;
 use serde_json::{Value, json};
 
 /// The columns of the CSV file.
-const HEADER: &str =
+const CSV_COLUMNS: &str =
     "series,equation,relaxation,order,factor,epsilon,stage,sweep,squared_change,relative_change,error,ending";
 
 impl Convergence {
@@ -125,7 +125,7 @@ impl Convergence {
     /// number. Columns that do not apply are empty. `ending` is in the last line of a relaxation.
     #[must_use]
     pub fn to_csv(&self) -> String {
-        let mut text = format!("{HEADER}\n");
+        let mut text = format!("{CSV_COLUMNS}\n");
         for Course { equation, relaxation, trace } in &self.courses {
             let head = format!("error,{},{}", quoted(equation), self.relaxation_cells(relaxation));
             for Sample { stage, sweep, squares, relative, error } in &trace.samples {

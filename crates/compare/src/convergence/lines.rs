@@ -4,20 +4,20 @@ use crate::page::{Axis, number};
 use cplan_text::markup;
 
 /// Size of the plot, pixels.
-const PLOT: [f64; 2] = [400.0, 250.0];
+const PLOT_SIZE: [f64; 2] = [400.0, 250.0];
 /// Left of the plot, for the ticks and the title of the vertical axis.
-const LEFT: f64 = 74.0;
+const LEFT_MARGIN: f64 = 74.0;
 /// Above the plot, for the title.
-const TOP: f64 = 34.0;
+const TOP_MARGIN: f64 = 34.0;
 /// Right of the plot, for the names of lines.
-const RIGHT: f64 = 186.0;
+const RIGHT_MARGIN: f64 = 186.0;
 /// Below the plot, for the ticks and the title of the axis.
-const BOTTOM: f64 = 52.0;
+const BOTTOM_MARGIN: f64 = 52.0;
 /// Between two names of lines.
-const LINE: f64 = 19.0;
+const NAME_SPACING: f64 = 19.0;
 
 /// Size of a chart, pixels.
-pub const SIZE: [f64; 2] = [LEFT + PLOT[0] + RIGHT, TOP + PLOT[1] + BOTTOM];
+pub const CHART_SIZE: [f64; 2] = [LEFT_MARGIN + PLOT_SIZE[0] + RIGHT_MARGIN, TOP_MARGIN + PLOT_SIZE[1] + BOTTOM_MARGIN];
 
 /// Okabe and Ito's, as on the pages.
 const COLORS: [&str; 6] = ["#0072b2", "#d55e00", "#009e73", "#b04f88", "#a87400", "#2b90c9"];
@@ -60,45 +60,50 @@ impl LineChart {
         let (Some(x), Some(y)) = (Axis::over(of(0).chain(marks), None), Axis::over(positive, None)) else {
             return String::new();
         };
-        let [width, height] = PLOT;
-        let place = |point: &[f64; 2]| [LEFT + width * x.place(point[0]), TOP + height * (1.0 - y.place(point[1]))];
+        let [width, height] = PLOT_SIZE;
+        let place = |point: &[f64; 2]| {
+            [LEFT_MARGIN + width * x.place(point[0]), TOP_MARGIN + height * (1.0 - y.place(point[1]))]
+        };
         let mut svg = format!("<g transform=\"translate({} {})\">\n", number(left), number(top));
-        svg += &text([LEFT, 20.0], "start", " font-size=\"14\" font-weight=\"bold\"", &self.title);
-        let [right, bottom] = [LEFT + width, TOP + height];
+        svg += &text([LEFT_MARGIN, 20.0], "start", " font-size=\"14\" font-weight=\"bold\"", &self.title);
+        let [right, bottom] = [LEFT_MARGIN + width, TOP_MARGIN + height];
         for (value, written) in x.ticks() {
             let at = place(&[value, 0.0])[0];
-            svg += &rule(&format!("M{} {}V{}", number(at), number(TOP), number(bottom)), "#e2e5e8");
-            svg += &text([at, bottom + 17.0], "middle", GREY, &written);
+            svg += &rule(&format!("M{} {}V{}", number(at), number(TOP_MARGIN), number(bottom)), "#e2e5e8");
+            svg += &text([at, bottom + 17.0], "middle", TICK_STYLE, &written);
         }
         for (value, written) in y.ticks() {
-            let at = TOP + height * (1.0 - y.place(value));
-            svg += &rule(&format!("M{} {}H{}", number(LEFT), number(at), number(right)), "#e2e5e8");
-            svg += &text([LEFT - 7.0, at + 4.0], "end", GREY, &written);
+            let at = TOP_MARGIN + height * (1.0 - y.place(value));
+            svg += &rule(&format!("M{} {}H{}", number(LEFT_MARGIN), number(at), number(right)), "#e2e5e8");
+            svg += &text([LEFT_MARGIN - 7.0, at + 4.0], "end", TICK_STYLE, &written);
         }
-        svg += &rule(&format!("M{} {}V{}H{}", number(LEFT), number(TOP), number(bottom), number(right)), "#5f666e");
-        svg += &text([LEFT + width / 2.0, bottom + 38.0], "middle", "", self.axes[0]);
-        let middle = number(TOP + height / 2.0);
+        svg += &rule(
+            &format!("M{} {}V{}H{}", number(LEFT_MARGIN), number(TOP_MARGIN), number(bottom), number(right)),
+            "#5f666e",
+        );
+        svg += &text([LEFT_MARGIN + width / 2.0, bottom + 38.0], "middle", "", self.axes[0]);
+        let middle = number(TOP_MARGIN + height / 2.0);
         svg += &format!(
             "<text x=\"16\" y=\"{middle}\" text-anchor=\"middle\" transform=\"rotate(-90 16 {middle})\">{}</text>\n",
             markup(self.axes[1])
         );
         for (value, name) in &self.marks {
             let at = place(&[*value, 0.0])[0];
-            let path = format!("M{} {}V{}", number(at), number(TOP), number(bottom));
+            let path = format!("M{} {}V{}", number(at), number(TOP_MARGIN), number(bottom));
             svg += &format!("<path d=\"{path}\" stroke=\"#5f666e\" stroke-dasharray=\"3 3\"/>\n");
-            svg += &text([at - 3.0, TOP + 11.0], "end", GREY, name);
+            svg += &text([at - 3.0, TOP_MARGIN + 11.0], "end", TICK_STYLE, name);
         }
         for (k, line) in self.lines.iter().enumerate() {
             let shown = line.points.iter().filter(|point| point[1] > 0.0 || !y.is_logarithmic);
             svg += &line.svg(&shown.map(place).collect::<Vec<_>>());
-            svg += &line.key([right + 12.0, TOP + 8.0 + LINE * k as f64]);
+            svg += &line.key([right + 12.0, TOP_MARGIN + 8.0 + NAME_SPACING * k as f64]);
         }
         svg + "</g>\n"
     }
 }
 
 /// Style of ticks.
-const GREY: &str = " fill=\"#5f666e\" font-size=\"11\"";
+const TICK_STYLE: &str = " fill=\"#5f666e\" font-size=\"11\"";
 
 fn rule(path: &str, color: &str) -> String {
     format!("<path fill=\"none\" d=\"{path}\" stroke=\"{color}\"/>\n")
@@ -179,7 +184,7 @@ mod tests {
     }
 
     #[test]
-    fn what_has_no_place_is_left_out() {
+    fn points_without_a_place_are_omitted() {
         // No error at all has no logarithm.
         let svg = chart(&[[1.0, 1.0], [2.0, 1e-3], [3.0, 0.0]]);
         assert_eq!(dots(&svg).len(), 2);

@@ -24,12 +24,12 @@ pub struct Setup<'a> {
 }
 
 /// The factor of weighted Jacobi: the usual choice of smoothers in the plane.
-const WEIGHT: f64 = 0.8;
+const JACOBI_WEIGHT: f64 = 0.8;
 
 /// Returns the traced relaxations.
 fn relaxations() -> Vec<Relaxation> {
     let orders = [Order::Lines(Scan::ROWS), Order::Corners(Lines::Rows), Order::RedBlack];
-    let at_once = [Relaxation::JACOBI, Relaxation::weighted_jacobi(WEIGHT)];
+    let at_once = [Relaxation::JACOBI, Relaxation::weighted_jacobi(JACOBI_WEIGHT)];
     let gauss_seidel = orders.map(Relaxation::gauss_seidel);
     let sor = orders.map(|order| Relaxation::sor(Factor::Formula, order));
     at_once.into_iter().chain(gauss_seidel).chain(sor).collect()

@@ -1,10 +1,10 @@
 //! The axis of a chart.
 
 /// Greatest over least value from which a logarithmic axis shows more than a linear one.
-const WIDE: f64 = 8.0;
+const LOGARITHMIC_RATIO: f64 = 8.0;
 
 /// Largest number of ticks, except on a logarithmic axis over many decades.
-const TICKS: usize = 6;
+const MAX_TICKS: usize = 6;
 
 /// A stretch of values, to be laid over a stretch of pixels.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -22,7 +22,7 @@ impl Axis {
         let all = values.chain(base).filter(|v| v.is_finite());
         let min = all.clone().reduce(f64::min)?;
         let max = all.reduce(f64::max)?;
-        if min > 0.0 && max / min > WIDE {
+        if min > 0.0 && max / min > LOGARITHMIC_RATIO {
             let room = (max / min).powf(0.04);
             return Some(Self { lower: min / room, upper: max * room, is_logarithmic: true });
         }
@@ -62,16 +62,16 @@ impl Axis {
             all.filter(|v| (self.lower..=self.upper).contains(v)).collect()
         };
         let choices = [&[1.0, 2.0, 3.0, 5.0, 7.0][..], &[1.0, 2.0, 5.0], &[1.0, 3.0], &[1.0]].map(within);
-        let fitting = choices.iter().find(|ticks| ticks.len() <= TICKS);
+        let fitting = choices.iter().find(|ticks| ticks.len() <= MAX_TICKS);
         fitting.cloned().unwrap_or_else(|| {
-            let stride = choices[3].len().div_ceil(TICKS);
+            let stride = choices[3].len().div_ceil(MAX_TICKS);
             choices[3].iter().copied().step_by(stride).collect()
         })
     }
 
     /// Returns a round number with at least three multiples within the axis, so that distances are readable.
     fn step(&self) -> f64 {
-        let least = (self.upper - self.lower) / (TICKS - 1) as f64;
+        let least = (self.upper - self.lower) / (MAX_TICKS - 1) as f64;
         let power = 10_f64.powf(least.log10().floor());
         let steps = [0.5, 1.0, 2.0, 5.0, 10.0].map(|digit| digit * power);
         let chosen = steps.iter().position(|step| *step >= least).unwrap_or(steps.len() - 1).max(1);
@@ -81,7 +81,7 @@ impl Axis {
     fn multiples(&self, step: f64) -> Vec<f64> {
         let first = (self.lower / step).ceil();
         // Not sums: those would gather roundings.
-        let multiples = (0..=2 * TICKS).map(|i| (first + i as f64) * step);
+        let multiples = (0..=2 * MAX_TICKS).map(|i| (first + i as f64) * step);
         multiples.take_while(|v| *v <= self.upper + 1e-9 * step).collect()
     }
 }

@@ -1,22 +1,22 @@
 //! Box plots, a line a planner.
 
 use super::axis::Axis;
-use super::markup::{COLORS, margin, name_before, number};
+use super::markup::{COLOR_COUNT, margin, name_before, number};
 use crate::{Measure, Spread, Study, labels};
 use cplan_text::{counted, markup};
 
 /// Width of a chart, pixels: about that of a phone, where charts are not made smaller then.
-const WIDTH: f64 = 460.0;
+const CHART_WIDTH: f64 = 460.0;
 /// Right of the plot.
-const RIGHT: f64 = 14.0;
+const RIGHT_MARGIN: f64 = 14.0;
 /// Height of a planner's line.
-const LINE: f64 = 30.0;
+const ROW_HEIGHT: f64 = 30.0;
 /// Above the first line.
-const TOP: f64 = 6.0;
+const TOP_MARGIN: f64 = 6.0;
 /// Below the last one, for the axis.
-const BOTTOM: f64 = 26.0;
+const AXIS_HEIGHT: f64 = 26.0;
 /// Runs that are shown as dots, too; more make a grey surface.
-const DOTS: usize = 250;
+const MAX_DOTS: usize = 250;
 
 /// Draws the chart of one measure, or returns `None` if no run has a value.
 pub fn chart(study: &Study, measure: Measure) -> Option<String> {
@@ -29,27 +29,27 @@ pub fn chart(study: &Study, measure: Measure) -> Option<String> {
     // Nothing is shorter than the optimum.
     let base = (measure == Measure::OverOptimum).then_some(1.0);
     let axis = Axis::over(values.iter().flatten().copied(), base)?;
-    let height = TOP + LINE * values.len() as f64 + BOTTOM;
+    let height = TOP_MARGIN + ROW_HEIGHT * values.len() as f64 + AXIS_HEIGHT;
     let names = labels(&study.planners());
     let left = margin(&names.iter().map(String::as_str).collect::<Vec<_>>());
-    let x = |value: f64| left + (WIDTH - left - RIGHT) * axis.place(value);
-    let floor = height - BOTTOM;
+    let x = |value: f64| left + (CHART_WIDTH - left - RIGHT_MARGIN) * axis.place(value);
+    let floor = height - AXIS_HEIGHT;
     let mut svg = format!(
         "<svg class=\"chart\" viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"Box plots: {}\">\n",
-        number(WIDTH),
+        number(CHART_WIDTH),
         number(height),
         markup(measure.heading())
     );
     for (value, text) in axis.ticks() {
         let at = number(x(value));
-        svg += &format!("<path class=\"grid\" d=\"M{at} {}V{}\"/>", number(TOP), number(floor));
+        svg += &format!("<path class=\"grid\" d=\"M{at} {}V{}\"/>", number(TOP_MARGIN), number(floor));
         svg += &format!("<text class=\"tick\" x=\"{at}\" y=\"{}\">{text}</text>\n", number(floor + 17.0));
     }
     for (i, (name, values)) in study.planners().into_iter().zip(&values).enumerate() {
-        let middle = TOP + LINE * (i as f64 + 0.5);
+        let middle = TOP_MARGIN + ROW_HEIGHT * (i as f64 + 0.5);
         svg += &name_before(&names[i], left - 10.0, middle + 4.0);
         if let Some(spread) = Spread::of(values.iter().copied()) {
-            svg += &format!("<g class=\"p{}\"><title>{}</title>", i % COLORS, markup(&described(name, &spread)));
+            svg += &format!("<g class=\"p{}\"><title>{}</title>", i % COLOR_COUNT, markup(&described(name, &spread)));
             svg += &drawn(&spread, values, middle, &x);
             svg += "</g>\n";
         }
@@ -70,7 +70,7 @@ fn drawn(spread: &Spread, values: &[f64], middle: f64, x: &impl Fn(f64) -> f64) 
     let mut svg = format!("<path class=\"whisker\" d=\"M{min} {y}H{low}M{high} {y}H{max}");
     svg += &format!("M{min} {top}V{bottom}M{max} {top}V{bottom}\"/>");
     svg += &format!("<rect class=\"box\" x=\"{low}\" y=\"{}\" width=\"{width}\" height=\"16\"/>", number(middle - 8.0));
-    let stride = values.len().div_ceil(DOTS).max(1);
+    let stride = values.len().div_ceil(MAX_DOTS).max(1);
     for (k, value) in values.iter().enumerate().step_by(stride) {
         // Beside each other by a fixed pattern, so that equal values do not hide each other.
         let y = number(middle + ((k * 7) % 11) as f64 - 5.0);
@@ -113,11 +113,11 @@ mod tests {
     }
 
     #[test]
-    fn boxes_stand_where_the_axis_has_their_values() {
+    fn boxes_are_placed_by_their_values() {
         let svg = chart(&study(&[2.0, 1.0, 5.0, 3.0, 4.0]), Measure::Duration).unwrap();
         // From 0.84 to 5.16: the values and a twenty-fifth of their range on either side.
         let left = margin(&["<planner>"]);
-        let x = |value: f64| left + (WIDTH - left - RIGHT) * (value - 0.84) / 4.32;
+        let x = |value: f64| left + (CHART_WIDTH - left - RIGHT_MARGIN) * (value - 0.84) / 4.32;
         assert_eq!(attribute(&svg, "box", "x"), number(x(2.0)));
         let width: f64 = attribute(&svg, "box", "width").parse().unwrap();
         assert!((width - (x(4.0) - x(2.0))).abs() < 0.01);
@@ -138,6 +138,6 @@ mod tests {
         assert_eq!(chart(&study(&[]), Measure::Duration), None);
         assert_eq!(chart(&study(&[2.0]), Measure::OverOptimum), None);
         let many: Vec<f64> = (0..1000).map(f64::from).collect();
-        assert_eq!(chart(&study(&many), Measure::Duration).unwrap().matches("class=\"dot\"").count(), DOTS);
+        assert_eq!(chart(&study(&many), Measure::Duration).unwrap().matches("class=\"dot\"").count(), MAX_DOTS);
     }
 }

@@ -21,7 +21,7 @@ impl Convergence {
             + &section("Sweeps of weighted Jacobi by its factor", &table(&self.weight_table()))
             + &self.leaps()
             + &section("Sweeps of Gauss-Seidel by epsilon", &table(&self.strength_table()))
-            + &foot(HOW)
+            + &foot(METHOD_NOTE)
     }
 
     /// Describes the leap where preferences begin, if there are any.
@@ -31,7 +31,7 @@ impl Convergence {
     }
 }
 
-const HOW: &str = "The error is the greatest of all cells against the solution by elimination, over the greatest before the first \
+const METHOD_NOTE: &str = "The error is the greatest of all cells against the solution by elimination, over the greatest before the first \
                    sweep; the rate is what a sweep multiplies it by in the end. The formula is the best factor for Laplace's \
                    equation in an empty rectangle; the factor by rate is Young's, of the rate of Jacobi's relaxation on this \
                    very grid. What diverges or ends before it converges has no point in the charts.";

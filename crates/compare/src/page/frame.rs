@@ -5,9 +5,9 @@ use super::markup::number;
 use cplan_text::markup;
 
 /// Size of a chart, pixels.
-const SIZE: [f64; 2] = [460.0, 380.0];
+const CHART_SIZE: [f64; 2] = [460.0, 380.0];
 /// Left of the plot, above it, right of it, below it.
-const MARGINS: [f64; 4] = [78.0, 10.0, 14.0, 46.0];
+const PLOT_MARGINS: [f64; 4] = [78.0, 10.0, 14.0, 46.0];
 
 /// A chart with its axes, open for its contents.
 pub struct Frame<F> {
@@ -19,13 +19,13 @@ pub struct Frame<F> {
 
 /// Starts a chart with ticks and titles along both axes.
 pub fn frame(axes: [Axis; 2], titles: [&str; 2], what: &str) -> Frame<impl Fn([f64; 2]) -> [f64; 2]> {
-    let [left, top, right, bottom] = MARGINS;
-    let [width, height] = [SIZE[0] - left - right, SIZE[1] - top - bottom];
+    let [left, top, right, bottom] = PLOT_MARGINS;
+    let [width, height] = [CHART_SIZE[0] - left - right, CHART_SIZE[1] - top - bottom];
     let place = move |[x, y]: [f64; 2]| [left + width * x, top + height * (1.0 - y)];
     let mut svg = format!(
         "<svg class=\"chart\" viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{what}: {} against {}\">\n",
-        number(SIZE[0]),
-        number(SIZE[1]),
+        number(CHART_SIZE[0]),
+        number(CHART_SIZE[1]),
         markup(titles[1]),
         markup(titles[0])
     );
@@ -41,8 +41,11 @@ pub fn frame(axes: [Axis; 2], titles: [&str; 2], what: &str) -> Frame<impl Fn([f
         svg += &format!("<text class=\"name\" x=\"{}\" y=\"{}\">{text}</text>\n", number(left - 8.0), number(at + 4.0));
     }
     let middle = number(left + width / 2.0);
-    svg +=
-        &format!("<text class=\"tick\" x=\"{middle}\" y=\"{}\">{}</text>\n", number(SIZE[1] - 8.0), markup(titles[0]));
+    svg += &format!(
+        "<text class=\"tick\" x=\"{middle}\" y=\"{}\">{}</text>\n",
+        number(CHART_SIZE[1] - 8.0),
+        markup(titles[0])
+    );
     let beside = number(top + height / 2.0);
     svg += &format!(
         "<text class=\"tick\" transform=\"translate(13 {beside}) rotate(-90)\">{}</text>\n",

@@ -4,33 +4,35 @@ use crate::{Align, Table};
 use cplan_text::{markup, wrapped};
 
 /// Colours of planners, after which they begin again: those of Okabe and Ito that pictures draw paths in.
-pub const COLORS: usize = 6;
+pub const COLOR_COUNT: usize = 6;
 
 /// Characters of a planner's name that a line of it has room for in front of a chart, at the most.
-const NAME: usize = 24;
+const MAX_NAME_CHARACTERS: usize = 24;
 
 /// Pixels between two lines of a name.
-const NAME_LINE: f64 = 13.0;
+const NAME_LINE_HEIGHT: f64 = 13.0;
 
 /// Writes a name before a chart's line, right-aligned at `right` around the height `middle`, in two lines if it is
 /// long. The second line of a longer name holds its end.
 pub fn name_before(name: &str, right: f64, middle: f64) -> String {
     let lines = name_lines(name);
-    let first = middle - NAME_LINE * 0.5 * (lines.len() - 1) as f64;
+    let first = middle - NAME_LINE_HEIGHT * 0.5 * (lines.len() - 1) as f64;
     let line = |(k, line): (usize, &String)| {
-        let y = number(first + NAME_LINE * k as f64);
+        let y = number(first + NAME_LINE_HEIGHT * k as f64);
         format!("<text class=\"name\" x=\"{}\" y=\"{y}\">{}</text>\n", number(right), markup(line))
     };
     lines.iter().enumerate().map(line).collect()
 }
 
-/// Splits a name into at most two lines of [`NAME`] characters.
+/// Splits a name into at most two lines of [`MAX_NAME_CHARACTERS`] characters.
 fn name_lines(name: &str) -> Vec<String> {
     let end = |text: &str| match text.chars().count() {
-        n if n > NAME => ['\u{2026}'].into_iter().chain(text.chars().skip(n - NAME + 1)).collect(),
+        n if n > MAX_NAME_CHARACTERS => {
+            ['\u{2026}'].into_iter().chain(text.chars().skip(n - MAX_NAME_CHARACTERS + 1)).collect()
+        }
         _ => text.to_owned(),
     };
-    match wrapped(name, NAME, 0).split_once('\n') {
+    match wrapped(name, MAX_NAME_CHARACTERS, 0).split_once('\n') {
         Some((first, rest)) => vec![end(first), end(&rest.replace('\n', " "))],
         None => vec![end(name)],
     }
@@ -103,7 +105,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn nothing_escapes() {
+    fn markup_is_escaped() {
         assert!(!image_source("<svg a=\"b\" c='#'>%\n\u{e9}</svg>").contains(['<', '>', '"', '\'', '#', '\n']));
     }
 

@@ -58,7 +58,7 @@ impl Page<'_> {
         let sentences: String = words(study).iter().map(|w| paragraph(w)).collect();
         html += &section("In words", &sentences);
         html += &self.tables();
-        html + &foot(HOW)
+        html + &foot(METHOD_NOTE)
     }
 
     fn subtitle(&self) -> String {
@@ -77,7 +77,7 @@ impl Page<'_> {
             html += &format!("<div class=\"card narrow\">{}</div>\n", outcomes::bars(self.study));
         }
         let matrix = outcomes::matrix(self.study);
-        if self.study.comparisons.len() > UNFOLDED {
+        if self.study.comparisons.len() > MAX_UNFOLDED_PROBLEMS {
             html += &folded("Problem by problem", &matrix);
         } else {
             html += &matrix;
@@ -162,11 +162,11 @@ pub fn foot(how: &str) -> String {
 }
 
 /// More problems than this are folded away.
-const UNFOLDED: usize = 40;
+const MAX_UNFOLDED_PROBLEMS: usize = 40;
 
 const STYLE: &str = include_str!("style.css");
 
-const HOW: &str = "Every run is a whole one, from the problem to a certificate or a proof. <em>Found</em>: the whole continuous \
+const METHOD_NOTE: &str = "Every run is a whole one, from the problem to a certificate or a proof. <em>Found</em>: the whole continuous \
                    motion is certified free of collision. <em>Infeasible</em>: proven. Lengths are Euclidean in joint space; the \
                    proven optimum is a lower bound that no motion is below. Clearance is the proven distance from obstacles \
                    along the motion; its time keeps the joints' limits. Memory is what a run allocates at the same time, at the \

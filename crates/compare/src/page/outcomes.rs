@@ -6,31 +6,31 @@ use cplan_core::model::Status;
 use cplan_text::markup;
 
 /// Width of the bars, pixels.
-const WIDTH: f64 = 460.0;
+const BAR_WIDTH: f64 = 460.0;
 /// Height of a planner's line.
-const LINE: f64 = 28.0;
+const ROW_HEIGHT: f64 = 28.0;
 /// Pixels that a number and a sign need.
-const DIGITS: f64 = 44.0;
+const NUMBER_WIDTH: f64 = 44.0;
 
 /// Draws one bar per planner, with the problems that it solved, proved infeasible, and left open. Pieces show their
 /// sign, and their number if there is room.
 pub fn bars(study: &Study) -> String {
     let planners = study.planners();
-    let height = LINE * planners.len() as f64 + 4.0;
+    let height = ROW_HEIGHT * planners.len() as f64 + 4.0;
     let mut svg = format!(
         "<svg class=\"chart\" viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"Outcomes of each planner\">\n",
-        number(WIDTH),
+        number(BAR_WIDTH),
         number(height)
     );
     let names = labels(&planners);
     let from = margin(&names.iter().map(String::as_str).collect::<Vec<_>>());
     let all = study.comparisons.len().max(1) as f64;
     for (i, name) in planners.iter().enumerate() {
-        let top = LINE * i as f64 + 4.0;
+        let top = ROW_HEIGHT * i as f64 + 4.0;
         svg += &name_before(&names[i], from - 10.0, top + 15.0);
         let mut left = from;
         for (outcome, count) in Status::ALL.into_iter().zip(study.tally(i)).filter(|(_, count)| *count > 0) {
-            let width = (WIDTH - from) * count as f64 / all;
+            let width = (BAR_WIDTH - from) * count as f64 / all;
             svg += &format!("<g class=\"o-{outcome}\"><title>{}: {count} {outcome}</title>", markup(name));
             svg += &format!(
                 "<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"20\"/>",
@@ -39,8 +39,8 @@ pub fn bars(study: &Study) -> String {
                 number((width - 1.0).max(0.5))
             );
             let sign = sign(outcome);
-            let text = if width > DIGITS { format!("{sign} {count}") } else { sign.to_string() };
-            if width > DIGITS / 4.0 {
+            let text = if width > NUMBER_WIDTH { format!("{sign} {count}") } else { sign.to_string() };
+            if width > NUMBER_WIDTH / 4.0 {
                 let middle = number(left + width / 2.0);
                 svg += &format!("<text class=\"count\" x=\"{middle}\" y=\"{}\">{text}</text>", number(top + 14.5));
             }

@@ -1,6 +1,6 @@
 //! All paths of a planner on one configuration space.
 
-use super::markup::{COLORS, number};
+use super::markup::{COLOR_COUNT, number};
 use cplan_text::{counted, markup};
 
 /// A configuration space, and the paths that each planner found in it.
@@ -23,15 +23,15 @@ pub struct Overlay {
 }
 
 /// Pixels of a panel's plot.
-const SIZE: f64 = 220.0;
+const PANEL_SIZE: f64 = 220.0;
 /// Left of it, and below it, for the names of the joints.
-const EDGE: f64 = 18.0;
+const NAME_MARGIN: f64 = 18.0;
 
 /// Draws one panel per planner. `id` distinguishes the blocked region of this overlay from others in the page.
 pub fn panels(overlay: &Overlay, id: usize) -> String {
     let mut html = String::from("<div class=\"panels\">\n");
     for (i, (name, paths)) in overlay.planners.iter().enumerate() {
-        let whole = number(SIZE + EDGE);
+        let whole = number(PANEL_SIZE + NAME_MARGIN);
         html += &format!(
             "<figure><figcaption>{} <small>{}</small></figcaption>\n",
             markup(name),
@@ -41,8 +41,8 @@ pub fn panels(overlay: &Overlay, id: usize) -> String {
             "<svg class=\"chart\" viewBox=\"0 0 {whole} {whole}\" role=\"img\" aria-label=\"Paths of {}\">\n",
             markup(name)
         );
-        html += &format!("<svg x=\"{EDGE}\" y=\"0\" width=\"{SIZE}\" height=\"{SIZE}\">\n");
-        html += &format!("<rect class=\"free\" width=\"{SIZE}\" height=\"{SIZE}\"/>\n");
+        html += &format!("<svg x=\"{NAME_MARGIN}\" y=\"0\" width=\"{PANEL_SIZE}\" height=\"{PANEL_SIZE}\">\n");
+        html += &format!("<rect class=\"free\" width=\"{PANEL_SIZE}\" height=\"{PANEL_SIZE}\"/>\n");
         if i == 0 {
             html += &format!(
                 "<path id=\"blocked{id}\" class=\"blocked\" d=\"{}\"/>\n",
@@ -51,16 +51,16 @@ pub fn panels(overlay: &Overlay, id: usize) -> String {
         } else {
             html += &format!("<use class=\"blocked\" href=\"#blocked{id}\"/>\n");
         }
-        html += &format!("<path class=\"way p{}\" d=\"{}\"/>\n</svg>\n", i % COLORS, lines(overlay, paths, false));
-        let middle = number(EDGE + SIZE / 2.0);
+        html += &format!("<path class=\"way p{}\" d=\"{}\"/>\n</svg>\n", i % COLOR_COUNT, lines(overlay, paths, false));
+        let middle = number(NAME_MARGIN + PANEL_SIZE / 2.0);
         html += &format!(
             "<text class=\"tick\" x=\"{middle}\" y=\"{}\">{}</text>",
-            number(SIZE + 14.0),
+            number(PANEL_SIZE + 14.0),
             markup(&overlay.joints[0])
         );
         html += &format!(
             "<text class=\"tick\" transform=\"translate(13 {}) rotate(-90)\">{}</text>\n</svg></figure>\n",
-            number(SIZE / 2.0),
+            number(PANEL_SIZE / 2.0),
             markup(&overlay.joints[1])
         );
     }
@@ -100,7 +100,7 @@ fn trace(overlay: &Overlay, line: &[[f64; 2]], shift: [f64; 2], closed: bool, da
         let (lower, upper) = overlay.window[axis];
         let share = (p[axis] + shift[axis] - lower) / (upper - lower);
         // A tenth of a pixel is enough, and half the size.
-        format!("{:.1}", SIZE * if axis == 0 { share } else { 1.0 - share })
+        format!("{:.1}", PANEL_SIZE * if axis == 0 { share } else { 1.0 - share })
     };
     let mut last = None;
     for p in line {
@@ -145,7 +145,7 @@ mod tests {
     }
 
     #[test]
-    fn what_falls_into_one_pixel_is_one_point() {
+    fn points_in_one_pixel_are_merged() {
         let dense: Vec<[f64; 2]> = (0..1000).map(|i| [f64::from(i) * 1e-7, 1.0]).collect();
         assert_eq!(lines(&overlay([false; 2]), &[dense], true), "M110.0 165.0Z");
     }

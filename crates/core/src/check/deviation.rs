@@ -21,7 +21,7 @@ const ROUNDING: f64 = 1e-13;
 
 /// Share of the lengths for proofs that shapes collide. It is larger than the tolerance of the independent check
 /// ([`super::Disconnection::checked`], 1e-12), so that the check accepts these proofs.
-pub const STUCK_ROUNDING: f64 = 2e-12;
+pub const COLLISION_ROUNDING: f64 = 2e-12;
 
 /// A set of deviations from a configuration, symmetric about it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -75,7 +75,7 @@ pub struct Posture<'a> {
 
 /// A pair at a posture: its distance there, and a lower bound on it nearby.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Bounded {
+pub struct SeparationBound {
     /// Signed distance at the posture.
     pub here: Separation,
     /// Lower bound on the signed distance over the deviation, metres.
@@ -135,18 +135,18 @@ impl<'a> Posture<'a> {
     }
 
     /// Returns the distance of a pair here.
-    pub fn here(&self, pair: Pair) -> Separation {
+    pub fn separation(&self, pair: Pair) -> Separation {
         separation_at(self.scene.part(pair), &self.poses[pair.link], self.scene.piece(pair), |_, here| here)
     }
 
     /// Returns the distance of a pair here and a lower bound on it over `deviation`.
     #[must_use]
-    pub fn bound(&self, pair: Pair, deviation: Deviation) -> Bounded {
+    pub fn bound(&self, pair: Pair, deviation: Deviation) -> SeparationBound {
         self.bound_up_to(pair, deviation, |_| f64::INFINITY)
     }
 
     /// Returns the same as [`Posture::bound`], but stops as soon as the bound is good enough for the distance here.
-    pub fn bound_up_to(&self, pair: Pair, deviation: Deviation, enough: impl Fn(f64) -> f64) -> Bounded {
+    pub fn bound_up_to(&self, pair: Pair, deviation: Deviation, enough: impl Fn(f64) -> f64) -> SeparationBound {
         self.least(self.shapes(pair), deviation, enough)
     }
 
@@ -158,24 +158,24 @@ impl<'a> Posture<'a> {
         deviation: Deviation,
         drift: &Drift,
         enough: impl Fn(f64) -> f64,
-    ) -> Bounded {
+    ) -> SeparationBound {
         let standing = self.shapes(pair);
         let piece = standing.piece.at(&drift.middle);
         self.least(Shapes { piece: &piece, drift: Some(drift), ..standing }, deviation, enough)
     }
 
-    /// Same as [`Posture::apart`] for a loose obstacle.
+    /// Same as [`Posture::disc_bound`] for a loose obstacle.
     pub fn apart_drifting(&self, pair: Pair, deviation: Deviation, drift: &Drift) -> f64 {
         let (center, around) = disc(self.scene.piece(pair));
         let drifts = drift.farthest(center.norm() + around);
-        self.apart_from(pair, deviation, drift.middle.point(center), around + drifts)
+        self.disc_bound_from(pair, deviation, drift.middle.point(center), around + drifts)
     }
 
     fn shapes(&self, pair: Pair) -> Shapes<'a> {
         Shapes { link: pair.link, local: self.scene.part(pair), piece: self.scene.piece(pair), drift: None }
     }
 
-    fn least(&self, shapes: Shapes, deviation: Deviation, enough: impl Fn(f64) -> f64) -> Bounded {
+    fn least(&self, shapes: Shapes, deviation: Deviation, enough: impl Fn(f64) -> f64) -> SeparationBound {
         let Shapes { link, local, piece, drift } = shapes;
         separation_at(local, &self.poses[link], piece, |corners, here| {
             let rounding = ROUNDING * self.scale(corners, local.radius(), piece);
@@ -189,18 +189,18 @@ impl<'a> Posture<'a> {
             if least < enough && drift.is_none() {
                 least = least.max(self.least_in_link(shapes, corners, here.direction, deviation) - radii);
             }
-            Bounded { here, least: least - rounding }
+            SeparationBound { here, least: least - rounding }
         })
     }
 
     /// Returns a lower bound on the distance of a pair over `deviation` from discs around the shapes. It is far below
     /// [`Posture::bound`]'s where shapes are near each other, at a small part of its cost.
-    pub fn apart(&self, pair: Pair, deviation: Deviation) -> f64 {
+    pub fn disc_bound(&self, pair: Pair, deviation: Deviation) -> f64 {
         let (fixed, around) = disc(self.scene.piece(pair));
-        self.apart_from(pair, deviation, fixed, around)
+        self.disc_bound_from(pair, deviation, fixed, around)
     }
 
-    fn apart_from(&self, pair: Pair, deviation: Deviation, fixed: Point, around: f64) -> f64 {
+    fn disc_bound_from(&self, pair: Pair, deviation: Deviation, fixed: Point, around: f64) -> f64 {
         let (at, extent) = self.place(pair, deviation);
         let between = (at - fixed).norm();
         let scale = self.scene.arm().base.norm() + at.norm() + fixed.norm() + extent + around;
@@ -223,7 +223,7 @@ impl<'a> Posture<'a> {
         let (local, piece) = (self.scene.part(pair), self.scene.piece(pair));
         separation_at(local, &self.poses[pair.link], piece, |corners, here| {
             let room = here.distance + self.farthest_motion(pair, deviation);
-            room + STUCK_ROUNDING * self.scale(corners, local.radius(), piece)
+            room + COLLISION_ROUNDING * self.scale(corners, local.radius(), piece)
         })
     }
 

@@ -31,8 +31,8 @@ mod proof;
 mod vicinity;
 
 pub use cell::Cell;
-pub use deviation::{Bounded, Deviation, Posture, STUCK_ROUNDING};
+pub use deviation::{COLLISION_ROUNDING, Deviation, Posture, SeparationBound};
 pub use drift::Drift;
 pub use motion::{CertifiedPath, CurveSearch, Nearest, Rejection, StraightMotions, certify};
-pub use proof::{CheckedProof, Disconnection, ProofBox, ProofError, ProofFormatError, StuckBox, read_proof};
+pub use proof::{CheckedProof, CollisionBox, Disconnection, ProofBox, ProofError, ProofFormatError, read_proof};
 pub use vicinity::Vicinity;

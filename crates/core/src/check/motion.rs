@@ -20,14 +20,14 @@ const EVALUATIONS_PER_PIECE: usize = 500;
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 /// Number of parts of a curve whose postures all pairs share: four levels of halves.
-const SHARED: usize = 16;
+const SHARED_PARTS: usize = 16;
 
 /// Rounding of a place where two paths join, relative to its size.
-const JOINED: f64 = 1e-9;
+const JOIN_ROUNDING: f64 = 1e-9;
 
 /// Pairs at more than this multiple of the least distance seen are not checked, because the proven clearance is that of
 /// a nearer pair. Larger than the inverse of [`TIGHTNESS`], with room for rounding.
-const BEYOND: f64 = 2.0;
+const DISTANCE_CUTOFF: f64 = 2.0;
 
 /// A path whose whole continuous motion is proven to be within the joint limits and to keep its clearance. Only
 /// [`certify`] makes one.
@@ -69,7 +69,7 @@ impl CertifiedPath {
     pub fn then(self, next: &Self) -> Self {
         let (goal, start) = (self.path.goal(), next.path.start());
         assert!(
-            (goal - start).amax() <= JOINED * (1.0 + goal.amax()),
+            (goal - start).amax() <= JOIN_ROUNDING * (1.0 + goal.amax()),
             "the next path begins at {start}, not at {goal}"
         );
         let distance = |nearest: &Nearest| nearest.contact.separation.distance;
@@ -140,10 +140,10 @@ pub fn certify(scene: &Scene, path: Path, clearance: f64) -> Result<CertifiedPat
     for &q in path.waypoints() {
         let posture = Posture::new(scene, q);
         let here = Deviation::Box([0.0, 0.0]);
-        vicinity.near(&posture, here, search.seen(), |pair| {
+        vicinity.near(&posture, here, search.least_distance(), |pair| {
             // Pairs farther off than the nearest so far are of no interest.
-            if posture.apart(pair, here) < search.seen() {
-                search.see(q, Contact { pair, separation: posture.here(pair) })?;
+            if posture.disc_bound(pair, here) < search.least_distance() {
+                search.record(q, Contact { pair, separation: posture.separation(pair) })?;
             }
             Ok(())
         })?;
@@ -222,18 +222,18 @@ impl<'a> CurveSearch<'a> {
 
     /// Returns a search that continues from the known clearance of a path, and finds the clearance of both.
     #[must_use]
-    pub fn beside(known: &CertifiedPath, scene: &'a Scene, required: f64, budget: usize) -> Self {
+    pub fn continued_from(known: &CertifiedPath, scene: &'a Scene, required: f64, budget: usize) -> Self {
         Self { proven: known.clearance, nearest: known.nearest, ..Self::new(scene, required, budget) }
     }
 
     /// Returns the proven clearance of all pieces so far, and the place where they come nearest to an obstacle.
     #[must_use]
-    pub fn found(&self) -> (f64, Option<Nearest>) {
+    pub fn proven_clearance(&self) -> (f64, Option<Nearest>) {
         (self.proven, self.nearest)
     }
 
     /// Records a distance on the path.
-    fn see(&mut self, at: Configuration, contact: Contact) -> Result<(), Rejection> {
+    fn record(&mut self, at: Configuration, contact: Contact) -> Result<(), Rejection> {
         let distance = contact.separation.distance;
         if self.nearest.is_none_or(|n| distance < n.contact.separation.distance) {
             self.nearest = Some(Nearest { at, contact });
@@ -245,22 +245,22 @@ impl<'a> CurveSearch<'a> {
     }
 
     /// Returns the least distance seen.
-    fn seen(&self) -> f64 {
+    fn least_distance(&self) -> f64 {
         self.nearest.map_or(f64::INFINITY, |n| n.contact.separation.distance)
     }
 
     /// Returns the value that a bound must reach to be accepted, once this distance is seen, too.
     fn target(&self, distance: f64) -> f64 {
         if self.tightness > 0.0 {
-            (self.tightness * self.seen().min(distance)).max(self.required)
+            (self.tightness * self.least_distance().min(distance)).max(self.required)
         } else {
             self.required
         }
     }
 
     /// Returns the distance beyond which pairs need no check.
-    fn matters(&self) -> f64 {
-        if self.tightness > 0.0 { BEYOND * self.target(f64::INFINITY) } else { self.required }
+    fn cutoff(&self) -> f64 {
+        if self.tightness > 0.0 { DISTANCE_CUTOFF * self.target(f64::INFINITY) } else { self.required }
     }
 
     fn segment(&mut self, vicinity: &Vicinity, from: Configuration, to: Configuration) -> Result<(), Rejection> {
@@ -283,8 +283,8 @@ impl<'a> CurveSearch<'a> {
             (Posture::new(scene, at), deviation)
         };
         let whole = posed(0.5, 0.5);
-        let mut shared = [const { None }; SHARED];
-        vicinity.near(&whole.0, whole.1, self.matters(), |pair| self.pair(pair, &whole, &mut shared, posed))
+        let mut shared = [const { None }; SHARED_PARTS];
+        vicinity.near(&whole.0, whole.1, self.cutoff(), |pair| self.pair(pair, &whole, &mut shared, posed))
     }
 
     /// Judges one pair along a curve. The postures of its first parts are shared with other pairs.
@@ -292,7 +292,7 @@ impl<'a> CurveSearch<'a> {
         &mut self,
         pair: Pair,
         whole: &(Posture<'a>, Deviation),
-        shared: &mut [Option<(Posture<'a>, Deviation)>; SHARED],
+        shared: &mut [Option<(Posture<'a>, Deviation)>; SHARED_PARTS],
         posed: impl Fn(f64, f64) -> (Posture<'a>, Deviation),
     ) -> Result<(), Rejection> {
         self.open.clear();
@@ -310,14 +310,14 @@ impl<'a> CurveSearch<'a> {
             };
             let (at, deviation) = (posture.configuration(), *deviation);
             self.budget = self.budget.saturating_sub(1);
-            let apart = posture.apart(pair, deviation);
+            let apart = posture.disc_bound(pair, deviation);
             if apart > 0.0 && apart >= self.target(f64::INFINITY) {
                 self.proven = self.proven.min(apart);
                 continue;
             }
             let bounded = posture.bound_up_to(pair, deviation, |distance| self.target(distance));
             let contact = Contact { pair, separation: bounded.here };
-            self.see(at, contact)?;
+            self.record(at, contact)?;
             if bounded.least > 0.0 && bounded.least >= self.target(f64::INFINITY) {
                 self.proven = self.proven.min(bounded.least);
             } else if self.budget == 0 || half < f64::EPSILON {

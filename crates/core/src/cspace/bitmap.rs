@@ -17,7 +17,7 @@ pub struct Bitmap {
 }
 
 /// Bits of a word.
-const WORD: usize = u64::BITS as usize;
+const WORD_BITS: usize = u64::BITS as usize;
 
 impl Bitmap {
     /// Returns the number of cells along each axis.
@@ -33,7 +33,7 @@ impl Bitmap {
     #[must_use]
     pub fn blocked(&self, i: usize, j: usize) -> bool {
         assert!(i < self.cells[0] && j < self.cells[1], "a cell of the bitmap");
-        self.bits[i * self.words + j / WORD] >> (j % WORD) & 1 == 1
+        self.bits[i * self.words + j / WORD_BITS] >> (j % WORD_BITS) & 1 == 1
     }
 
     /// Returns the number of blocked cells.
@@ -58,7 +58,7 @@ impl Bitmap {
 pub fn bitmap(scene: &Scene, cells: [usize; 2], clearance: f64) -> Bitmap {
     let slices = Contacts::new(scene);
     let axes: [JointRange; 2] = scene.arm().topology().ranges;
-    let words = cells[1].div_ceil(WORD);
+    let words = cells[1].div_ceil(WORD_BITS);
     let mut bits = vec![0_u64; words * cells[0]];
     let [lines, columns] = [0, 1].map(|k| Centers::new(axes[k], cells[k]));
 
@@ -135,9 +135,9 @@ fn fill(words: &mut [u64], from: usize, to: usize) {
     if from >= to {
         return;
     }
-    let (first, last) = (from / WORD, (to - 1) / WORD);
-    let head = u64::MAX << (from % WORD);
-    let tail = u64::MAX >> (WORD - 1 - (to - 1) % WORD);
+    let (first, last) = (from / WORD_BITS, (to - 1) / WORD_BITS);
+    let head = u64::MAX << (from % WORD_BITS);
+    let tail = u64::MAX >> (WORD_BITS - 1 - (to - 1) % WORD_BITS);
     if first == last {
         words[first] |= head & tail;
     } else {
@@ -157,7 +157,7 @@ mod tests {
             for to in 0..=200 {
                 let mut words = [0; 4];
                 fill(&mut words, from, to);
-                let set = |i: usize| words[i / WORD] >> (i % WORD) & 1 == 1;
+                let set = |i: usize| words[i / WORD_BITS] >> (i % WORD_BITS) & 1 == 1;
                 assert!((0..256).all(|i| set(i) == (from <= i && i < to)), "{from} {to}");
             }
         }

@@ -6,16 +6,16 @@ use cplan_geometry::{Convex, Point, SimplePolygon, Vector, cross, farthest, perp
 use std::borrow::Cow;
 
 /// Shapes with at most this many corners stay unchanged.
-const PLAIN: usize = 16;
+const MAX_UNCHANGED_CORNERS: usize = 16;
 
 /// An obstacle of more pieces, however its outline is simplified, is covered by polygons made of small cells, if these are fewer.
-const MANY: usize = 512;
+const MAX_PIECES: usize = 512;
 
 /// Number of attempts to simplify a polygon whose coarse outline crosses itself, each with a quarter of the tolerance.
 const ATTEMPTS: usize = 3;
 
 /// Share of the tolerance for the corners of polygons made of cells.
-const ROUNDED: f64 = 0.25;
+const CELL_CORNER_SHARE: f64 = 0.25;
 
 /// Outlines are moved out by this share of the coordinates, more than what rounding takes off them.
 const ROUNDING: f64 = 1e-13;
@@ -26,10 +26,10 @@ const ROUNDING: f64 = 1e-13;
 ///
 /// Configurations that are free among coarse shapes are free among the true ones.
 pub(super) fn coarse(scene: &Scene, within: f64, near: f64) -> Cow<'_, Scene> {
-    let fine = |shape: &Convex| shape.core().len() > PLAIN;
+    let fine = |shape: &Convex| shape.core().len() > MAX_UNCHANGED_CORNERS;
     let many = |obstacle: &Obstacle| {
         let outlined = matches!(obstacle.shape, Shape::Polygon(_) | Shape::Polyline(_));
-        outlined && obstacle.pieces.len() > PLAIN || obstacle.pieces.iter().any(fine)
+        outlined && obstacle.pieces.len() > MAX_UNCHANGED_CORNERS || obstacle.pieces.iter().any(fine)
     };
     let parts = scene.own_parts(0).iter().chain(scene.own_parts(1));
     if within <= 0.0 || !parts.clone().any(|part| fine(&part.shape)) && !scene.workspace().obstacles.iter().any(many) {
@@ -44,7 +44,7 @@ pub(super) fn coarse(scene: &Scene, within: f64, near: f64) -> Cow<'_, Scene> {
             return obstacle.pieces.clone();
         }
         let met: Vec<Convex> = obstacle.pieces.iter().filter(|piece| can_meet(piece)).cloned().collect();
-        if met.len() <= PLAIN {
+        if met.len() <= MAX_UNCHANGED_CORNERS {
             return met.iter().map(|piece| around(piece, each)).collect();
         }
         let simplified = match &obstacle.shape {
@@ -59,7 +59,7 @@ pub(super) fn coarse(scene: &Scene, within: f64, near: f64) -> Cow<'_, Scene> {
         let fewer = simplified.filter(|pieces| pieces.len() < met.len());
         let pieces = fewer.unwrap_or_else(|| met.iter().map(|piece| around(piece, each)).collect());
         let covered = || covered(&met, each).filter(|covered| covered.len() < pieces.len());
-        if pieces.len() > MANY { covered().unwrap_or(pieces) } else { pieces }
+        if pieces.len() > MAX_PIECES { covered().unwrap_or(pieces) } else { pieces }
     };
     Cow::Owned(scene.reshaped(|part| part.shape = around(&part.shape, each), pieces))
 }
@@ -79,15 +79,15 @@ fn distance_of_bounds(shape: &Convex, from: Point) -> f64 {
 /// [`covering`] of pieces without curves, with few corners each.
 fn covered(pieces: &[Convex], within: f64) -> Option<Vec<Convex>> {
     let straight = pieces.iter().all(|piece| piece.radius() == 0.0);
-    let covering = if straight { covering(pieces, within * (1.0 - ROUNDED)) } else { None };
-    covering.map(|covering| covering.iter().map(|piece| around(piece, within * ROUNDED)).collect())
+    let covering = if straight { covering(pieces, within * (1.0 - CELL_CORNER_SHARE)) } else { None };
+    covering.map(|covering| covering.iter().map(|piece| around(piece, within * CELL_CORNER_SHARE)).collect())
 }
 
 /// Returns a convex shape with few corners that contains a given one and extends at most `within` beyond it: some of
 /// its sides, extended until they meet. `O(n)`.
 fn around(shape: &Convex, within: f64) -> Convex {
     let core = shape.core();
-    if core.len() <= PLAIN {
+    if core.len() <= MAX_UNCHANGED_CORNERS {
         return shape.clone();
     }
     Convex::trusted(around_convex(core, within).unwrap_or_else(|| core.to_vec()), shape.radius())

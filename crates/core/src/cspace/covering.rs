@@ -7,7 +7,7 @@ use cplan_interrupt::checkpoint;
 const ROUNDING: f64 = 1e-13;
 
 /// Rows of cells that all pieces cross together, at most; more would take more time than they save.
-const MOST_CROSSINGS: f64 = 4e7;
+const MAX_CROSSINGS: f64 = 4e7;
 
 /// Cells of a row, from the first to the last.
 type Run = [i64; 2];
@@ -49,7 +49,7 @@ impl Lattice {
         let (side, pad) = (diagonal / 2_f64.sqrt() * (1.0 - 1e-9), ROUNDING * largest);
         let height = |[lower, upper]: [Point; 2]| (upper.y - lower.y) / side + 2.0;
         let crossings: f64 = pieces.iter().map(|piece| height(piece.bounds())).sum();
-        let few = crossings <= MOST_CROSSINGS && (upper.x - lower.x) / side <= MOST_CROSSINGS;
+        let few = crossings <= MAX_CROSSINGS && (upper.x - lower.x) / side <= MAX_CROSSINGS;
         // Cells must be much larger than the rounding, or they would not contain the pieces.
         (few && pad < side / 1024.0).then(|| {
             let pads = cplan_geometry::Vector::repeat(pad);
@@ -303,7 +303,7 @@ mod tests {
     }
 
     #[test]
-    fn a_disc_is_one_polygon_whatever_it_consists_of() {
+    fn any_decomposition_of_a_disc_becomes_one_polygon() {
         let at = |k: usize| {
             Point::new(
                 (k as f64 / 300.0 * std::f64::consts::TAU).cos(),
@@ -320,7 +320,7 @@ mod tests {
     /// A hundred thousand short segments in a square need about as many polygons as the square has cells along its
     /// sides.
     #[test]
-    fn what_fills_a_square_is_about_the_square() {
+    fn pieces_of_a_square_are_covered_by_about_the_square() {
         let step = |k: u64| (k.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 40) as f64 / (1_u64 << 24) as f64;
         let at = |k: u64| Point::new(step(2 * k), step(2 * k + 1));
         let segments: Vec<Convex> =

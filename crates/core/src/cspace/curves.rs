@@ -2,14 +2,14 @@
 
 use super::chord::{Contact, PairMotion};
 use super::events::events;
-use super::outline::{Break, Flattening, Source, contours};
+use super::outline::{Breakpoint, Flattening, SlicedObstacle, contours};
 use crate::model::Contacts;
 use crate::space::Configuration;
 use cplan_geometry::{Hits, Point};
 use std::f64::consts::{PI, TAU};
 
 /// Share of the tolerance that chords leave unused, so that strict inequalities survive rounding.
-const SPARE: f64 = 1.0 / 16.0;
+const TOLERANCE_RESERVE: f64 = 1.0 / 16.0;
 
 /// Slices to begin with over a turn or a range of `q1`. Only shape and speed depend on it: what coarse slices could
 /// overlook is found by [`events`].
@@ -17,7 +17,7 @@ const FIRST_SLICES: usize = 24;
 
 /// Overlap of neighbouring contours, relative to the width of the narrowest strip: far above the rounding of the union
 /// and far below the tolerance.
-const OVERLAP: f64 = 1e-3;
+const CONTOUR_OVERLAP: f64 = 1e-3;
 
 /// The slices of one pair of link 2, and what chords between them must keep.
 pub(super) struct Curves<'a> {
@@ -42,7 +42,7 @@ impl<'a> Curves<'a> {
         let motion = PairMotion::new(scene.arm(), scene.part(pair), scene.piece(pair));
         // Over half of this no distance changes by more than the tolerance.
         let min_width = tolerance / (2.0 * motion.speed().max(f64::MIN_POSITIVE));
-        let (floor, ceiling) = (level + SPARE * tolerance, level + 2.0 * tolerance);
+        let (floor, ceiling) = (level + TOLERANCE_RESERVE * tolerance, level + 2.0 * tolerance);
         Self { slices, index, motion, floor, level: level + tolerance, ceiling, min_width }
     }
 
@@ -52,13 +52,13 @@ impl<'a> Curves<'a> {
             return Vec::new();
         }
         let turning = self.slices.scene().arm().joints[1].joint_type.is_revolute();
-        let overlap = OVERLAP * self.min_width;
+        let overlap = CONTOUR_OVERLAP * self.min_width;
         contours(&mut &*self, &self.breaks(), Flattening { turning, min_width: self.min_width, overlap })
     }
 
     /// Slices to begin with, in order: some all over the range of `q1`, and those where the pair begins or ceases to be at
     /// the floor, which are kept, or at the level. Of two no farther apart than contours overlap one does.
-    fn breaks(&self) -> Vec<Break> {
+    fn breaks(&self) -> Vec<Breakpoint> {
         let scene = self.slices.scene();
         let pair = scene.pairs()[self.index];
         let arm = scene.arm();
@@ -71,21 +71,21 @@ impl<'a> Curves<'a> {
             joint.range.domain()
         };
         let step = (end - start) / FIRST_SLICES as f64;
-        let mut breaks: Vec<Break> = (0..FIRST_SLICES)
-            .map(|i| Break { q1: start + step * i as f64, keep: false })
-            .chain([Break { q1: end, keep: false }])
+        let mut breaks: Vec<Breakpoint> = (0..FIRST_SLICES)
+            .map(|i| Breakpoint { q1: start + step * i as f64, keep: false })
+            .chain([Breakpoint { q1: end, keep: false }])
             .collect();
         for (level, keep) in levels {
             for q1 in events(arm, scene.part(pair), scene.piece(pair), level) {
                 let q1 = if joint.joint_type.is_revolute() { start + (q1 - start).rem_euclid(TAU) } else { q1 };
                 if start <= q1 && q1 <= end {
-                    breaks.push(Break { q1, keep });
+                    breaks.push(Breakpoint { q1, keep });
                 }
             }
         }
         breaks.sort_by(|a, b| a.q1.total_cmp(&b.q1));
         breaks.dedup_by(|b, a| {
-            let near = b.q1 - a.q1 <= OVERLAP * self.min_width;
+            let near = b.q1 - a.q1 <= CONTOUR_OVERLAP * self.min_width;
             a.keep |= near && b.keep;
             near
         });
@@ -102,7 +102,7 @@ fn seam(slices: &Contacts, index: usize, level: f64) -> f64 {
         .unwrap_or(-PI)
 }
 
-impl Source for &Curves<'_> {
+impl SlicedObstacle for &Curves<'_> {
     type End = Contact;
 
     fn intervals(&mut self, q1: f64, out: &mut Vec<[f64; 2]>) {

@@ -8,7 +8,7 @@ use std::f64::consts::TAU;
 
 /// Slack, metres, in deciding whether a foot of a perpendicular lies on a side and whether a distance is the level. It
 /// can only add values that are no events, which cost a slice each; leaving one out would cost the guarantee.
-const SLACK: f64 = 1e-7;
+const FOOT_SLACK: f64 = 1e-7;
 
 /// Values of `q1` among which is every one where an interval of `q2` within which `part` (of link 2, in its frame) and
 /// `piece` are at most `level` apart appears or vanishes. On a turning joint 1 each stands for its whole turns.
@@ -49,7 +49,7 @@ fn sliding(arm: &Arm, direction: Vector, part: &Convex, piece: &Convex, radius: 
     found.retain(|&q1| {
         let turned = arm.pose(0, Configuration::new(q1, 0.0)).direction(direction);
         let (near, far) = extent(piece.core().iter().map(|b| cross(turned, b - arm.base)));
-        (near - high - radius).abs() <= SLACK || (low - radius - far).abs() <= SLACK
+        (near - high - radius).abs() <= FOOT_SLACK || (low - radius - far).abs() <= FOOT_SLACK
     });
     found
 }
@@ -102,7 +102,7 @@ impl Turning<'_> {
             let normal = -perpendicular(along);
             for q1 in self.elbow_on_line(normal, normal.dot(&p) - facing * distance) {
                 let foot = along.dot(&(self.arm.elbow_at(q1) - p));
-                if (-SLACK..=(q - p).norm() + SLACK).contains(&foot) {
+                if (-FOOT_SLACK..=(q - p).norm() + FOOT_SLACK).contains(&foot) {
                     self.consider(q1, facing * normal, feature);
                 }
             }
@@ -119,7 +119,7 @@ impl Turning<'_> {
             for q1 in self.elbow_on_circle(p, distance) {
                 let heading = p - self.arm.elbow_at(q1);
                 let normal = facing * heading;
-                let outermost = |w: Point| normal.dot(&(w - p)) <= SLACK * (w - p).norm();
+                let outermost = |w: Point| normal.dot(&(w - p)) <= FOOT_SLACK * (w - p).norm();
                 if outermost(core[(i + 1) % n]) && outermost(core[(i + n - 1) % n]) {
                     self.consider(q1, heading, feature);
                 }
@@ -129,14 +129,14 @@ impl Turning<'_> {
 
     /// Notes `q1` if with the feature turned to `heading` the pair is at the level there, and no nearer.
     fn consider(&mut self, q1: f64, heading: Vector, feature: &Radial) {
-        if let (Some(at), true) = (feature.heading, heading.norm() > SLACK) {
+        if let (Some(at), true) = (feature.heading, heading.norm() > FOOT_SLACK) {
             let turn = heading.y.atan2(heading.x) - at.y.atan2(at.x);
             let first = match self.arm.joints[0].joint_type {
                 JointType::Revolute { sign } => sign * q1,
                 JointType::Prismatic { .. } => 0.0,
             };
             let pose = self.arm.pose(1, Configuration::new(q1, self.sign * (turn - first)));
-            if separation(&self.part.at(&pose), self.piece).distance < self.level - SLACK {
+            if separation(&self.part.at(&pose), self.piece).distance < self.level - FOOT_SLACK {
                 return;
             }
         }
@@ -200,8 +200,8 @@ fn radial_features(core: &[Point]) -> Vec<Radial> {
         let distance = a.norm();
         let neighbors = [core[(i + 1) % n] - a, core[(i + n - 1) % n] - a];
         for (outward, sense) in [(true, 1.0), (false, -1.0)] {
-            if neighbors.iter().all(|w| sense * a.dot(w) <= SLACK * w.norm()) {
-                let heading = (distance > SLACK).then(|| a / distance);
+            if neighbors.iter().all(|w| sense * a.dot(w) <= FOOT_SLACK * w.norm()) {
+                let heading = (distance > FOOT_SLACK).then(|| a / distance);
                 features.push(Radial { distance, heading, outward });
             }
         }
@@ -210,11 +210,11 @@ fn radial_features(core: &[Point]) -> Vec<Radial> {
         let along = (q - p).normalize();
         let normal = -perpendicular(along);
         let (offset, foot) = (normal.dot(&p), -along.dot(&p));
-        if !(-SLACK..=(q - p).norm() + SLACK).contains(&foot) {
+        if !(-FOOT_SLACK..=(q - p).norm() + FOOT_SLACK).contains(&foot) {
             continue;
         }
         for (outward, sense) in [(true, 1.0), (false, -1.0)] {
-            if sense * offset >= -SLACK {
+            if sense * offset >= -FOOT_SLACK {
                 features.push(Radial { distance: (sense * offset).max(0.0), heading: Some(sense * normal), outward });
             }
         }

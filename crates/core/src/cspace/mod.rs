@@ -59,7 +59,7 @@ pub use regions::{
 };
 pub use sampled::sampled_grid;
 pub use slabs::{grid_from_slices, outer_grid};
-pub use slices::{Forbidden, Slice};
+pub use slices::{ForbiddenInterval, Slice};
 pub use stretches::free_stretches;
 pub use zones::{Zone, ZonedGrid};
 

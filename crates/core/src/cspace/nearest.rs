@@ -21,13 +21,13 @@ pub struct NearestFree {
 }
 
 /// Slices on the whole range of joint 1, or on a turn if it has more.
-const SLICES: f64 = 4096.0;
+const SLICES_PER_TURN: f64 = 4096.0;
 /// Local minima that are refined, best first.
-const MINIMA: usize = 8;
+const MAX_REFINED_MINIMA: usize = 8;
 /// Refinement ends when the slices are this close, in units of joint 1.
-const FINEST: f64 = 1e-10;
+const MIN_SLICE_DISTANCE: f64 = 1e-10;
 /// Slices on either side of the best one, in each step of the refinement.
-const FAN: i32 = 8;
+const SLICES_PER_SIDE: i32 = 8;
 
 /// Returns the free configuration nearest to `q` in joint space (Euclidean, by the short direction on circles), or
 /// `None` if no slice has a free configuration. `O(slices * pairs)`.
@@ -63,7 +63,7 @@ impl<'a> Search<'a> {
         let bands = slices.bands(grow);
         let first = &scene.arm().joints[0];
         let extent = first.range.extent();
-        let spacing = if first.joint_type.is_revolute() { extent.min(TAU) } else { extent } / SLICES;
+        let spacing = if first.joint_type.is_revolute() { extent.min(TAU) } else { extent } / SLICES_PER_TURN;
         Self { scene, slices, bands, slice: Slice::default(), from, grow, best: None, spacing }
     }
 
@@ -107,9 +107,9 @@ impl<'a> Search<'a> {
     /// Looks at ever closer slices about one.
     fn refine(&mut self, q1: f64) {
         let (mut middle, mut step) = (q1, self.spacing);
-        while step > FINEST {
-            step /= f64::from(FAN);
-            let around = (-FAN..=FAN).map(|k| middle + f64::from(k) * step);
+        while step > MIN_SLICE_DISTANCE {
+            step /= f64::from(SLICES_PER_SIDE);
+            let around = (-SLICES_PER_SIDE..=SLICES_PER_SIDE).map(|k| middle + f64::from(k) * step);
             let found = around.filter_map(|q1| self.look(q1).map(|distance| (q1, distance)));
             let Some((next, _)) = found.min_by(|a, b| a.1.total_cmp(&b.1)) else { return };
             middle = next;
@@ -160,6 +160,6 @@ fn minima(mut samples: Vec<(f64, f64)>) -> Vec<f64> {
         .map(|i| samples[i])
         .collect();
     found.sort_by(|a, b| a.1.total_cmp(&b.1));
-    found.truncate(MINIMA);
+    found.truncate(MAX_REFINED_MINIMA);
     found.into_iter().map(|(q1, _)| q1).collect()
 }

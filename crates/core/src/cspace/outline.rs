@@ -5,10 +5,10 @@ use cplan_interrupt::checkpoint;
 use std::f64::consts::{PI, TAU};
 
 /// The whole range of a revolute `q2`.
-const TURN: [f64; 2] = [-PI, PI];
+const REVOLUTE_RANGE: [f64; 2] = [-PI, PI];
 
 /// A C-obstacle, slice by slice, and a judge of its chords.
-pub(super) trait Source {
+pub(super) trait SlicedObstacle {
     /// A point of the boundary.
     type End: Copy;
 
@@ -45,7 +45,7 @@ pub(super) struct Flattening {
 
 /// A breakpoint of `q1`.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Break {
+pub(super) struct Breakpoint {
     /// The value of joint 1 there.
     pub q1: f64,
     /// True if contours keep a vertex here, because an end or a split of the C-obstacle may be hidden between other
@@ -58,7 +58,7 @@ pub(super) struct Break {
 /// Each strip between two slices is bisected until its intervals match one to one and the chords between their ends are
 /// accepted, or it is `min_width` wide. Matched intervals form chains, each a contour; a narrow strip without a match is
 /// covered by rectangles. Last, corners are dropped from the chains as far as the longer chords are accepted.
-pub(super) fn contours<S: Source>(source: &mut S, breaks: &[Break], how: Flattening) -> Vec<Vec<Point>> {
+pub(super) fn contours<S: SlicedObstacle>(source: &mut S, breaks: &[Breakpoint], how: Flattening) -> Vec<Vec<Point>> {
     let mut tracer = Tracer { source, how, open: Vec::new(), done: Vec::new(), scratch: Vec::new() };
     let Some((first, rest)) = breaks.split_first() else { return Vec::new() };
     let mut slice = tracer.slice(*first);
@@ -74,7 +74,7 @@ pub(super) fn contours<S: Source>(source: &mut S, breaks: &[Break], how: Flatten
 
 /// The blocked intervals of one slice with the boundary points at their ends.
 struct Slice<E> {
-    at: Break,
+    at: Breakpoint,
     intervals: Vec<[E; 2]>,
     /// True if the whole turn of `q2` is blocked; `intervals` is then empty.
     full: bool,
@@ -87,7 +87,7 @@ struct Chain<E> {
     turns: f64,
 }
 
-struct Tracer<'r, S: Source> {
+struct Tracer<'r, S: SlicedObstacle> {
     source: &'r mut S,
     how: Flattening,
     /// One chain for each interval of the current slice.
@@ -96,8 +96,8 @@ struct Tracer<'r, S: Source> {
     scratch: Vec<[f64; 2]>,
 }
 
-impl<S: Source> Tracer<'_, S> {
-    fn slice(&mut self, at: Break) -> Slice<S::End> {
+impl<S: SlicedObstacle> Tracer<'_, S> {
+    fn slice(&mut self, at: Breakpoint) -> Slice<S::End> {
         checkpoint();
         self.scratch.clear();
         self.source.intervals(at.q1, &mut self.scratch);
@@ -117,13 +117,13 @@ impl<S: Source> Tracer<'_, S> {
     /// Extends the chains from slice `u` to slice `v`, through as many slices between as it takes.
     fn strip(&mut self, u: &Slice<S::End>, v: &Slice<S::End>) {
         if u.full && v.full {
-            self.rectangle(u.at.q1, v.at.q1, TURN);
+            self.rectangle(u.at.q1, v.at.q1, REVOLUTE_RANGE);
         } else if let Some(links) = self.matching(u, v) {
             self.extend(v, &links);
         } else if v.at.q1 - u.at.q1 <= self.how.min_width {
             self.cover(u, v);
         } else {
-            let middle = self.slice(Break { q1: f64::midpoint(u.at.q1, v.at.q1), keep: false });
+            let middle = self.slice(Breakpoint { q1: f64::midpoint(u.at.q1, v.at.q1), keep: false });
             self.strip(u, &middle);
             self.strip(&middle, v);
         }
@@ -181,7 +181,7 @@ impl<S: Source> Tracer<'_, S> {
     fn cover(&mut self, u: &Slice<S::End>, v: &Slice<S::End>) {
         self.close_chains();
         let spans = if u.full || v.full {
-            vec![TURN]
+            vec![REVOLUTE_RANGE]
         } else {
             let both = u.intervals.iter().chain(&v.intervals);
             united(both.map(|i| [self.q2(&i[0]), self.q2(&i[1])]).collect(), self.how.turning)

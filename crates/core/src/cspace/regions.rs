@@ -13,14 +13,14 @@ use std::f64::consts::{PI, TAU};
 
 /// Share of the margin that remains as proven distance on the contours of [`regions`] after flattening. Chords may cut
 /// off the rest, which allows fewer corners.
-const KEPT: f64 = 0.25;
+const PROVEN_MARGIN_SHARE: f64 = 0.25;
 
 /// Greatest simplification of shapes with many corners, as a multiple of the margin that contours keep.
-const COARSENESS: f64 = 2.0;
+const COARSENESS_PER_MARGIN: f64 = 2.0;
 
 /// Overlap of bands across the seam of a turn, relative to the distance they are grown by: far above the rounding of the
 /// union.
-const OVERLAP: f64 = 1e-3;
+const SEAM_OVERLAP: f64 = 1e-3;
 
 /// Share of the arm's reach by which rounded corners of [`exact_c_obstacles`] may be larger than their arcs: invisible in
 /// pictures, and five corners a quarter of a turn for the most.
@@ -121,7 +121,7 @@ impl Regions {
 #[must_use]
 pub fn regions(scene: &Scene, margin: f64, center: Configuration, periods: usize) -> Regions {
     assert!(margin > 0.0, "a margin for the flattening of curves");
-    let obstacles = c_obstacles(scene, KEPT * margin, (1.0 - KEPT) * margin);
+    let obstacles = c_obstacles(scene, PROVEN_MARGIN_SHARE * margin, (1.0 - PROVEN_MARGIN_SHARE) * margin);
     within_window(scene, Proves::Outer { margin }, window(scene, center, periods), obstacles)
 }
 
@@ -243,7 +243,7 @@ fn traced(scene: &Scene, level: f64, tolerance: f64) -> Vec<CObstacle> {
     for (index, pair) in scene.pairs().iter().enumerate() {
         checkpoint();
         let contours = match (pair.link, &map) {
-            (0 | 2, _) => bands(&slices, index, level + tolerance, OVERLAP * level.min(1.0)),
+            (0 | 2, _) => bands(&slices, index, level + tolerance, SEAM_OVERLAP * level.min(1.0)),
             (_, Some(map)) => {
                 let (part, piece) = (scene.part(*pair), scene.piece(*pair));
                 vec![translation::contour(scene.arm(), map, part, piece, level, tolerance)]
@@ -258,14 +258,14 @@ fn traced(scene: &Scene, level: f64, tolerance: f64) -> Vec<CObstacle> {
 
 /// Returns the scene whose contours are traced.
 fn coarsened(scene: &Scene, margin: f64, tolerance: f64) -> Cow<'_, Scene> {
-    coarse(scene, COARSENESS * margin, scene.workspace().clearance + margin + 4.0 * tolerance)
+    coarse(scene, COARSENESS_PER_MARGIN * margin, scene.workspace().clearance + margin + 4.0 * tolerance)
 }
 
 /// Returns the number of pairs of shapes that [`regions`] traces with that `margin`: a greater margin makes shapes with
 /// many corners coarser.
 #[must_use]
 pub fn traced_pairs(scene: &Scene, margin: f64) -> usize {
-    coarsened(scene, KEPT * margin, (1.0 - KEPT) * margin).pairs().len()
+    coarsened(scene, PROVEN_MARGIN_SHARE * margin, (1.0 - PROVEN_MARGIN_SHARE) * margin).pairs().len()
 }
 
 /// Returns the values of `q1` at which a pair of link 1 is within `level`, for all `q2` and `pad` more at either end:

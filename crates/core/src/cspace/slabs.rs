@@ -10,10 +10,10 @@ use std::f64::consts::TAU;
 
 /// Arcs are widened by this before whole cells are judged, radians or metres: rounding in the division into cells is
 /// some 1e-13 of a cell.
-const WIDENING: f64 = 1e-9;
+const ARC_WIDENING: f64 = 1e-9;
 
 /// Largest coarsening of shapes with many corners, as a share of the margin that the joints' motion over a cell adds.
-const COARSENESS: f64 = 1.0 / 16.0;
+const MAX_COARSENING: f64 = 1.0 / 16.0;
 
 /// Computes the grid whose cells are blocked where their *centre* comes within `clearance` of an obstacle. The result
 /// equals that of a sampled grid, except for centres within [`ROUNDING`] of contact. `O(slices * contacts + cells)`.
@@ -59,7 +59,7 @@ pub fn outer_grid(scene: &Scene, cells: [usize; 2], clearance: f64) -> Grid {
         slices.second_link_pairs().map(|index| slices.motion(index, steps[0] / 2.0, kept)).collect()
     };
     let fine = Contacts::new(scene);
-    let within = COARSENESS * margin(&fine, &motions(&fine), steps, clearance);
+    let within = MAX_COARSENING * margin(&fine, &motions(&fine), steps, clearance);
     let scene = coarse(scene, within, f64::INFINITY);
     let slices = if let Cow::Owned(scene) = &scene { Contacts::new(scene) } else { fine };
     let within = if matches!(scene, Cow::Owned(_)) { within } else { 0.0 };
@@ -71,7 +71,7 @@ pub fn outer_grid(scene: &Scene, cells: [usize; 2], clearance: f64) -> Grid {
     let axis = grid.topology.ranges[0];
     let turns: &[f64] = if axis.is_circle() { &[-TAU, 0.0, TAU] } else { &[0.0] };
     let centers: Vec<f64> = (0..cells[0]).map(|i| grid.center(i * cells[1])[0]).collect();
-    let half = steps[0] / 2.0 + WIDENING;
+    let half = steps[0] / 2.0 + ARC_WIDENING;
     let banned = |q1: f64, band: &[f64; 2], turn: f64| band[0] <= q1 + turn + half && band[1] >= q1 + turn - half;
     let is_banned = |q1: f64| bands.merged.iter().any(|band| turns.iter().any(|&turn| banned(q1, band, turn)));
     let elbows: Vec<_> = centers.iter().map(|&q1| (!is_banned(q1)).then(|| slices.elbow(q1))).collect();
@@ -93,7 +93,9 @@ pub fn outer_grid(scene: &Scene, cells: [usize; 2], clearance: f64) -> Grid {
                 let &Some((elbow, heading)) = elbow else { continue };
                 intervals.clear();
                 let hits = slices.at_elbow(index, elbow, heading, grow, &mut intervals);
-                intervals.iter_mut().for_each(|[start, end]| (*start, *end) = (*start - WIDENING, *end + WIDENING));
+                intervals
+                    .iter_mut()
+                    .for_each(|[start, end]| (*start, *end) = (*start - ARC_WIDENING, *end + ARC_WIDENING));
                 on_axis(&scene.arm().joints[1], hits, &intervals, |[start, end]| {
                     columns.block_touched(row, start, end)
                 });
@@ -111,7 +113,7 @@ fn free(cells: [usize; 2]) -> Vec<bool> {
 fn margin(slices: &Contacts<'_>, motions: &[f64], [h1, h2]: [f64; 2], clearance: f64) -> f64 {
     let first = (0..slices.second_link_pairs().start).map(|index| slices.motion(index, h1, clearance));
     let second = slices.second_link_pairs().zip(motions).map(|(index, motion)| 2.0 * motion + slices.lever(index) * h2);
-    first.chain(second).fold(0.0, f64::max) + 4.0 * ROUNDING + WIDENING
+    first.chain(second).fold(0.0, f64::max) + 4.0 * ROUNDING + ARC_WIDENING
 }
 
 /// The cells of a row by value of joint 2.

@@ -20,7 +20,7 @@ impl Contacts<'_> {
                 let index = index as usize;
                 let hits = self.at_elbow(index, elbow, heading, grow, &mut slice.scratch);
                 let Slice { forbidden, scratch, .. } = slice;
-                on_axis(joint, hits, scratch, |interval| forbidden.push(Forbidden { pair: index, interval }));
+                on_axis(joint, hits, scratch, |interval| forbidden.push(ForbiddenInterval { pair: index, interval }));
             }
         }
         slice.near = near;
@@ -36,7 +36,7 @@ impl Contacts<'_> {
             let hits = self.first_link(index, grow, &mut slice.scratch);
             let Slice { forbidden, scratch, .. } = &mut slice;
             let joint = &self.scene().arm().joints[0];
-            on_axis(joint, hits, scratch, |interval| forbidden.push(Forbidden { pair: index, interval }));
+            on_axis(joint, hits, scratch, |interval| forbidden.push(ForbiddenInterval { pair: index, interval }));
         }
         slice.merge();
         slice
@@ -45,7 +45,7 @@ impl Contacts<'_> {
 
 /// A forbidden interval of one pair, within the axis's domain.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Forbidden {
+pub struct ForbiddenInterval {
     /// Number of the pair in [`crate::model::Scene::pairs`].
     pub pair: usize,
     /// Closed; joint values.
@@ -56,7 +56,7 @@ pub struct Forbidden {
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Slice {
     /// Forbidden values by pair, in the pairs' order.
-    pub forbidden: Vec<Forbidden>,
+    pub forbidden: Vec<ForbiddenInterval>,
     /// Their union: disjoint, ascending.
     pub merged: Vec<[f64; 2]>,
     scratch: Vec<[f64; 2]>,

@@ -1,7 +1,7 @@
 //! The free stretches of a segment along one joint, exactly.
 
 use super::slices::Slice;
-use crate::model::{Carried, Contacts, Scene, on_axis};
+use crate::model::{CarriedPart, Contacts, Scene, on_axis};
 use crate::space::{Configuration, Segment};
 use cplan_geometry::{Features, Vector, merge_in_place, separation};
 
@@ -65,9 +65,9 @@ fn along_first(scene: &Scene, q2: f64, grow: f64) -> Vec<[f64; 2]> {
             continue;
         }
         let part = if pair.link == 0 {
-            Carried::new(joint.joint_type, part)
+            CarriedPart::new(joint.joint_type, part)
         } else {
-            Carried::new(joint.joint_type, &part.at(&in_first))
+            CarriedPart::new(joint.joint_type, &part.at(&in_first))
         };
         scratch.clear();
         let hits = part.hits(arm.base, Vector::x(), &Features::new(scene.piece(pair)), grow, &mut scratch);

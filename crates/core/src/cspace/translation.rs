@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 
 /// Slides whose directions enclose less than this sine are parallel: the map from the plane to joint values would
 /// magnify rounding by its inverse.
-const PARALLEL: f64 = 1e-9;
+const PARALLEL_SINE: f64 = 1e-9;
 
 /// Returns the map from displacements in the plane to joint values, for a gantry whose axes are not parallel.
 pub(super) fn joint_map(arm: &Arm) -> Option<Matrix2<f64>> {
@@ -17,7 +17,7 @@ pub(super) fn joint_map(arm: &Arm) -> Option<Matrix2<f64>> {
         return None;
     };
     let directions = Matrix2::from_columns(&[first, second]);
-    if directions.determinant().abs() < PARALLEL { None } else { directions.try_inverse() }
+    if directions.determinant().abs() < PARALLEL_SINE { None } else { directions.try_inverse() }
 }
 
 /// Returns the joint values at which `part` of link 2 comes within `level` of `piece`, as a convex polygon. It also

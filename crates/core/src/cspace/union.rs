@@ -16,7 +16,7 @@ const SLIVER_AREA: f64 = 1e-10;
 /// clockwise.
 ///
 /// Every contour is counter-clockwise and repeats by `periods` along each axis that has one. Corners are rounded to a
-/// grid of about 1e-17 of the coordinates' range and snapped to each other ([`SNAPPING`]), which the margin of contours
+/// grid of about 1e-17 of the coordinates' range and snapped to each other ([`SNAP_PRECISION`]), which the margin of contours
 /// absorbs.
 pub(super) fn free_space<'a>(
     window: Window,
@@ -57,7 +57,7 @@ fn parts<'a>(
             }
         }
     }
-    if blocked.len() > MANY {
+    if blocked.len() > MAX_DIRECT_CONTOURS {
         blocked = united_by_neighbors(blocked);
     }
     let mut overlay = overlay(&subject, &blocked);
@@ -70,27 +70,27 @@ fn parts<'a>(
 }
 
 /// Number of contours above which neighbours are united first.
-const MANY: usize = 128;
+const MAX_DIRECT_CONTOURS: usize = 128;
 
 /// Contours that are united first.
-const GROUP: usize = 8;
+const CONTOURS_PER_GROUP: usize = 8;
 
 /// Neighbouring groups whose outlines are united next, and so on.
-const GROUPS: usize = 4;
+const GROUPS_PER_ROUND: usize = 4;
 
 /// If a union keeps more than this share of the corners, the outlines hardly overlap, and the last union suffices.
-const WORTH: f64 = 0.75;
+const MAX_CORNER_SHARE: f64 = 0.75;
 
 /// Corners are snapped to others within 256 steps of the grid, some 3e-15 of the coordinates' range, and four times as
 /// far in each further round. With a smaller or slower growth, sides that almost coincide are split thousands of times.
-const SNAPPING: Precision = Precision { start: 16, progression: 4 };
+const SNAP_PRECISION: Precision = Precision { start: 16, progression: 4 };
 
 type Overlay = FloatOverlay<[f64; 2], i64>;
 
 type Contours = Vec<Vec<[f64; 2]>>;
 
 fn overlay(subject: &[[f64; 2]], clip: &[Vec<[f64; 2]>]) -> Overlay {
-    let solver = Solver { precision: SNAPPING, ..Solver::default() };
+    let solver = Solver { precision: SNAP_PRECISION, ..Solver::default() };
     Overlay::from_subj_and_clip_custom(subject, clip, OverlayOptions::ogc(), solver)
 }
 
@@ -103,23 +103,23 @@ fn united_by_neighbors(contours: Contours) -> Contours {
             contour.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), p| (l.min(p[k]), h.max(p[k])));
         low + (high - low) / 2.0
     };
-    let mut placed: Vec<Placed> =
+    let mut placed: Vec<PlacedContour> =
         contours.into_iter().map(|contour| ([0, 1].map(|k| middle(&contour, k)), contour)).collect();
     united_part(&mut placed).0
 }
 
 /// The middle of a contour's extent, and the contour.
-type Placed = ([f64; 2], Vec<[f64; 2]>);
+type PlacedContour = ([f64; 2], Vec<[f64; 2]>);
 
 /// Returns the outlines of a part, and whether uniting them was worthwhile.
-fn united_part(part: &mut [Placed]) -> (Contours, bool) {
+fn united_part(part: &mut [PlacedContour]) -> (Contours, bool) {
     checkpoint();
-    if part.len() <= GROUP {
+    if part.len() <= CONTOURS_PER_GROUP {
         let group: Contours = part.iter_mut().map(|(_, contour)| std::mem::take(contour)).collect();
         return united_if_worth(group);
     }
     let mut parts = vec![part];
-    while parts.len() < GROUPS && parts.iter().any(|part| part.len() > GROUP) {
+    while parts.len() < GROUPS_PER_ROUND && parts.iter().any(|part| part.len() > CONTOURS_PER_GROUP) {
         parts = parts.into_iter().flat_map(halved).collect();
     }
     let (mut outlines, mut worth) = (Contours::new(), false);
@@ -137,12 +137,12 @@ fn united_if_worth(contours: Contours) -> (Contours, bool) {
     let before = corners(&contours);
     let outlines: Contours =
         overlay(&[], &contours).overlay(OverlayRule::Union, FillRule::NonZero).into_iter().flatten().collect();
-    let worth = corners(&outlines) <= WORTH * before;
+    let worth = corners(&outlines) <= MAX_CORNER_SHARE * before;
     (outlines, worth)
 }
 
 /// Halves a part across the longer side of the bounding box of its middles.
-fn halved(part: &mut [Placed]) -> [&mut [Placed]; 2] {
+fn halved(part: &mut [PlacedContour]) -> [&mut [PlacedContour]; 2] {
     let extent = |k: usize| {
         let values = || part.iter().map(|(at, _)| at[k]);
         values().fold(f64::NEG_INFINITY, f64::max) - values().fold(f64::INFINITY, f64::min)
@@ -194,7 +194,7 @@ mod tests {
     }
 
     #[test]
-    fn squares_that_touch_at_a_corner_part_what_lies_between() {
+    fn squares_touching_at_a_corner_separate_free_space() {
         let squares = [square(1.0, 1.0, 1.0), square(3.0, 3.0, 1.0)];
         let free = free_space([(0.0, 4.0), (0.0, 4.0)], [None, None], squares.iter().map(Vec::as_slice));
         assert_eq!(free.len(), 2);
@@ -202,10 +202,10 @@ mod tests {
 
     /// Unit squares on integer coordinates, whose free squares can be counted.
     #[test]
-    fn many_squares_leave_what_none_of_them_covers() {
+    fn the_union_of_many_squares_leaves_the_rest_free() {
         let n = 40_usize;
         // 0, 7, 14, ... visits all places of the lattice in an order that jumps about.
-        for count in [MANY - 1, MANY + 1, 3 * MANY, 1500] {
+        for count in [MAX_DIRECT_CONTOURS - 1, MAX_DIRECT_CONTOURS + 1, 3 * MAX_DIRECT_CONTOURS, 1500] {
             let places: Vec<[usize; 2]> = (0..count).map(|i| 7 * i % (n * n)).map(|k| [k % n, k / n]).collect();
             // A third of them are three wide, so that they overlap.
             let width = |i: usize| if i.is_multiple_of(3) { 3 } else { 1 };

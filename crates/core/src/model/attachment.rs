@@ -1,6 +1,6 @@
 //! Shapes that link 2 carries along beyond its own parts.
 
-use super::pairing::{Kind, Reading};
+use super::pairing::{ObstacleKind, PairPolicy};
 use super::{Arm, Carrier, Heights, LooseObstacle, Obstacle, Part};
 use crate::space::Configuration;
 use cplan_geometry::{Convex, Point, Pose};
@@ -50,11 +50,11 @@ pub struct AttachedPart {
     /// True if it can meet the supports alone, where no clearance is kept; false if it can meet all other obstacles.
     pub on_supports: bool,
     /// False if it may be empty without rounding: its contacts prove no collision.
-    pub is_evidence: bool,
+    pub proves_collisions: bool,
 }
 
 /// The ranges of pieces that a part can meet, for each obstacle of a scene.
-pub(super) type Meetable = Vec<Range<usize>>;
+pub(super) type MeetablePieces = Vec<Range<usize>>;
 
 impl Grip {
     /// Returns the rigid grip that puts an attachment at `pose` with the arm at `q`.
@@ -107,18 +107,18 @@ impl Attachment {
     pub(super) fn on_link(
         &self,
         tip: Point,
-        obstacles: &[(Kind, &Obstacle)],
+        obstacles: &[(ObstacleKind, &Obstacle)],
         clearance: f64,
-        reading: &Reading,
+        policy: &PairPolicy,
         differences: &mut [Vec<Convex>],
-    ) -> Vec<(Part, Meetable)> {
-        let counts = |part: &&AttachedPart| part.is_evidence || !reading.is_evidence();
+    ) -> Vec<(Part, MeetablePieces)> {
+        let counts = |part: &&AttachedPart| part.proves_collisions || !policy.proves_collisions();
         let is_level = self.grip.is_level();
         let on_link = |part: &AttachedPart| {
             let shape = if is_level { Convex::point(tip) } else { part.shape.at(&self.grip.frame()) };
             let (heights, body) = (self.heights, self.name.clone());
             let on_link = Part { shape, inner: None, number: part.number, is_visual: false, heights, body };
-            (on_link, self.meetable(part, obstacles, clearance, reading, differences))
+            (on_link, self.meetable(part, obstacles, clearance, policy, differences))
         };
         self.parts.iter().filter(counts).map(on_link).collect()
     }
@@ -128,28 +128,30 @@ impl Attachment {
     fn meetable(
         &self,
         part: &AttachedPart,
-        obstacles: &[(Kind, &Obstacle)],
+        obstacles: &[(ObstacleKind, &Obstacle)],
         clearance: f64,
-        reading: &Reading,
+        policy: &PairPolicy,
         differences: &mut [Vec<Convex>],
-    ) -> Meetable {
+    ) -> MeetablePieces {
         let level = self.grip.is_level().then(|| part.shape.at(&self.grip.frame()));
-        let of = |(number, &(kind, obstacle)): (usize, &(Kind, &Obstacle))| {
+        let of = |(number, &(kind, obstacle)): (usize, &(ObstacleKind, &Obstacle))| {
             let own = obstacle.pieces.len();
             // The angle between a level part and obstacles that joint 1 carries is unknown. So the part is covered by a
             // disc, which is no evidence.
-            let is_folding = matches!(kind, Kind::Own(own) if own.carrier == Carrier::FirstJoint);
+            let is_folding = matches!(kind, ObstacleKind::Own(own) if own.carrier == Carrier::FirstJoint);
             let is_turned = level.is_some() && is_folding;
             let nearer = self.nearer(part, number, clearance);
-            let Some(nearer) = nearer.filter(|_| !(is_turned && reading.is_evidence())) else { return 0..0 };
+            let Some(nearer) = nearer.filter(|_| !(is_turned && policy.proves_collisions())) else { return 0..0 };
             if level.is_none() && nearer == 0.0 {
                 return 0..own;
             }
             // A loose obstacle has its pieces in its own frame, which does not turn if something level is attached.
             let seen = level.as_ref().map(|level| match kind {
                 _ if is_turned => all_round(level),
-                Kind::Loose(LooseObstacle { angle, .. }) => level.at(&Pose::rotation(-angle.unwrap_or_default())),
-                Kind::Standing | Kind::Own(_) => level.clone(),
+                ObstacleKind::Loose(LooseObstacle { angle, .. }) => {
+                    level.at(&Pose::rotation(-angle.unwrap_or_default()))
+                }
+                ObstacleKind::Static | ObstacleKind::Own(_) => level.clone(),
             });
             let made = &mut differences[number];
             let first = own + made.len();

@@ -8,14 +8,14 @@ use std::f64::consts::TAU;
 
 /// A part and the joint that moves it, prepared for the contact equations.
 #[derive(Debug, Clone)]
-pub struct Carried {
+pub struct CarriedPart {
     joint_type: JointType,
     features: Features,
     /// Prismatic joints: the core along and across the direction.
     track: Vec<Vector>,
 }
 
-impl Carried {
+impl CarriedPart {
     /// Prepares a part, given in the frame that `joint_type` moves. `O(n)`.
     #[must_use]
     pub fn new(joint_type: JointType, shape: &Convex) -> Self {

@@ -1,6 +1,6 @@
 //! A scene prepared for contact equations, which give the values of a joint at which a part comes near to a piece.
 
-use super::{Carried, JointType, Pair, Scene, swept};
+use super::{CarriedPart, JointType, Pair, Scene, swept};
 use crate::space::Configuration;
 use cplan_geometry::{BoxTree, Features, Hits, Point, ROUNDING, Vector};
 use cplan_interrupt::checkpoint;
@@ -17,7 +17,7 @@ use std::ops::Range;
 #[derive(Debug, Clone)]
 pub struct Contacts<'a> {
     scene: &'a Scene,
-    pairs: Vec<Prepared>,
+    pairs: Vec<PairIndices>,
     parts: Vec<PreparedPart>,
     pieces: Vec<PreparedPiece>,
     /// The first part and the first pair of link 2, including those for link 2 relative to link 1.
@@ -28,7 +28,7 @@ pub struct Contacts<'a> {
 
 /// A pair, by numbers.
 #[derive(Debug, Clone, Copy)]
-struct Prepared {
+struct PairIndices {
     link: u32,
     /// Index into the parts.
     part: u32,
@@ -48,11 +48,11 @@ struct PreparedPiece {
 struct PreparedPart {
     /// Same as [`Pair::link`].
     link: usize,
-    carried: Carried,
+    carried: CarriedPart,
     /// Greatest distance from the base of all places that the part can occupy, metres.
     reach: f64,
     /// For link 2 only: the part with all its positions under joint 2, as carried by joint 1.
-    sweep: Option<Carried>,
+    sweep: Option<CarriedPart>,
     /// The numbers of the pairs that the part is in.
     pairs: Range<usize>,
     /// The boxes of their pieces.
@@ -66,10 +66,10 @@ impl PreparedPart {
         let [first, second] = &arm.joints;
         let part = scene.part(pairs[0]);
         let (carried, sweep) = if pairs[0].link == 0 {
-            (Carried::new(first.joint_type, part), None)
+            (CarriedPart::new(first.joint_type, part), None)
         } else {
             let sweep = swept(part, second, arm.offset);
-            (Carried::new(second.joint_type, part), Some(Carried::new(first.joint_type, &sweep)))
+            (CarriedPart::new(second.joint_type, part), Some(CarriedPart::new(first.joint_type, &sweep)))
         };
         let pieces = BoxTree::new(pairs.iter().map(|&pair| scene.piece(pair).bounds()).collect());
         let reach = sweep.as_ref().unwrap_or(&carried).shape().reach_from(Point::zeros());
@@ -105,7 +105,7 @@ impl<'a> Contacts<'a> {
                     pieces.push(PreparedPiece { features: Features::new(piece), reach });
                     pieces.len() as u32 - 1
                 });
-                pairs.push(Prepared { link: pair.link as u32, part: parts.len() as u32 - 1, piece });
+                pairs.push(PairIndices { link: pair.link as u32, part: parts.len() as u32 - 1, piece });
             }
         }
         let first_part = parts.partition_point(|part: &PreparedPart| part.sweep.is_none());
@@ -114,23 +114,23 @@ impl<'a> Contacts<'a> {
         Self { scene, pairs, parts, pieces, second, at_zero }
     }
 
-    fn part(&self, pair: Prepared) -> &PreparedPart {
+    fn part(&self, pair: PairIndices) -> &PreparedPart {
         &self.parts[pair.part as usize]
     }
 
-    fn piece(&self, pair: Prepared) -> &Features {
+    fn piece(&self, pair: PairIndices) -> &Features {
         &self.pieces[pair.piece as usize].features
     }
 
     /// Returns the moving shape of pair `index`, with the joint that moves it.
     #[must_use]
-    pub fn moving(&self, index: usize) -> &Carried {
+    pub fn moving(&self, index: usize) -> &CarriedPart {
         &self.part(self.pairs[index]).carried
     }
 
     /// Returns the fixed shape of pair `index`.
     #[must_use]
-    pub fn standing(&self, index: usize) -> &Features {
+    pub fn static_shape(&self, index: usize) -> &Features {
         self.piece(self.pairs[index])
     }
 

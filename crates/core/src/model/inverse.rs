@@ -8,7 +8,7 @@ use std::f64::consts::TAU;
 
 /// Distances below this, metres, count as zero when the code decides if the tip can be reached, and if a joint's value
 /// affects it. A nanometre is far above the rounding of coordinates of some metres and far below any robot's accuracy.
-const REACHED: f64 = 1e-9;
+const ZERO_DISTANCE: f64 = 1e-9;
 
 /// Values beyond a limit by at most this (radians or metres) are moved to the limit, because the excess is rounding.
 const LIMIT_ROUNDING: f64 = 1e-9;
@@ -72,21 +72,21 @@ fn angle(v: Vector) -> f64 {
 
 /// Returns a `q1` such that `R(s1 q1)` turns `arm` towards `d`; the preferred value where both vanish.
 fn turning(sign: f64, arm: Vector, d: Vector, preferred: f64) -> (f64, bool) {
-    let free = arm.norm() <= REACHED && d.norm() <= REACHED;
+    let free = arm.norm() <= ZERO_DISTANCE && d.norm() <= ZERO_DISTANCE;
     (if free { preferred } else { sign * (angle(d) - angle(arm)) }, free)
 }
 
 fn turn_turn(d: Vector, (s1, o): (f64, Vector), (s2, t): (f64, Vector), preferred: Configuration) -> Inverse {
     let (upper, lower, reach) = (o.norm(), t.norm(), d.norm());
     let none = Inverse { branches: Vec::new(), free: None };
-    if reach > upper + lower + REACHED || reach < (upper - lower).abs() - REACHED {
+    if reach > upper + lower + ZERO_DISTANCE || reach < (upper - lower).abs() - ZERO_DISTANCE {
         return none;
     }
-    if upper.min(lower) <= REACHED {
+    if upper.min(lower) <= ZERO_DISTANCE {
         // The elbow does not change the reach: joint 2 (tip on its axis), or the split between the two, is free.
         let elbow = o + Rotation2::new(s2 * preferred[1]) * t;
         let (q1, any) = turning(s1, elbow, d, preferred[0]);
-        let free = match (any, lower <= REACHED) {
+        let free = match (any, lower <= ZERO_DISTANCE) {
             (true, _) => Freedom::Both,
             (false, true) => Freedom::Joint(1),
             (false, false) => Freedom::Share,
@@ -153,7 +153,7 @@ fn slide_turn(d: Vector, direction: Vector, (sign, t): (f64, Vector), preferred:
 /// Returns half the chord that a line at `distance` from the centre cuts off a circle of `radius`; `None` if they do
 /// not meet.
 fn half_chord(radius: f64, distance: f64) -> Option<f64> {
-    if distance > radius + REACHED {
+    if distance > radius + ZERO_DISTANCE {
         return None;
     }
     Some(((radius - distance) * (radius + distance)).max(0.0).sqrt())

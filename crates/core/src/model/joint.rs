@@ -2,22 +2,22 @@
 
 use crate::space::JointRange;
 use cplan_geometry::Vector;
-use cplan_text::told_apart;
+use cplan_text::format_distinct;
 use serde::{Deserialize, Serialize};
 
 /// Default top speed of a revolute joint, rad/s.
-pub const TURNING_SPEED: f64 = 1.0;
+pub const DEFAULT_TURNING_SPEED: f64 = 1.0;
 
 /// Default top speed of a prismatic joint, m/s.
-pub const SLIDING_SPEED: f64 = 0.25;
+pub const DEFAULT_SLIDING_SPEED: f64 = 0.25;
 
 /// Default time to top speed, seconds, for a joint without a limit on the acceleration.
-pub const TIME_TO_TOP_SPEED: f64 = 0.25;
+pub const DEFAULT_TIME_TO_TOP_SPEED: f64 = 0.25;
 
 /// Returns the assumed greatest acceleration of a joint without one, from its top speed.
 #[must_use]
 pub fn assumed_acceleration(velocity: f64) -> f64 {
-    (velocity / TIME_TO_TOP_SPEED).min(f64::MAX)
+    (velocity / DEFAULT_TIME_TO_TOP_SPEED).min(f64::MAX)
 }
 
 /// A joint's kind of motion in the plane.
@@ -67,19 +67,29 @@ impl Joint {
     /// [`Joint::at_most`] changes the speed.
     #[must_use]
     pub fn turning(name: &str, lower: f64, upper: f64) -> Self {
-        Self::moving(name, JointType::Revolute { sign: 1.0 }, JointRange::Interval { lower, upper }, TURNING_SPEED)
+        Self::moving(
+            name,
+            JointType::Revolute { sign: 1.0 },
+            JointRange::Interval { lower, upper },
+            DEFAULT_TURNING_SPEED,
+        )
     }
 
     /// Returns a joint that turns counter-clockwise without end.
     #[must_use]
     pub fn continuous(name: &str) -> Self {
-        Self::moving(name, JointType::Revolute { sign: 1.0 }, JointRange::Circle, TURNING_SPEED)
+        Self::moving(name, JointType::Revolute { sign: 1.0 }, JointRange::Circle, DEFAULT_TURNING_SPEED)
     }
 
     /// Creates a prismatic joint along a direction of length 1, from `lower` to `upper`, metres, at 0.25 m/s.
     #[must_use]
     pub fn sliding(name: &str, direction: Vector, lower: f64, upper: f64) -> Self {
-        Self::moving(name, JointType::Prismatic { direction }, JointRange::Interval { lower, upper }, SLIDING_SPEED)
+        Self::moving(
+            name,
+            JointType::Prismatic { direction },
+            JointRange::Interval { lower, upper },
+            DEFAULT_SLIDING_SPEED,
+        )
     }
 
     fn moving(name: &str, joint_type: JointType, range: JointRange, velocity: f64) -> Self {
@@ -115,16 +125,16 @@ impl Joint {
     /// Returns a value with its unit, angles in both units: `0.3491 rad (20.00 deg)`.
     #[must_use]
     pub fn shown(&self, value: f64) -> String {
-        let [shown] = self.told_apart([value]);
+        let [shown] = self.format_distinct([value]);
         shown
     }
 
     /// Returns several values with their units, with enough digits that different values look different.
     #[must_use]
-    pub fn told_apart<const N: usize>(&self, values: [f64; N]) -> [String; N] {
-        let mut texts = told_apart(values, 4);
+    pub fn format_distinct<const N: usize>(&self, values: [f64; N]) -> [String; N] {
+        let mut texts = format_distinct(values, 4);
         if self.joint_type.is_revolute() {
-            let degrees = told_apart(values.map(f64::to_degrees), 2);
+            let degrees = format_distinct(values.map(f64::to_degrees), 2);
             texts.iter_mut().zip(degrees).for_each(|(text, degrees)| *text += &format!(" rad ({degrees} deg)"));
         } else {
             texts.iter_mut().for_each(|text| *text += " m");

@@ -33,19 +33,22 @@ mod scene_error;
 mod scene_names;
 mod scene_record;
 mod self_obstacle;
-mod stuck_along;
+mod blocked_along;
 mod tip_area;
 mod workspace;
 
 pub use additions::{Additions, LooseObstacle};
 pub use arm::{Arm, Plane};
 pub use attachment::{AttachedPart, Attachment, Grip};
-pub use carried::Carried;
+pub use blocked_along::BlockedStretch;
+pub use carried::CarriedPart;
 pub use carried::on_axis;
 use carried::swept;
 pub use contacts::Contacts;
 pub use inverse::{Freedom, Inverse, inverse, within};
-pub use joint::{Joint, JointType, SLIDING_SPEED, TIME_TO_TOP_SPEED, TURNING_SPEED, assumed_acceleration};
+pub use joint::{
+    DEFAULT_SLIDING_SPEED, DEFAULT_TIME_TO_TOP_SPEED, DEFAULT_TURNING_SPEED, Joint, JointType, assumed_acceleration,
+};
 pub use link::{Link, OutlineSource, Part};
 pub use masses::{Body, Dynamics};
 pub use obstruction::Obstruction;
@@ -53,8 +56,7 @@ pub use outcome::{Outcome, Status};
 pub use preference::{Preference, Region};
 pub use problem::{Goal, MotionProblem, MotionProblemError};
 pub use scene::{Contact, Pair, Scene};
-pub use scene_error::{LARGEST, LONGEST_TURN, SceneError, are_small, check_range, is_pose, is_small};
+pub use scene_error::{MAX_COORDINATE, MAX_TURN_RANGE, SceneError, are_small, check_range, is_pose, is_small};
 pub use self_obstacle::{Carrier, SelfObstacle};
-pub use stuck_along::BlockedStretch;
 pub use tip_area::area_goals;
 pub use workspace::{Heights, Obstacle, RESTING_TOLERANCE, Shape, Workspace};

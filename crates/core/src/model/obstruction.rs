@@ -3,7 +3,7 @@
 use super::{Contact, Pair, Scene};
 use crate::space::Configuration;
 use cplan_geometry::{Convex, Pose, separation, shapes_meet};
-use cplan_text::told_apart;
+use cplan_text::format_distinct;
 use std::borrow::Cow;
 
 /// A contact, or a distance below the clearance.
@@ -16,10 +16,10 @@ pub struct Obstruction {
 }
 
 /// Depths below this, metres, are reported as touching.
-const SHALLOW: f64 = 1e-9;
+const TOUCHING_DEPTH: f64 = 1e-9;
 
 /// Depths of at least this, metres, are shown with four decimals, which would be zero for smaller ones.
-const DEEP: f64 = 1e-3;
+const FOUR_DECIMALS_DEPTH: f64 = 1e-3;
 
 impl Scene {
     /// Returns the reasons why `q` is not free of static obstacles: for each link (or its attachment) and obstacle the worst
@@ -32,12 +32,12 @@ impl Scene {
     /// Returns the reasons for static obstacles, and for loose ones at these poses.
     #[must_use]
     pub fn obstructions_among(&self, q: Configuration, poses: &[Pose]) -> Vec<Obstruction> {
-        let standing = self.pairs().iter().map(|&pair| (pair, Cow::Borrowed(self.piece(pair))));
+        let static_obstacles = self.pairs().iter().map(|&pair| (pair, Cow::Borrowed(self.piece(pair))));
         let loose = self.loose_pairs().iter().filter_map(|&pair| {
             let pose = poses.get(self.loose_index(pair)?)?;
             Some((pair, Cow::Owned(self.piece(pair).at(pose))))
         });
-        self.worst(q, standing.chain(loose))
+        self.worst(q, static_obstacles.chain(loose))
     }
 
     fn worst<'a>(&self, q: Configuration, pieces: impl Iterator<Item = (Pair, Cow<'a, Convex>)>) -> Vec<Obstruction> {
@@ -75,13 +75,13 @@ impl Scene {
         let distance = separation.distance;
         if !obstruction.touches {
             let clearance = self.workspace().clearance;
-            let [distance, _] = told_apart([distance, clearance], 6);
+            let [distance, _] = format_distinct([distance, clearance], 6);
             return format!("{part} is {distance} m from {obstacle}, nearer than the clearance of {clearance} m");
         }
         let depth = (-distance).max(0.0);
         let how = match depth {
-            _ if depth < SHALLOW => "just touching".to_owned(),
-            _ if depth >= DEEP => format!("{depth:.4} m deep"),
+            _ if depth < TOUCHING_DEPTH => "just touching".to_owned(),
+            _ if depth >= FOUR_DECIMALS_DEPTH => format!("{depth:.4} m deep"),
             _ => format!("{depth:.2e} m deep"),
         };
         format!("{part} hits {obstacle}, {how}")

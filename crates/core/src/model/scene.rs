@@ -1,6 +1,6 @@
 //! The arm among its obstacles.
 
-use super::pairing::{Meet, Pairing, Reading, numbered};
+use super::pairing::{HeightPolicy, PairPolicy, Pairing, numbered};
 use super::scene_error::{check, check_clearance};
 use super::scene_record::SceneRecord;
 use super::{
@@ -48,7 +48,7 @@ pub struct Scene {
     additions: Additions,
     /// Number of link 2's own parts; those that follow are attached.
     own_parts: usize,
-    reading: Reading,
+    policy: PairPolicy,
     pairs: Vec<Pair>,
     /// The pairs with loose obstacles.
     loose_pairs: Vec<Pair>,
@@ -58,7 +58,7 @@ pub struct Scene {
 }
 
 /// A search omits the pairs out of reach if there are more than this; with fewer it is as fast.
-const MANY_OUT_OF_REACH: usize = 200;
+const MIN_PAIRS_TO_OMIT: usize = 200;
 
 /// Share by which rounding may make a distance too large or a reach too small, with a wide margin.
 const ROUNDING: f64 = 1e-9;
@@ -92,11 +92,11 @@ impl Scene {
     #[must_use]
     #[doc(hidden)]
     pub fn with_trusted(arm: Arm, workspace: Workspace, additions: Additions) -> Self {
-        Self::assembled(arm, workspace, additions, Reading::ALL)
+        Self::assembled(arm, workspace, additions, PairPolicy::ALL)
     }
 
     /// Creates the scene without checks.
-    fn assembled(mut arm: Arm, workspace: Workspace, additions: Additions, reading: Reading) -> Self {
+    fn assembled(mut arm: Arm, workspace: Workspace, additions: Additions, policy: PairPolicy) -> Self {
         debug_assert_eq!(check(&arm, &workspace, &additions), Ok(()));
         let Additions { loose, attachment, allowed_contacts } = &additions;
         let own_parts = arm.links[1].parts.len();
@@ -104,20 +104,20 @@ impl Scene {
         let mut differences = vec![Vec::new(); obstacles.len()];
         let (parts, attached): (Vec<_>, Vec<_>) = attachment
             .iter()
-            .flat_map(|carried| carried.on_link(arm.tip, &obstacles, workspace.clearance, &reading, &mut differences))
+            .flat_map(|carried| carried.on_link(arm.tip, &obstacles, workspace.clearance, &policy, &mut differences))
             .unzip();
         arm.links[1].parts.extend(parts);
         let pairing = Pairing {
             links: &arm.links,
             base: arm.base,
             obstacles: &obstacles,
-            reading,
+            policy,
             own_parts,
             attached: &attached,
             allowed_contacts,
         };
         let [pairs, loose_pairs] = pairing.pairs();
-        Self { arm, workspace, additions, own_parts, reading, pairs, loose_pairs, differences }
+        Self { arm, workspace, additions, own_parts, policy, pairs, loose_pairs, differences }
     }
 
     /// Returns the scene for proofs of collisions. It uses inner shapes where an outline covers more than the real
@@ -131,18 +131,19 @@ impl Scene {
         let is_covered = is_level && self.arm.self_obstacles.iter().any(|own| own.carrier == Carrier::FirstJoint);
         // The heights of the robot's links are always known.
         let is_known = |is_carried: bool, part: &Part| {
-            let meets = |meet: Meet, obstacle: &Obstacle| meet.holds(is_carried, part.heights, obstacle.heights);
-            placed().all(|obstacle| meets(Meet::Perhaps, obstacle) == meets(Meet::Surely, obstacle))
+            let meets = |meet: HeightPolicy, obstacle: &Obstacle| meet.meet(is_carried, part.heights, obstacle.heights);
+            placed()
+                .all(|obstacle| meets(HeightPolicy::Conservative, obstacle) == meets(HeightPolicy::Definite, obstacle))
         };
-        let is_exact = self.reading.is_evidence()
+        let is_exact = self.policy.proves_collisions()
             || (0..2).all(|link| {
                 let (own, carried) = (self.own_parts(link), &self.arm.links[link].parts[self.own_parts(link).len()..]);
                 own.iter().all(|part| is_known(false, part)) && carried.iter().all(|part| is_known(true, part))
             });
         let mut attached = self.attachment().into_iter().flat_map(|attachment| &attachment.parts);
         let mut pieces = placed().chain(own).flat_map(|obstacle| &obstacle.pieces);
-        let is_whole =
-            self.reading.is_evidence() || !(pieces.any(Convex::is_sliver) || attached.any(|part| !part.is_evidence));
+        let is_whole = self.policy.proves_collisions()
+            || !(pieces.any(Convex::is_sliver) || attached.any(|part| !part.proves_collisions));
         if is_exact && is_whole && !is_covered && parts().all(|part| part.inner.is_none()) {
             return Cow::Borrowed(self);
         }
@@ -154,7 +155,7 @@ impl Scene {
         Cow::Owned(self.remade(
             shrink,
             |obstacle| obstacle.pieces.clone(),
-            Reading { meet: Meet::Surely, ..self.reading },
+            PairPolicy { meet: HeightPolicy::Definite, ..self.policy },
         ))
     }
 
@@ -162,7 +163,7 @@ impl Scene {
     /// part, each obstacle stays one obstacle, and the attachment is unchanged.
     #[must_use]
     pub fn reshaped(&self, reshape: impl Fn(&mut Part), pieces: impl FnMut(&Obstacle) -> Vec<Convex>) -> Self {
-        self.remade(reshape, pieces, self.reading)
+        self.remade(reshape, pieces, self.policy)
     }
 
     /// Returns the scene with other heights for the arm's self obstacles. The function gets the URDF link's name and
@@ -180,7 +181,7 @@ impl Scene {
     /// Returns `None` if these are few, or if there is an attachment. Each part, obstacle and piece keeps its number.
     #[must_use]
     pub fn within_reach(&self) -> Option<Self> {
-        if self.attachment().is_some() || self.pairs.len() <= MANY_OUT_OF_REACH {
+        if self.attachment().is_some() || self.pairs.len() <= MIN_PAIRS_TO_OMIT {
             return None;
         }
         let slide = |joint: &Joint| match (joint.joint_type.is_revolute(), joint.range) {
@@ -189,19 +190,19 @@ impl Scene {
             (false, JointRange::Circle) => f64::INFINITY,
         };
         let out = self.arm.reach() + self.arm.joints.iter().map(slide).sum::<f64>() + self.workspace.clearance;
-        let reading = Reading { farthest: out * (1.0 + ROUNDING), ..self.reading };
-        let near = self.remade(|_| (), |obstacle| obstacle.pieces.clone(), reading);
-        (near.pairs.len() + MANY_OUT_OF_REACH < self.pairs.len()).then_some(near)
+        let policy = PairPolicy { farthest: out * (1.0 + ROUNDING), ..self.policy };
+        let near = self.remade(|_| (), |obstacle| obstacle.pieces.clone(), policy);
+        (near.pairs.len() + MIN_PAIRS_TO_OMIT < self.pairs.len()).then_some(near)
     }
 
     fn remade(
         &self,
         reshape: impl Fn(&mut Part),
         pieces: impl FnMut(&Obstacle) -> Vec<Convex>,
-        reading: Reading,
+        policy: PairPolicy,
     ) -> Self {
         let pieces: Vec<Vec<Convex>> = self.workspace.obstacles.iter().map(pieces).collect();
-        self.read_anew(reading, |arm, workspace| {
+        self.rebuilt_with(policy, |arm, workspace| {
             arm.links.iter_mut().flat_map(|link| &mut link.parts).for_each(reshape);
             for (obstacle, pieces) in workspace.obstacles.iter_mut().zip(pieces) {
                 obstacle.pieces = pieces;
@@ -214,14 +215,14 @@ impl Scene {
     #[must_use]
     #[doc(hidden)]
     pub fn changed(&self, change: impl FnOnce(&mut Arm, &mut Workspace)) -> Self {
-        self.read_anew(self.reading, change)
+        self.rebuilt_with(self.policy, change)
     }
 
-    fn read_anew(&self, reading: Reading, change: impl FnOnce(&mut Arm, &mut Workspace)) -> Self {
+    fn rebuilt_with(&self, policy: PairPolicy, change: impl FnOnce(&mut Arm, &mut Workspace)) -> Self {
         let (mut arm, mut workspace) = (self.arm.clone(), self.workspace.clone());
         arm.links[1].parts.truncate(self.own_parts);
         change(&mut arm, &mut workspace);
-        Self::assembled(arm, workspace, self.additions.clone(), reading)
+        Self::assembled(arm, workspace, self.additions.clone(), policy)
     }
 
     /// Returns the scene with another distance to keep, metres.
@@ -247,11 +248,11 @@ impl Scene {
 
     /// Returns the scene with one more static obstacle.
     #[must_use]
-    pub fn with_standing(&self, obstacle: Obstacle) -> Self {
-        let (mut scene, standing) = (self.clone(), self.workspace.obstacles.len());
+    pub fn with_static_obstacle(&self, obstacle: Obstacle) -> Self {
+        let (mut scene, static_obstacles) = (self.clone(), self.workspace.obstacles.len());
         // Loose obstacles are numbered after the static ones.
         let numbers = scene.additions.allowed_contacts.iter_mut();
-        numbers.filter(|number| **number >= standing).for_each(|number| *number += 1);
+        numbers.filter(|number| **number >= static_obstacles).for_each(|number| *number += 1);
         scene.changed(|_, workspace| workspace.obstacles.push(obstacle))
     }
 

@@ -89,7 +89,7 @@ pub enum SceneError {
         upper: f64,
     },
     /// The distance to keep is negative, too large or not finite.
-    #[error("the clearance must be from 0 to {LARGEST:e} m, is {clearance:?}")]
+    #[error("the clearance must be from 0 to {MAX_COORDINATE:e} m, is {clearance:?}")]
     Clearance {
         /// The distance as given.
         clearance: f64,
@@ -116,13 +116,13 @@ pub enum SceneError {
     },
     /// The attachment keeps its orientation, and a loose obstacle does not.
     #[error(
-        "payload \"{object}\" is held level, but \"{mover}\" turns; level payloads need moving obstacles that do not turn"
+        "payload \"{object}\" is held level, but \"{moving_obstacle}\" turns; level payloads need moving obstacles that do not turn"
     )]
     TurnsAboutLevel {
         /// The attachment's name.
         object: String,
         /// The name of the turning obstacle.
-        mover: String,
+        moving_obstacle: String,
     },
 }
 
@@ -157,8 +157,8 @@ fn check_attachment(attachment: &Attachment, loose: &[LooseObstacle]) -> Result<
     }
     match loose.iter().find(|loose| grip.is_level() && loose.angle.is_none()) {
         Some(loose) => {
-            let (object, mover) = (name.clone(), loose.obstacle.name.clone());
-            Err(SceneError::TurnsAboutLevel { object, mover })
+            let (object, moving_obstacle) = (name.clone(), loose.obstacle.name.clone());
+            Err(SceneError::TurnsAboutLevel { object, moving_obstacle })
         }
         None => Ok(()),
     }
@@ -207,7 +207,7 @@ fn check_dynamics(dynamics: &Dynamics) -> Result<(), SceneError> {
 }
 
 fn is_mass(value: f64) -> bool {
-    (0.0..=LARGEST).contains(&value)
+    (0.0..=MAX_COORDINATE).contains(&value)
 }
 
 /// Returns true if a shape covers another one, up to rounding: each corner of the inner shape's core lies inside the
@@ -223,7 +223,7 @@ fn check_joint(joint: &Joint) -> Result<(), SceneError> {
     check_range(&joint.name, joint.range)?;
     if let JointRange::Interval { lower, upper } = joint.range
         && joint.joint_type.is_revolute()
-        && upper - lower > LONGEST_TURN
+        && upper - lower > MAX_TURN_RANGE
     {
         return Err(SceneError::Range { joint: name(), lower, upper });
     }
@@ -273,21 +273,21 @@ fn check_obstacle(obstacle: &Obstacle) -> Result<(), SceneError> {
 }
 
 pub(super) fn check_clearance(clearance: f64) -> Result<(), SceneError> {
-    if (0.0..=LARGEST).contains(&clearance) { Ok(()) } else { Err(SceneError::Clearance { clearance }) }
+    if (0.0..=MAX_COORDINATE).contains(&clearance) { Ok(()) } else { Err(SceneError::Clearance { clearance }) }
 }
 
 /// Greatest number that is accepted, metres. Predicates and distances are then far from overflowing, and sums of
 /// lengths in files, which are smaller, stay below it.
-pub const LARGEST: f64 = 1e15;
+pub const MAX_COORDINATE: f64 = 1e15;
 
 /// Greatest range of a revolute joint, radians. Intervals are repeated turn after turn, and a hundred turns are enough
 /// for any wrist.
-pub const LONGEST_TURN: f64 = 1e3;
+pub const MAX_TURN_RANGE: f64 = 1e3;
 
 /// Returns true if all are finite, and not too large.
 #[must_use]
 pub fn are_small(values: impl IntoIterator<Item = f64>) -> bool {
-    values.into_iter().all(|value| value.abs() <= LARGEST)
+    values.into_iter().all(|value| value.abs() <= MAX_COORDINATE)
 }
 
 /// Returns true if all numbers of a shape are finite, and not too large.

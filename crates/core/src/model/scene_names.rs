@@ -10,12 +10,12 @@ impl Scene {
     /// If there is no obstacle of that number.
     #[must_use]
     pub fn obstacle(&self, number: usize) -> &Obstacle {
-        let standing = self.workspace().obstacles.len();
+        let static_obstacles = self.workspace().obstacles.len();
         if let Some(obstacle) = self.workspace().obstacles.get(number) {
             return obstacle;
         }
-        let loose = self.loose().get(number - standing).map(|loose| &loose.obstacle);
-        loose.unwrap_or_else(|| &self.arm().self_obstacles[number - standing - self.loose().len()].obstacle)
+        let loose = self.loose().get(number - static_obstacles).map(|loose| &loose.obstacle);
+        loose.unwrap_or_else(|| &self.arm().self_obstacles[number - static_obstacles - self.loose().len()].obstacle)
     }
 
     /// Returns the arm's self obstacle of a number; `None` if that is another obstacle.

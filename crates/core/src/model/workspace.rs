@@ -42,22 +42,22 @@ impl Heights {
 
     /// Returns true if the two extents certainly share a height, by more than rounding.
     #[must_use]
-    pub fn surely_meet(self, other: Heights) -> bool {
+    pub fn definitely_meet(self, other: Heights) -> bool {
         self.meet_within(other, -ROUNDING)
     }
 
     /// Returns true if an object at these heights may be in contact with something at others. Same as
     /// [`Heights::meet`], but an object rests on a surface that its bottom touches to within [`RESTING_TOLERANCE`].
     #[must_use]
-    pub fn object_meets(self, other: Heights) -> bool {
+    pub fn object_may_meet(self, other: Heights) -> bool {
         self.meet(other) && !self.is_above(other, RESTING_TOLERANCE - ROUNDING)
     }
 
     /// Returns true if an object at these heights certainly shares a height with something at others, by more than
     /// rounding, and does not rest on it.
     #[must_use]
-    pub fn object_surely_meets(self, other: Heights) -> bool {
-        self.surely_meet(other) && !self.is_above(other, RESTING_TOLERANCE + ROUNDING)
+    pub fn object_definitely_meets(self, other: Heights) -> bool {
+        self.definitely_meet(other) && !self.is_above(other, RESTING_TOLERANCE + ROUNDING)
     }
 
     /// Returns the heights of an object at these heights, lifted by anything from `least` to `most`.
@@ -109,7 +109,7 @@ impl Shape {
 
     /// Keeps the shape if it consists of exactly these pieces. Otherwise the pieces become the shape, because pictures
     /// must show the outline that is judged.
-    pub fn hold_to(&mut self, pieces: &[Convex]) {
+    pub fn restrict_to(&mut self, pieces: &[Convex]) {
         let own = match self {
             // Predicates would overflow on other polygons, which have no valid pieces.
             Shape::Polygon(corners) if are_small(corners.iter().flat_map(|p| [p.x, p.y])) => {
@@ -204,7 +204,7 @@ impl Obstacle {
 
     /// Makes the displayed shape agree with the pieces that are judged. For obstacles that are read as data.
     pub fn hold_shape(&mut self) {
-        self.shape.hold_to(&self.pieces);
+        self.shape.restrict_to(&self.pieces);
     }
 }
 
@@ -221,7 +221,7 @@ impl Workspace {
     }
 
     /// Makes the displayed shapes agree with the pieces that are judged. For workspaces that are read as data.
-    pub fn hold_shapes(&mut self) {
+    pub fn restrict_shapes(&mut self) {
         self.obstacles.iter_mut().for_each(Obstacle::hold_shape);
     }
 }

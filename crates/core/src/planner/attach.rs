@@ -8,7 +8,7 @@ use cplan_text::listed;
 
 /// Number of rings of cells around a blocked one that are searched for a free one. An outer grid blocks some cells
 /// whose configurations are free. Farther away than this, a straight piece to the grid is a guess not worth a try.
-const RINGS: i64 = 3;
+const SEARCHED_RINGS: i64 = 3;
 
 /// The cells at which a configuration, or a segment of goals, joins the grid.
 #[derive(Debug, Clone, PartialEq)]
@@ -22,14 +22,14 @@ pub struct Attachment {
 
 /// A query joined to the grid.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Joined {
+pub struct JoinedQuery {
     /// The start, joined to the grid.
     pub start: Attachment,
     /// The goals that can be joined, within the domain; at least one.
     pub goals: Vec<(Segment, Attachment)>,
 }
 
-impl Joined {
+impl JoinedQuery {
     /// Joins start and goals, or returns the reason if the start or every goal cannot be joined.
     pub fn new(grid: &Grid, query: &Query) -> Result<Self, String> {
         let start = attach(grid, query.start, "start")?;
@@ -110,7 +110,7 @@ fn attach(grid: &Grid, q: Configuration, name: &str) -> Result<Attachment, Strin
         return Ok(Attachment { cells: vec![home], contained: true });
     }
     let columns = grid.cells[1];
-    for ring in 1..=RINGS {
+    for ring in 1..=SEARCHED_RINGS {
         let mut found: Vec<(f64, usize)> = Vec::new();
         for di in -ring..=ring {
             for dj in -ring..=ring {
@@ -133,5 +133,5 @@ fn attach(grid: &Grid, q: Configuration, name: &str) -> Result<Attachment, Strin
             return Ok(Attachment { cells: found.into_iter().map(|(_, cell)| cell).collect(), contained: false });
         }
     }
-    Err(format!("the {name} ({:.4}, {:.4}) has no free cell within {RINGS} cells around it", q[0], q[1]))
+    Err(format!("the {name} ({:.4}, {:.4}) has no free cell within {SEARCHED_RINGS} cells around it", q[0], q[1]))
 }

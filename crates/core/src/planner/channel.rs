@@ -1,7 +1,7 @@
 //! Channels of cells: a roadmap's search over the cells of a decomposition, with costs on the portals.
 
 use super::decomposition::{CellPortal, Decomposition};
-use super::roadmap::{Question, RoadmapSearch, Searched, search};
+use super::roadmap::{RoadmapSearch, SearchProblem, SearchResult, search};
 use super::terminals::Terminals;
 use crate::space::{Configuration, Measure, Metric, Segment};
 use cplan_geometry::Point;
@@ -22,7 +22,7 @@ pub(super) struct Channel {
 #[derive(Debug, Clone)]
 pub(super) struct Adjacency {
     /// Nodes are cells, edges are portals.
-    cells: UnGraph<Place, Passage>,
+    cells: UnGraph<PassageEnd, Passage>,
     /// Centres of the cells.
     pub centers: Vec<Point>,
     /// Middles of the portals.
@@ -31,19 +31,19 @@ pub(super) struct Adjacency {
 
 /// The end of a passage.
 #[derive(Debug, Clone, Copy)]
-enum Place {
+enum PassageEnd {
     /// The start, or a cell's centre.
     At(Point),
     /// The nearest of these goals.
     Any(Segment),
 }
 
-impl Place {
+impl PassageEnd {
     /// Returns the place nearest to `p`.
     fn nearest(self, p: Point) -> Point {
         match self {
-            Place::At(point) => point,
-            Place::Any(goals) => goals.nearest(Measure::from(Metric::Euclidean), p),
+            PassageEnd::At(point) => point,
+            PassageEnd::Any(goals) => goals.nearest(Measure::from(Metric::Euclidean), p),
         }
     }
 }
@@ -64,19 +64,19 @@ impl Adjacency {
         let cells = UnGraph::with_capacity(centers.len(), decomposition.portals.len());
         let mut adjacency = Self { cells, centers, middles };
         for &center in &adjacency.centers {
-            adjacency.cells.add_node(Place::At(center));
+            adjacency.cells.add_node(PassageEnd::At(center));
         }
         for (number, portal) in decomposition.portals.iter().enumerate() {
             let [left, right] = portal.cells;
-            let passage =
-                adjacency.passage([adjacency.centers[left], adjacency.centers[right]].map(Place::At), Some(number));
+            let passage = adjacency
+                .passage([adjacency.centers[left], adjacency.centers[right]].map(PassageEnd::At), Some(number));
             adjacency.cells.add_edge(NodeIndex::new(left), NodeIndex::new(right), passage);
         }
         adjacency
     }
 
     /// Returns the passage from a point to another, or to the nearest of some goals.
-    fn passage(&self, [from, to]: [Place; 2], portal: Option<usize>) -> Passage {
+    fn passage(&self, [from, to]: [PassageEnd; 2], portal: Option<usize>) -> Passage {
         let from = from.nearest(Point::zeros());
         let last = portal.map_or(from, |portal| self.middles[portal]);
         Passage { portal, cost: (last - from).norm() + (to.nearest(last) - last).norm() }
@@ -95,7 +95,7 @@ impl Adjacency {
     ) -> (Option<Channel>, Vec<Configuration>) {
         // The ends are additional nodes, with the portals of the cells that hold them.
         let mut graph = self.cells.clone();
-        let at_start = Place::At(terminals.start);
+        let at_start = PassageEnd::At(terminals.start);
         let start = graph.add_node(at_start);
         for &cell in start_cells {
             for portal in self.cells.edges(NodeIndex::new(cell)) {
@@ -105,7 +105,7 @@ impl Adjacency {
         }
         let is_left = |cell: NodeIndex| start_cells.contains(&cell.index());
         for &(cell, goals) in &terminals.parts {
-            let any = Place::Any(goals);
+            let any = PassageEnd::Any(goals);
             let (cell, goal) = (NodeIndex::new(cell as usize), graph.add_node(any));
             for portal in self.cells.edges(cell) {
                 let number = portal.weight().portal;
@@ -119,16 +119,16 @@ impl Adjacency {
             }
         }
         let euclid = Measure::from(Metric::Euclidean);
-        let question = Question {
+        let question = SearchProblem {
             start,
             is_goal: |node: NodeIndex| node > start,
             cost: |passage: &Passage| passage.cost,
             ahead: |node: NodeIndex| terminals.distance(euclid, graph[node].nearest(terminals.start)),
             behind: |node: NodeIndex| (graph[node].nearest(terminals.start) - terminals.start).norm(),
         };
-        let Searched { way, expanded } = search(&graph, how, &question);
+        let SearchResult { path, expanded } = search(&graph, how, &question);
         let expanded = expanded.into_iter().map(|node| graph[node].nearest(terminals.start)).collect();
-        (way.map(|places| self.passed(portals, terminals, &graph, start, &places)), expanded)
+        (path.map(|places| self.passed(portals, terminals, &graph, start, &places)), expanded)
     }
 
     /// Returns the channel that leads from place to place.
@@ -136,7 +136,7 @@ impl Adjacency {
         &self,
         portals: &[CellPortal],
         terminals: &Terminals,
-        graph: &UnGraph<Place, Passage>,
+        graph: &UnGraph<PassageEnd, Passage>,
         start: NodeIndex,
         places: &[NodeIndex],
     ) -> Channel {

@@ -1,6 +1,6 @@
 //! Trapezoidal decomposition of polygonal free space.
 
-use super::NONE;
+use super::NO_ENTRY;
 use crate::space::Segment;
 use cplan_geometry::planar::{Boundary, Status};
 use cplan_geometry::{Orientation, Point, orientation};
@@ -97,7 +97,7 @@ impl Decomposition {
     /// exact.
     pub fn new(boundary: &Boundary) -> Self {
         let sides = boundary.sides.len();
-        let (status, cell_above) = (Status::new(sides), vec![NONE; sides]);
+        let (status, cell_above) = (Status::new(sides), vec![NO_ENTRY; sides]);
         let mut sweep = Sweep { boundary, status, cell_above, result: Decomposition::default() };
         let mut begin = 0;
         for event in boundary.vertices.chunk_by(|a, b| a.x == b.x) {
@@ -206,7 +206,7 @@ impl Sweep<'_> {
         loop {
             let ceiling = self.status.above(floor);
             if let Some(floor) = floor {
-                self.cell_above[floor] = ceiling.map_or(NONE, |ceiling| self.begin(floor, ceiling, x));
+                self.cell_above[floor] = ceiling.map_or(NO_ENTRY, |ceiling| self.begin(floor, ceiling, x));
             }
             if ceiling.is_none() || ceiling == cluster.above {
                 break;
@@ -217,11 +217,11 @@ impl Sweep<'_> {
         self.join(cluster, &left, &right);
     }
 
-    /// Begins a cell between two sides and returns its number; `NONE` if the area is an obstacle.
+    /// Begins a cell between two sides and returns its number; `NO_ENTRY` if the area is an obstacle.
     fn begin(&mut self, floor: usize, ceiling: usize, x: f64) -> u32 {
         let sides = &self.boundary.sides;
         if !sides[floor].is_floor() || sides[ceiling].is_floor() || is_slit(self.boundary, floor, ceiling) {
-            return NONE;
+            return NO_ENTRY;
         }
         self.result.cells.push(Cell { left: x, right: x, floor, ceiling });
         self.result.cells.len() as u32 - 1
@@ -236,7 +236,7 @@ impl Sweep<'_> {
         let mut floor = cluster.below;
         loop {
             let ceiling = self.status.above(floor);
-            if let Some(under) = floor.filter(|&side| self.cell_above[side] != NONE) {
+            if let Some(under) = floor.filter(|&side| self.cell_above[side] != NO_ENTRY) {
                 let low = if floor == cluster.below { 0 } else { rank(under) };
                 let high = match ceiling.filter(|_| ceiling != cluster.above) {
                     Some(over) => rank(over),

@@ -4,7 +4,7 @@
 //! than the centre of its cell. It is then certified without further changes. A path that fails the certificate gets a
 //! finer grid.
 
-use super::attach::{Attachment, Joined};
+use super::attach::{Attachment, JoinedQuery};
 use super::simplify::simplified;
 use super::{PathKind, Query, shortcut};
 use crate::cspace::Grid;
@@ -72,7 +72,7 @@ pub fn unwrap(grid: &Grid, cells: &[usize], near: Configuration) -> Line {
 /// those joined there, as its nearest copy. For goals along a segment only the part in the cell counts.
 fn goal_at<'a>(
     grid: &Grid,
-    joined: &'a Joined,
+    joined: &'a JoinedQuery,
     cell: usize,
     near: Configuration,
 ) -> Option<(Configuration, &'a Attachment)> {
@@ -90,7 +90,7 @@ fn goal_at<'a>(
 /// Returns the path from the exact start through the centres of `cells` (neighbours, the first joined to the start, the
 /// last to a goal) to the exact goal, taut on request. The grid does not prove the pieces between a configuration and a
 /// cell that does not contain it. `None` if the cells are not such a chain.
-pub fn path(grid: &Grid, query: &Query, joined: &Joined, cells: &[usize], kind: PathKind) -> Option<Path> {
+pub fn path(grid: &Grid, query: &Query, joined: &JoinedQuery, cells: &[usize], kind: PathKind) -> Option<Path> {
     let line = unwrap(grid, cells, query.start);
     let goal = goal_at(grid, joined, *cells.last()?, from_lattice(grid, *line.last()?))?;
     let line = completed(grid, query, joined, line, goal);
@@ -100,14 +100,14 @@ pub fn path(grid: &Grid, query: &Query, joined: &Joined, cells: &[usize], kind: 
 
 /// Greatest distance of a path from the curve along the field, in cells. Where the curve's radius is `r` cells, pieces
 /// are some `sqrt(r / 2.5)` cells long, and their direction deviates from the curve's by at most `1 / sqrt(10 r)`.
-const OFF_THE_CURVE: f64 = 0.05;
+const MAX_CURVE_DISTANCE: f64 = 0.05;
 
 /// Number of cells before the goal over which the path blends. The field knows only the goal's cell. So the path blends
 /// from the curve to the centre of that cell into one to the goal itself, and arrives in the curve's direction.
-const ARRIVAL: f64 = 12.0;
+const BLENDED_CELLS: f64 = 12.0;
 
 /// Returns the path from the exact start along a field ([`follow`]) to the exact goal, no farther off the curve than
-/// `OFF_THE_CURVE` except for the `ARRIVAL`; or a taut path. It stays in free cells, except for the pieces between a
+/// `MAX_CURVE_DISTANCE` except for the `BLENDED_CELLS`; or a taut path. It stays in free cells, except for the pieces between a
 /// configuration and a cell that does not contain it. `home` is the cell joined to the start.
 ///
 /// # Errors
@@ -115,11 +115,11 @@ const ARRIVAL: f64 = 12.0;
 pub fn along<G: Guide>(
     grid: &Grid,
     query: &Query,
-    joined: &Joined,
+    joined: &JoinedQuery,
     guide: &mut G,
     home: usize,
     kind: PathKind,
-) -> Result<Path, G::Stuck> {
+) -> Result<Path, G::DeadEnd> {
     let center = unwrap(grid, &[home], query.start)[0];
     let from = if joined.start.contained { within_cell(center, to_lattice(grid, query.start)) } else { center };
     // Cells are counted from their corners here, from their centres in `follow`.
@@ -139,7 +139,7 @@ pub fn along<G: Guide>(
     }
     let line = completed(grid, query, joined, line, goal);
     let line = match kind {
-        PathKind::Own | PathKind::Middles => simplified(grid, &line, OFF_THE_CURVE),
+        PathKind::Own | PathKind::Middles => simplified(grid, &line, MAX_CURVE_DISTANCE),
         PathKind::Taut => shortcut::shortcut(grid, &line),
     };
     Ok(between(grid, query.start, &line, goal.0))
@@ -148,8 +148,8 @@ pub fn along<G: Guide>(
 /// Returns a point of the closed cell about `center`, away from the sides that it shares with the following cells,
 /// which may be blocked, or beyond a limit.
 fn within_cell(center: [f64; 2], at: [f64; 2]) -> [f64; 2] {
-    const HALF: f64 = 0.5 - 1e-9;
-    [0, 1].map(|k| at[k].clamp(center[k] - HALF, center[k] + HALF))
+    const HALF_CELL: f64 = 0.5 - 1e-9;
+    [0, 1].map(|k| at[k].clamp(center[k] - HALF_CELL, center[k] + HALF_CELL))
 }
 
 /// Returns the line with its end moved to `goal`. Points before the end move less the farther they are from it. Returns
@@ -161,7 +161,7 @@ fn arriving(grid: &Grid, line: Line, goal: [f64; 2]) -> Line {
     for k in (1..line.len()).rev() {
         left[k - 1] = left[k] + (line[k][0] - line[k - 1][0]).hypot(line[k][1] - line[k - 1][1]);
     }
-    let range = left[0].min(ARRIVAL);
+    let range = left[0].min(BLENDED_CELLS);
     let share = |left: f64| {
         let x = (1.0 - left / range).max(0.0);
         x * x * (3.0 - 2.0 * x)
@@ -177,7 +177,7 @@ fn arriving(grid: &Grid, line: Line, goal: [f64; 2]) -> Line {
 fn completed(
     grid: &Grid,
     query: &Query,
-    joined: &Joined,
+    joined: &JoinedQuery,
     mut line: Line,
     (goal, attachment): (Configuration, &Attachment),
 ) -> Line {
@@ -186,7 +186,7 @@ fn completed(
     if line.len() == 1 && joined.start.contained && attachment.contained {
         return vec![from, to];
     }
-    let apart = |a: &[f64; 2], b: [f64; 2]| (a[0] - b[0]).abs().max((a[1] - b[1]).abs()) > shortcut::TOUCH;
+    let apart = |a: &[f64; 2], b: [f64; 2]| (a[0] - b[0]).abs().max((a[1] - b[1]).abs()) > shortcut::TOUCH_DISTANCE;
     let ends = line.len() - 1;
     let mut at = 0..;
     line.retain(|point| {

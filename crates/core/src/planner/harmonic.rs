@@ -1,9 +1,9 @@
 //! The harmonic field planner.
 
-use super::attach::Joined;
+use super::attach::JoinedQuery;
 use super::{PathKind, Planner, Proposal, Query, Run, Size, Trace, grid_path};
 use crate::cspace::Grid;
-use cplan_harmonic::{Component, Field, Lattice, Place, Uphill, harmonic};
+use cplan_harmonic::{Component, Field, Lattice, Place, PotentialGuide, harmonic};
 use cplan_interrupt::checkpoint;
 
 /// Solves Laplace's equation on the goal's component (1 at the goals, 0 on obstacles and beyond limits, periodic on
@@ -41,7 +41,7 @@ impl Planner for Harmonic {
             size: Size::Windows { cells: 0, windows: 0 },
             note: None,
         };
-        let joined = match Joined::new(space, query) {
+        let joined = match JoinedQuery::new(space, query) {
             Ok(joined) => joined,
             Err(reason) => return gave_up(reason),
         };
@@ -62,7 +62,7 @@ impl Planner for Harmonic {
         };
         let Field { potential, windows } = harmonic(&component);
         let at = |place: Place| component.position_of(grid_path::cell(space, place)?);
-        let mut guide = Uphill::new(&component, &potential, at);
+        let mut guide = PotentialGuide::new(&component, &potential, at);
         let outcome = match grid_path::along(space, query, &joined, &mut guide, component.cell(start), self.path) {
             Ok(path) => Proposal::Found(path),
             Err(_) => Proposal::GaveUp("the field has a local maximum".into()),

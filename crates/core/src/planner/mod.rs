@@ -49,8 +49,8 @@ pub use visibility::{Visibility, VisibilityGraph, VisibilityMap};
 pub use wavefront::{GridSearch, Wavefront};
 
 use crate::space::{Configuration, GoalSet, Path};
-use cplan_geometry::planar::NONE;
-use cplan_harmonic::{Component, Potential, rough_harmonic};
+use cplan_geometry::planar::NO_ENTRY;
+use cplan_harmonic::{Component, Potential, estimated_harmonic};
 use cplan_text::counted;
 use std::borrow::Cow;
 use std::sync::Arc;
@@ -110,7 +110,7 @@ pub enum Size {
         /// Cells whose neighbours were examined.
         expanded: usize,
         /// Cells that were reached.
-        labelled: usize,
+        labeled: usize,
     },
     /// Cells of a grid reached by a search that restarts, round by round.
     Deepening {
@@ -119,7 +119,7 @@ pub enum Size {
         /// Number of times that a cell was expanded, in all rounds together.
         expansions: usize,
         /// Cells that were reached.
-        labelled: usize,
+        labeled: usize,
     },
     /// Nothing was built.
     Nothing,
@@ -134,9 +134,9 @@ impl Size {
             Size::Windows { cells, windows } => vec![("cells", cells), ("windows", windows)],
             Size::Grid { cells, sweeps } => vec![("cells", cells), ("sweeps", sweeps)],
             Size::Slices { slices } => vec![("rows", slices)],
-            Size::Search { expanded, labelled } => vec![("cells", labelled), ("expanded", expanded)],
-            Size::Deepening { rounds, expansions, labelled } => {
-                vec![("cells", labelled), ("expanded", expansions), ("rounds", rounds)]
+            Size::Search { expanded, labeled } => vec![("cells", labeled), ("expanded", expanded)],
+            Size::Deepening { rounds, expansions, labeled } => {
+                vec![("cells", labeled), ("expanded", expansions), ("rounds", rounds)]
             }
             Size::Nothing => Vec::new(),
         }
@@ -152,16 +152,16 @@ impl std::fmt::Display for Size {
             }
             Size::Grid { cells, sweeps } => write!(f, "{}, {}", counted(cells, "cell"), counted(sweeps, "sweep")),
             Size::Slices { slices } => write!(f, "{}", counted(slices, "slice")),
-            Size::Search { expanded, labelled } => {
-                write!(f, "{} expanded of {labelled} labelled", counted(expanded, "cell"))
+            Size::Search { expanded, labeled } => {
+                write!(f, "{} expanded of {labeled} labelled", counted(expanded, "cell"))
             }
-            Size::Deepening { rounds, expansions, labelled } => {
+            Size::Deepening { rounds, expansions, labeled } => {
                 write!(
                     f,
                     "{}, {} of {}",
                     counted(rounds, "round"),
                     counted(expansions, "expansion"),
-                    counted(labelled, "cell")
+                    counted(labeled, "cell")
                 )
             }
             Size::Nothing => f.write_str("no space built"),
@@ -298,7 +298,7 @@ impl Trace {
         match self {
             Self::Field { cells, potential } => Some((*cells, Cow::Borrowed(potential))),
             Self::Harmonic { component, potential } => {
-                let guess = || Cow::Owned(rough_harmonic(component));
+                let guess = || Cow::Owned(estimated_harmonic(component));
                 let potential = potential.as_ref().map_or_else(guess, Cow::Borrowed);
                 let mut ln = vec![f64::NEG_INFINITY; component.shape[0] * component.shape[1]];
                 (0..component.len()).for_each(|at| ln[component.cell(at)] = potential.ln(at));

@@ -3,8 +3,8 @@
 //! This search does not use petgraph, which requests all arcs of a node at once. Here arcs wait on the open list before
 //! they are known.
 
-use super::NONE;
-use super::mesh::{Beyond, Bound, Cone, Crossing, Mesh, Tangency};
+use super::NO_ENTRY;
+use super::mesh::{Bound, Cone, ConeContinuation, Crossing, Mesh, Tangency};
 use super::terminals::Terminals;
 use crate::space::{Measure, Segment};
 use cplan_geometry::{OpenList, Orientation, Point, cross, orientation};
@@ -13,7 +13,7 @@ use std::cmp::Reverse;
 
 /// Two lines whose directions enclose less than this sine are not intersected: rounding would be magnified by its
 /// inverse.
-const PARALLEL: f64 = 1e-6;
+const PARALLEL_SINE: f64 = 1e-6;
 
 /// A* over the reduced visibility graph whose arcs are found while they are needed.
 ///
@@ -45,7 +45,7 @@ struct Node {
     at: Point,
     cost: f64,
     parent: u32,
-    /// `NONE` for the start and goals.
+    /// `NO_ENTRY` for the start and goals.
     corner: u32,
 }
 
@@ -84,13 +84,13 @@ impl<'a> Polyanya<'a> {
     /// Returns the number of visited nodes: the start, goals in sight, corners.
     pub fn nodes(&self) -> usize {
         let corners = self.reached.iter().filter(|cost| cost.is_finite()).count();
-        corners + self.nodes.iter().filter(|node| node.corner == NONE).count()
+        corners + self.nodes.iter().filter(|node| node.corner == NO_ENTRY).count()
     }
 
     /// Returns the shortest path from start to any goal; `None` if there is no path. Waypoints are not collinear.
     pub fn path(&mut self) -> Option<Vec<Point>> {
         let start = self.terminals.start;
-        self.nodes.push(Node { at: start, cost: 0.0, parent: NONE, corner: NONE });
+        self.nodes.push(Node { at: start, cost: 0.0, parent: NO_ENTRY, corner: NO_ENTRY });
         let mesh = self.mesh;
         let mut seen = Vec::new();
         for triangle in mesh.triangles_at(start) {
@@ -120,7 +120,7 @@ impl<'a> Polyanya<'a> {
 
     /// Returns true if a shorter path to the same corner has been found since.
     fn is_stale(&self, Node { corner, cost, .. }: Node) -> bool {
-        corner != NONE && self.reached[corner as usize] < cost
+        corner != NO_ENTRY && self.reached[corner as usize] < cost
     }
 
     /// Adds the view beyond a corner for paths that turn there.
@@ -152,9 +152,9 @@ impl<'a> Polyanya<'a> {
                 self.see(root, corner);
             }
             cone = match beyond {
-                Beyond::Through(edge) => Cone { edge, ..cone },
-                Beyond::One(only) => only,
-                Beyond::Two(right, left) => {
+                ConeContinuation::Through(edge) => Cone { edge, ..cone },
+                ConeContinuation::One(only) => only,
+                ConeContinuation::Two(right, left) => {
                     let estimates = [self.estimate(root, &right), self.estimate(root, &left)];
                     let (better, best, worse, other) = if estimates[0] <= estimates[1] {
                         (right, estimates[0], left, estimates[1])
@@ -201,7 +201,7 @@ impl<'a> Polyanya<'a> {
                 let at = seen.nearest(self.measure, from);
                 self.arcs.push([from, at]);
                 let cost = cost + self.measure.norm(at - from);
-                let node = self.push_node(Node { at, cost, parent: root, corner: NONE });
+                let node = self.push_node(Node { at, cost, parent: root, corner: NO_ENTRY });
                 self.push(cost, Step::Arrive(node));
             }
         }
@@ -241,7 +241,7 @@ impl<'a> Polyanya<'a> {
     fn waypoints(&self, last: u32) -> Vec<Point> {
         let mut reversed: Vec<Point> = Vec::new();
         let mut at = last;
-        while at != NONE {
+        while at != NO_ENTRY {
             let Node { at: p, parent, .. } = self.nodes[at as usize];
             if let [.., a, b] = reversed[..]
                 && orientation(a, b, p) == Orientation::Collinear
@@ -263,7 +263,7 @@ impl<'a> Polyanya<'a> {
 fn meeting(Bound { from, to }: Bound, [a, b]: [Point; 2], fallback: Point) -> Point {
     let (line, edge) = (to - from, b - a);
     let sine = cross(line, edge);
-    if to == fallback || sine * sine <= PARALLEL * PARALLEL * line.norm_squared() * edge.norm_squared() {
+    if to == fallback || sine * sine <= PARALLEL_SINE * PARALLEL_SINE * line.norm_squared() * edge.norm_squared() {
         return fallback;
     }
     let t = cross(line, from - a) / sine;

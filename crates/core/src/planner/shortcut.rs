@@ -7,19 +7,19 @@ use cplan_interrupt::checkpoint;
 /// Distance (in cells) within which a segment counts as passing through a cell, so that a segment through a corner
 /// passes both cells beside it. Far above the rounding of lattice coordinates (1e-11 for a hundred thousand cells), and
 /// far below anything that matters to a path.
-pub(super) const TOUCH: f64 = 1e-9;
+pub(super) const TOUCH_DISTANCE: f64 = 1e-9;
 
 /// Greatest number of rounds of tightening; ...
-const ROUNDS: usize = 8;
+const MAX_ROUNDS: usize = 8;
 /// ... they end earlier when one gains less than this share of the length.
-const GAIN: f64 = 1e-3;
+const MIN_GAIN: f64 = 1e-3;
 
 /// Returns a shorter polyline with the same ends. Each of its segments passes only through free cells (touching
 /// counts), or is a piece of the given one. Never longer in any norm; with few corners. Some `n log n` cell checks for
 /// a line that is `n` cells long.
 pub(super) fn shortcut(grid: &Grid, line: &[[f64; 2]]) -> Line {
     let mut best = farthest(grid, line);
-    for _ in 0..ROUNDS {
+    for _ in 0..MAX_ROUNDS {
         // Backwards, and from points between the corners too: that pulls the corners towards the obstacles.
         let mut fine = refine(grid, &best);
         fine.reverse();
@@ -29,7 +29,7 @@ pub(super) fn shortcut(grid: &Grid, line: &[[f64; 2]]) -> Line {
         if after < before {
             best = next;
         }
-        if after > before * (1.0 - GAIN) {
+        if after > before * (1.0 - MIN_GAIN) {
             break;
         }
     }
@@ -83,8 +83,11 @@ pub(super) fn is_clear(grid: &Grid, a: [f64; 2], b: [f64; 2]) -> bool {
     rows.into_iter().all(|i| {
         // Both ends of the piece within row i, with some tolerance.
         let at = |edge: f64| a[1] + ((edge - a[0]) / d[0]).clamp(0.0, 1.0) * d[1];
-        let (from, to) =
-            if d[0].abs() <= TOUCH { (a[1], b[1]) } else { (at(i as f64 - TOUCH), at((i + 1) as f64 + TOUCH)) };
+        let (from, to) = if d[0].abs() <= TOUCH_DISTANCE {
+            (a[1], b[1])
+        } else {
+            (at(i as f64 - TOUCH_DISTANCE), at((i + 1) as f64 + TOUCH_DISTANCE))
+        };
         let Some(row) = place(grid, 0, i) else { return false };
         covered(grid, 1, from, to)
             .all(|j| place(grid, 1, j).is_some_and(|column| !grid.blocked[row * grid.cells[1] + column]))
@@ -94,7 +97,8 @@ pub(super) fn is_clear(grid: &Grid, a: [f64; 2], b: [f64; 2]) -> bool {
 /// Returns the rows or columns between two coordinates, touched ones included. All are within
 /// the limits, because the ends are.
 fn covered(grid: &Grid, axis: usize, from: f64, to: f64) -> std::ops::RangeInclusive<i64> {
-    let (first, last) = ((from.min(to) - TOUCH).floor() as i64, (from.max(to) + TOUCH).floor() as i64);
+    let (first, last) =
+        ((from.min(to) - TOUCH_DISTANCE).floor() as i64, (from.max(to) + TOUCH_DISTANCE).floor() as i64);
     if grid.topology.ranges[axis].is_circle() {
         first..=last
     } else {

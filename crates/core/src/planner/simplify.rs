@@ -62,7 +62,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_straight_is_one_piece_unless_a_wall_is_touched() {
+    fn straight_lines_become_one_piece_unless_they_touch_a_wall() {
         let line: Line = (0..=50).map(|k| [10.5 + f64::from(k), 20.0]).collect();
         assert_eq!(simplified(&empty(), &line, 0.02).len(), 2);
         let mut grid = empty();

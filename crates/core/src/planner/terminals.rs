@@ -8,7 +8,7 @@ use cplan_geometry::Point;
 use std::f64::consts::TAU;
 
 /// Number of places at which a segment of goals is tried, in addition to the one nearest to the start.
-const PLACES: usize = 17;
+const PLACES_PER_SEGMENT: usize = 17;
 
 /// Ends of the paths that answer a query.
 #[derive(Debug, Clone, PartialEq)]
@@ -57,8 +57,8 @@ impl Terminals {
     /// one nearest to the start.
     pub fn places<'a>(&'a self, mesh: &'a Mesh) -> impl Iterator<Item = Point> + 'a {
         let places = self.goals.iter().flat_map(|goals| {
-            let count = if goals.is_point() { 1 } else { PLACES };
-            let along = (0..count).map(|k| goals.at(k as f64 / (PLACES - 1) as f64));
+            let count = if goals.is_point() { 1 } else { PLACES_PER_SEGMENT };
+            let along = (0..count).map(|k| goals.at(k as f64 / (PLACES_PER_SEGMENT - 1) as f64));
             along.chain([goals.nearest(Measure::from(Metric::Euclidean), self.start)])
         });
         places.filter(|&at| mesh.triangles_at(at).next().is_some())

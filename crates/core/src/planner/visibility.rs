@@ -13,7 +13,7 @@ mod full;
 
 use super::mesh::{Cone, Mesh, Tangency};
 use super::polyanya::Polyanya;
-use super::roadmap::{Asked, Roadmap, RoadmapSearch};
+use super::roadmap::{QueryGraph, Roadmap, RoadmapSearch};
 use super::terminals::Terminals;
 use super::{GraphKind, Planner, Proposal, Query, Run, Size, Trace};
 use crate::cspace::Regions;
@@ -152,21 +152,21 @@ impl Visibility {
     /// Returns a search of the whole graph.
     fn whole(&self, map: &VisibilityMap, terminals: &Terminals) -> Run {
         let measure = Measure::from(self.metric);
-        let asked = match self.graph {
-            VisibilityGraph::Reduced => Ok(map.asked(measure, terminals)),
+        let query_graph = match self.graph {
+            VisibilityGraph::Reduced => Ok(map.query_graph(measure, terminals)),
             VisibilityGraph::Full => map.full(measure, terminals),
         };
-        let asked = match asked {
-            Ok(asked) => asked,
+        let query_graph = match query_graph {
+            Ok(query_graph) => query_graph,
             Err(reason) => return super::roadmap::run(GraphKind::Roadmap, Proposal::GaveUp(reason), None, Vec::new()),
         };
-        let (way, expanded) = asked.search(self.search, terminals);
-        let outcome = match way {
-            Some(way) => Proposal::Found(Path::new(way.into_iter().map(|node| asked.at(node)).collect())),
+        let (route, expanded) = query_graph.search(self.search, terminals);
+        let outcome = match route {
+            Some(route) => Proposal::Found(Path::new(route.into_iter().map(|node| query_graph.at(node)).collect())),
             None => Proposal::NoPath,
         };
-        let [nodes, edges] = asked.size();
-        let trace = Trace::Roads { edges: asked.edges(), expanded, kind: GraphKind::Visibility(self.graph) };
+        let [nodes, edges] = query_graph.size();
+        let trace = Trace::Roads { edges: query_graph.edges(), expanded, kind: GraphKind::Visibility(self.graph) };
         Run { outcome, trace, size: Size::Graph { nodes, edges }, note: None }
     }
 }
@@ -174,20 +174,20 @@ impl Visibility {
 impl VisibilityMap {
     /// Returns the whole graph with a query's ends. For each goal it uses the place nearest to the start or corner that
     /// sees it.
-    fn asked(&self, measure: Measure, terminals: &Terminals) -> Asked {
+    fn query_graph(&self, measure: Measure, terminals: &Terminals) -> QueryGraph {
         let (mesh, corners) = (&self.mesh, self.mesh.corners());
         let mut roadmap = Roadmap::new(measure);
         let nodes: Vec<NodeIndex> = corners.iter().map(|corner| roadmap.add(corner.at)).collect();
         for [a, b] in self.pairs() {
             roadmap.join(nodes[a as usize], nodes[b as usize]);
         }
-        let mut asked = roadmap.asked(terminals.start);
-        let mut ends = Ends { mesh, measure, terminals, asked: &mut asked, seen: Vec::new(), notes: true };
+        let mut query_graph = roadmap.query_graph(terminals.start);
+        let mut ends = Ends { mesh, measure, terminals, query_graph: &mut query_graph, seen: Vec::new(), notes: true };
         for triangle in mesh.triangles_at(terminals.start) {
-            ends.meet_goals(ends.asked.start, triangle, |part| Some(*part));
+            ends.meet_goals(ends.query_graph.start, triangle, |part| Some(*part));
             for successor in mesh.successors_within(triangle, terminals.start) {
                 ends.seen.extend(successor.seen.into_iter().flatten());
-                ends.look(ends.asked.start, successor.cone);
+                ends.look(ends.query_graph.start, successor.cone);
             }
         }
         let of_start = std::mem::take(&mut ends.seen);
@@ -200,8 +200,8 @@ impl VisibilityMap {
         }
         let is_tangent = |corner: &u32| corners[*corner as usize].tangency(terminals.start) != Tangency::None;
         let of_start = of_start.into_iter().filter_map(|half_edge| mesh.corner_at(half_edge)).filter(is_tangent);
-        of_start.for_each(|corner| asked.join(asked.start, nodes[corner as usize]));
-        asked
+        of_start.for_each(|corner| query_graph.join(query_graph.start, nodes[corner as usize]));
+        query_graph
     }
 }
 
@@ -210,7 +210,7 @@ struct Ends<'a> {
     mesh: &'a Mesh,
     measure: Measure,
     terminals: &'a Terminals,
-    asked: &'a mut Asked,
+    query_graph: &'a mut QueryGraph,
     /// Half-edges at visible vertices; filled only with `notes`.
     seen: Vec<u32>,
     /// True to collect `seen`.
@@ -221,7 +221,7 @@ impl Ends<'_> {
     /// Joins a node with the goals that it sees in a cone, and collects the vertices if they are needed.
     fn look(&mut self, root: NodeIndex, cone: Cone) {
         checkpoint();
-        self.mesh.look(self.asked.at(root), cone, |crossing, cone| {
+        self.mesh.look(self.query_graph.at(root), cone, |crossing, cone| {
             if self.notes {
                 self.seen.extend(crossing.seen);
             }
@@ -233,9 +233,9 @@ impl Ends<'_> {
     fn meet_goals(&mut self, root: NodeIndex, triangle: u32, sees: impl Fn(&Segment) -> Option<Segment>) {
         for (_, part) in self.terminals.parts_in(triangle) {
             if let Some(seen) = sees(part) {
-                let at = seen.nearest(self.measure, self.asked.at(root));
-                let goal = self.asked.goal(at);
-                self.asked.join(root, goal);
+                let at = seen.nearest(self.measure, self.query_graph.at(root));
+                let goal = self.query_graph.goal(at);
+                self.query_graph.join(root, goal);
             }
         }
     }

@@ -1,6 +1,6 @@
 //! Searches of a grid: the wavefront, whose labels are the distances from the goal, and other textbook searches.
 
-use super::attach::Joined;
+use super::attach::JoinedQuery;
 use super::{PathKind, Planner, Proposal, Query, Run, Size, Trace, grid_path};
 use crate::cspace::Grid;
 use crate::waves::search::{Order, Search, Ties};
@@ -133,7 +133,7 @@ impl Planner for Wavefront {
     }
 
     fn query(&self, space: &Grid, map: &FreeCells, query: &Query) -> Run {
-        let joined = match Joined::new(space, query) {
+        let joined = match JoinedQuery::new(space, query) {
             Ok(joined) => joined,
             Err(reason) => {
                 let labels = vec![UNREACHED; space.blocked.len()];
@@ -154,7 +154,7 @@ impl Planner for Wavefront {
 impl Wavefront {
     /// Returns the cells from the nearest start cell that is connected with a goal, if there is one; the record of the
     /// search; and the number of cells visited.
-    fn cells(&self, map: &FreeCells, joined: &Joined) -> (Option<Vec<usize>>, Trace, Size) {
+    fn cells(&self, map: &FreeCells, joined: &JoinedQuery) -> (Option<Vec<usize>>, Trace, Size) {
         let sources = joined.sources();
         let Some(order) = self.search.order(self.ties) else {
             let wave = StepLabels::new(map, &sources, self.neighborhood);
@@ -169,12 +169,12 @@ impl Wavefront {
         } else {
             self.search_backward(map, joined, order)
         };
-        let labelled = search.labelled;
+        let labeled = search.labeled;
         let size = match self.search {
             GridSearch::IterativeDeepening => {
-                Size::Deepening { rounds: search.rounds, expansions: search.expansions, labelled }
+                Size::Deepening { rounds: search.rounds, expansions: search.expansions, labeled }
             }
-            _ => Size::Search { expanded: search.expanded.len(), labelled },
+            _ => Size::Search { expanded: search.expanded.len(), labeled },
         };
         let (labels, expanded) = (search.labels(), search.expanded);
         let trace = Trace::Wavefront { cells: map.cells(), labels, expanded, forward: self.forward };
@@ -182,16 +182,16 @@ impl Wavefront {
     }
 
     /// Returns the cells found by a search that begins at the goals.
-    fn search_backward(&self, map: &FreeCells, joined: &Joined, order: Order) -> (Option<Vec<usize>>, Search) {
+    fn search_backward(&self, map: &FreeCells, joined: &JoinedQuery, order: Order) -> (Option<Vec<usize>>, Search) {
         // A search that does not meet its target has labelled all cells that are connected with a goal, including other
         // cells of the start.
         let search = Search::new(map, self.neighborhood, order, &joined.sources(), joined.start.cells[0]);
-        (joined.start.cells.iter().find_map(|&cell| search.way_back(cell)), search)
+        (joined.start.cells.iter().find_map(|&cell| search.path_back(cell)), search)
     }
 
     /// Returns the cells found by a search that begins at the nearest start cell that is connected with a goal, or at
     /// the nearest start cell if none is connected.
-    fn search_forward(&self, map: &FreeCells, joined: &Joined, order: Order) -> (Option<Vec<usize>>, Search) {
+    fn search_forward(&self, map: &FreeCells, joined: &JoinedQuery, order: Order) -> (Option<Vec<usize>>, Search) {
         let goals = joined.sources();
         let from = |&cell: &usize| Search::to_any(map, self.neighborhood, order, &[cell], &goals);
         let first = from(&joined.start.cells[0]);
@@ -200,7 +200,7 @@ impl Wavefront {
             None => others.map(from).find(|search| search.met.is_some()).unwrap_or(first),
             Some(_) => first,
         };
-        let cells = search.met.and_then(|goal| search.way_back(goal));
+        let cells = search.met.and_then(|goal| search.path_back(goal));
         (cells.map(|cells| cells.into_iter().rev().collect()), search)
     }
 }

@@ -44,7 +44,7 @@ pub fn nearest_end(start: Point, goals: &Segment, portals: &[Portal]) -> Point {
     }
     let golden = (5.0_f64.sqrt() - 1.0) / 2.0;
     let (mut lower, mut upper) = (0.0, 1.0);
-    for _ in 0..SECTIONS {
+    for _ in 0..GOLDEN_SECTIONS {
         let [a, b] = [upper - golden * (upper - lower), lower + golden * (upper - lower)];
         if length(a).0 <= length(b).0 { upper = b } else { lower = a }
     }
@@ -54,14 +54,14 @@ pub fn nearest_end(start: Point, goals: &Segment, portals: &[Portal]) -> Point {
     let foot = goals.nearest(euclid, last);
     let path = funnel_path(start, foot, portals);
     let to_foot: f64 = path.windows(2).map(|w| (w[1] - w[0]).norm()).sum();
-    if to_foot <= shortest * (1.0 + SETTLED) { foot } else { best }
+    if to_foot <= shortest * (1.0 + LENGTH_ROUNDING) { foot } else { best }
 }
 
 /// Golden sections: they leave less than a millionth of the segment.
-const SECTIONS: usize = 30;
+const GOLDEN_SECTIONS: usize = 30;
 
 /// Share by which a length may be greater for rounding.
-const SETTLED: f64 = 1e-12;
+const LENGTH_ROUNDING: f64 = 1e-12;
 
 /// Returns the turns of the funnel path, in order, without start and goal.
 pub fn turns(start: Point, goal: Point, portals: &[Portal]) -> Vec<Turn> {
@@ -70,7 +70,7 @@ pub fn turns(start: Point, goal: Point, portals: &[Portal]) -> Vec<Turn> {
         funnel.narrow(portal, *ends);
     }
     if goal != funnel.apex {
-        funnel.add(RIGHT, Turn { at: goal, portal: portals.len() });
+        funnel.add(RIGHT_SIDE, Turn { at: goal, portal: portals.len() });
     }
     let Funnel { chains: [to_goal, _], mut path, .. } = funnel;
     path.extend(to_goal.into_iter().filter(|turn| turn.portal < portals.len()));
@@ -86,8 +86,8 @@ pub struct Turn {
     pub portal: usize,
 }
 
-const RIGHT: usize = 0;
-const LEFT: usize = 1;
+const RIGHT_SIDE: usize = 0;
+const LEFT_SIDE: usize = 1;
 
 /// The shortest paths from the apex to both ends of a portal: chains that turn outwards.
 struct Funnel {
@@ -101,8 +101,8 @@ impl Funnel {
     /// Narrows the funnel to the next portal.
     fn narrow(&mut self, portal: usize, Portal { left, right }: Portal) {
         if left != self.apex && right != self.apex {
-            self.add(RIGHT, Turn { at: right, portal });
-            self.add(LEFT, Turn { at: left, portal });
+            self.add(RIGHT_SIDE, Turn { at: right, portal });
+            self.add(LEFT_SIDE, Turn { at: left, portal });
         }
         if left == self.apex || right == self.apex {
             // Passed at the apex itself, in any direction.
@@ -113,7 +113,7 @@ impl Funnel {
     /// Makes a point the end of a chain. Where it is beyond the other chain, the string turns at that.
     fn add(&mut self, side: usize, turn: Turn) {
         let [inwards, outwards] = match side {
-            RIGHT => [Orientation::CounterClockwise, Orientation::Clockwise],
+            RIGHT_SIDE => [Orientation::CounterClockwise, Orientation::Clockwise],
             _ => [Orientation::Clockwise, Orientation::CounterClockwise],
         };
         let own = &mut self.chains[side];
@@ -173,7 +173,7 @@ mod tests {
     }
 
     #[test]
-    fn a_turn_back_on_one_vertical_goes_around_what_is_between() {
+    fn a_turn_back_on_one_vertical_avoids_obstacles_between() {
         // Right below the wall, left above it; the wall ends at (2, 1) and (2, 1.5).
         let wall = [portal((2.0, 1.0), (2.0, 0.0)), portal((2.0, 1.5), (2.0, 3.0))];
         let path = funnel_path(Point::new(0.0, 0.5), Point::new(0.0, 2.0), &wall);
@@ -200,7 +200,7 @@ mod tests {
         /// Compares with the shortest of all paths between ends of portals that cross the portals between. On a coarse
         /// lattice many ends are collinear.
         #[test]
-        fn no_way_from_end_to_end_is_shorter(
+        fn no_path_from_end_to_end_is_shorter(
             ends in prop::collection::vec((-4..4i32, 0..4i32), 0..12), start in -4..4i32, goal in -4..4i32,
         ) {
             let gates: Vec<[Point; 2]> = std::iter::once([start; 2])

@@ -6,7 +6,7 @@ use cplan_geometry::{Point, Vector, cross};
 /// Weight of the Euclidean length beside travel time. Among motions that take equally long it prefers the shortest; no
 /// path that it chooses takes longer than the quickest by more than this part of its Euclidean length at the higher of
 /// the top speeds. Far above the rounding of sums of lengths.
-const TIE: f64 = 1e-10;
+const TIE_BREAK_WEIGHT: f64 = 1e-10;
 
 /// A norm whose balls have no flat sides, so that pulling a path taut makes it shorter.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -34,7 +34,7 @@ impl Measure {
         match self {
             Self::Ellipse([u, v]) => ((u * d.x) * (u * d.x) + (v * d.y) * (v * d.y)).sqrt(),
             Self::Rectangle([u, v]) => {
-                (u * d.x.abs()).max(v * d.y.abs()) + TIE * u.min(v) * (d.x * d.x + d.y * d.y).sqrt()
+                (u * d.x.abs()).max(v * d.y.abs()) + TIE_BREAK_WEIGHT * u.min(v) * (d.x * d.x + d.y * d.y).sqrt()
             }
         }
     }
@@ -105,7 +105,7 @@ mod tests {
 
         /// Compares with the minimum over the points of the segment, found by ternary search on a convex function.
         #[test]
-        fn bounds_are_the_least_way_through(
+        fn bounds_are_the_shortest_crossing(
             root in (-3.0..3.0, 0.1..2.0f64), goal in (-3.0..3.0, -2.0..2.0f64), ends in (-2.0..1.9f64, 0.05..2.0f64),
         ) {
             // The root lies above the axis and looks down through a piece of it.
@@ -137,7 +137,7 @@ mod tests {
 
         /// Goals all along a segment: against the least over many of them.
         #[test]
-        fn bounds_are_the_least_way_to_any_of_the_goals(
+        fn bounds_are_the_shortest_path_to_any_goal(
             root in (-3.0..3.0, 0.1..2.0f64),
             ends in (-2.0..1.9f64, 0.05..2.0f64),
             from in (-3.0..3.0, -2.0..2.0f64),

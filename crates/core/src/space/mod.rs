@@ -15,7 +15,7 @@
 //! ```
 
 mod copies;
-mod draws;
+mod split_mix;
 pub mod funnel;
 mod goal_set;
 mod measure;
@@ -24,13 +24,13 @@ mod path;
 mod segment;
 mod topology;
 
-pub use draws::Draws;
 pub use funnel::{Portal, funnel_path, nearest_end};
 pub use goal_set::GoalSet;
 pub use measure::Measure;
 pub use metric::Metric;
 pub use path::Path;
 pub use segment::Segment;
+pub use split_mix::SplitMix64;
 pub use topology::{JointRange, Topology};
 
 /// Values of the two joints, in the order base to tip; radians for a revolute joint, metres for a prismatic one.

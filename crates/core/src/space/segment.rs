@@ -120,11 +120,11 @@ impl Segment {
         if self.is_point() {
             return self.from;
         }
-        let way = self.to - self.from;
+        let displacement = self.to - self.from;
         let [u, v] = measure.weights();
         let product = |a: Configuration, b: Configuration| u * u * a[0] * b[0] + v * v * a[1] * b[1];
         let there = p - self.from;
-        let foot = product(there, way) / product(way, way);
+        let foot = product(there, displacement) / product(displacement, displacement);
         if measure.is_ellipse() {
             return self.at(foot);
         }
@@ -134,10 +134,10 @@ impl Segment {
             foot,
             0.0,
             1.0,
-            share(way[0], there[0]),
-            share(way[1], there[1]),
-            share(u * way[0] - v * way[1], u * there[0] - v * there[1]),
-            share(u * way[0] + v * way[1], u * there[0] + v * there[1]),
+            share(displacement[0], there[0]),
+            share(displacement[1], there[1]),
+            share(u * displacement[0] - v * displacement[1], u * there[0] - v * there[1]),
+            share(u * displacement[0] + v * displacement[1], u * there[0] + v * there[1]),
         ];
         let better = |best: Configuration, next: Configuration| {
             if measure.norm(next - p) < measure.norm(best - p) { next } else { best }

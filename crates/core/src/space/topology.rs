@@ -6,7 +6,7 @@ use std::f64::consts::{PI, TAU};
 
 /// Difference between a whole turn and the double [`TAU`], to double precision. After 80 000 turns (half a million
 /// radians) it adds up to 2e-11 rad, far more than the margins of certificates.
-const BEYOND_TAU: f64 = 2.449_293_598_294_706_4e-16;
+const TAU_REMAINDER: f64 = 2.449_293_598_294_706_4e-16;
 
 /// Returns `turns` whole turns as a sum of two doubles, exact to far below a rounding of the second. `turns` is an
 /// integer.
@@ -14,7 +14,7 @@ fn whole_turns(turns: f64) -> [f64; 2] {
     let high = turns * TAU;
     // The rounding error of the product, exactly.
     let left_out = turns.mul_add(TAU, -high);
-    [high, left_out + turns * BEYOND_TAU]
+    [high, left_out + turns * TAU_REMAINDER]
 }
 
 /// Returns a sum as a double and its rounding error, exactly (Knuth 1969).
@@ -106,8 +106,8 @@ impl JointRange {
         match self {
             JointRange::Interval { .. } => to - from,
             JointRange::Circle => {
-                let [way, left_out] = two_sum(to, -from);
-                self.wrap(self.wrap(way) + left_out)
+                let [difference, left_out] = two_sum(to, -from);
+                self.wrap(self.wrap(difference) + left_out)
             }
         }
     }
@@ -243,9 +243,9 @@ mod tests {
             prop_assert!(is_whole(exact(value) - exact(wrapped), 1e-15), "{} wraps to {}", value, wrapped);
             let lifted = JointRange::Circle.lift(other, value);
             prop_assert!(is_whole(exact(lifted) - exact(other), f64::EPSILON * lifted.abs().max(PI)), "{}", lifted);
-            let way = JointRange::Circle.displacement(far, value);
-            prop_assert!((-PI..PI).contains(&way));
-            prop_assert!(is_whole(exact(value) - exact(far) - exact(way), 1e-15), "{} {}: {}", far, value, way);
+            let difference = JointRange::Circle.displacement(far, value);
+            prop_assert!((-PI..PI).contains(&difference));
+            prop_assert!(is_whole(exact(value) - exact(far) - exact(difference), 1e-15), "{} {}: {}", far, value, difference);
         }
 
         #[test]

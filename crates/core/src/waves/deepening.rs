@@ -24,7 +24,7 @@ pub(super) fn deepen(
     let mut stack: Vec<usize> = Vec::new();
     for limit in 0.. {
         search.rounds = limit as usize + 1;
-        let labelled = search.labelled;
+        let labeled = search.labeled;
         stack.extend(sources.iter().rev());
         sources.iter().for_each(|&source| seen[source] = limit + 1);
         while let Some(cell) = stack.pop() {
@@ -48,7 +48,7 @@ pub(super) fn deepen(
                 let is_new = search.parents[next.to] == UNREACHED;
                 if is_new {
                     let (straight, diagonal) = (u32::from(!next.is_diagonal), u32::from(next.is_diagonal));
-                    search.labelled += 1;
+                    search.labeled += 1;
                     search.parents[next.to] = cell as u32;
                     search.costs[next.to] = search.costs[cell].and(Cost { straight, diagonal });
                 }
@@ -58,7 +58,7 @@ pub(super) fn deepen(
                 }
             }
         }
-        if search.labelled == labelled && limit > 0 {
+        if search.labeled == labeled && limit > 0 {
             return;
         }
     }

@@ -7,14 +7,14 @@ use std::ops::Range;
 /// Number of levels per bucket of waiting stretches. Within a bucket the last one is taken first, so that a stretch is
 /// processed while the row that it came from is still in the cache. Wider buckets give more labels that are too great
 /// initially and must be written again.
-const BUCKET: usize = 16;
+const LEVELS_PER_BUCKET: usize = 16;
 
 /// Cost of handling a stretch beyond copying its cells, in cells (measured; about 100 ns).
-const STRETCH: usize = 64;
+const STRETCH_COST: usize = 64;
 
 /// Greatest work, as a multiple of the number of cells. Beyond it the method gives up, because a queue would be done by
 /// then.
-const MOST_WORK: usize = 5;
+const MAX_WORK_PER_CELL: usize = 5;
 
 /// Labels every cell that a wave from `sources` (free cells) reaches over shared sides, and all others with
 /// [`UNREACHED`]. Returns `None` if the method turns out to be slow.
@@ -30,23 +30,23 @@ const MOST_WORK: usize = 5;
 pub(super) fn run_wave(free: &FreeCells, sources: &[usize]) -> Option<Vec<u32>> {
     let [rows, columns] = free.cells();
     let mut labels = vec![UNREACHED; rows * columns];
-    let most = MOST_WORK.saturating_mul(labels.len().max(STRETCH));
+    let most = MAX_WORK_PER_CELL.saturating_mul(labels.len().max(STRETCH_COST));
     let mut wave = RunWave { free, labels: &mut labels, queue: Queue::new(columns), work: 0 };
     // The sources are added one after the other, so rows keep the property.
     for &source in sources {
         wave.labels[source] = 0;
         let (row, column) = (source / columns, source % columns);
-        wave.queue.push(0, Stretch { row, columns: column..column + 1, ways: Ways::BOTH });
-        wave.spread(row, column, Side::Before, 1, Ways::BOTH);
-        wave.spread(row, column + 1, Side::After, 1, Ways::BOTH);
+        wave.queue.push(0, Stretch { row, columns: column..column + 1, rows: AffectedRows::BOTH });
+        wave.spread(row, column, Side::Before, 1, AffectedRows::BOTH);
+        wave.spread(row, column + 1, Side::After, 1, AffectedRows::BOTH);
     }
     while let Some(stretch) = wave.queue.pop() {
         let [before, after] = free.beside(0, stretch.row);
-        if let Some(to) = before.filter(|_| stretch.ways.before) {
-            wave.pass_on(&stretch, to, Ways { before: true, after: false });
+        if let Some(to) = before.filter(|_| stretch.rows.before) {
+            wave.pass_on(&stretch, to, AffectedRows { before: true, after: false });
         }
-        if let Some(to) = after.filter(|_| stretch.ways.after) {
-            wave.pass_on(&stretch, to, Ways { before: false, after: true });
+        if let Some(to) = after.filter(|_| stretch.rows.after) {
+            wave.pass_on(&stretch, to, AffectedRows { before: false, after: true });
         }
         if wave.work > most {
             return None;
@@ -57,13 +57,13 @@ pub(super) fn run_wave(free: &FreeCells, sources: &[usize]) -> Option<Vec<u32>> 
 
 /// The neighbouring rows to which a change is passed on.
 #[derive(Debug, Clone, Copy)]
-struct Ways {
+struct AffectedRows {
     before: bool,
     after: bool,
 }
 
-impl Ways {
-    const BOTH: Ways = Ways { before: true, after: true };
+impl AffectedRows {
+    const BOTH: AffectedRows = AffectedRows { before: true, after: true };
 
     fn opposite(self) -> Self {
         Self { before: self.after, after: self.before }
@@ -75,7 +75,7 @@ impl Ways {
 struct Stretch {
     row: usize,
     columns: Range<usize>,
-    ways: Ways,
+    rows: AffectedRows,
 }
 
 /// A direction along a row.
@@ -89,15 +89,15 @@ struct RunWave<'a> {
     free: &'a FreeCells,
     labels: &'a mut [u32],
     queue: Queue,
-    /// Work so far, in cells; see [`STRETCH`].
+    /// Work so far, in cells; see [`STRETCH_COST`].
     work: usize,
 }
 
 impl RunWave<'_> {
     /// Improves row `to`, next to that of the stretch, and queues the changes there.
-    fn pass_on(&mut self, stretch: &Stretch, to: usize, ways: Ways) {
+    fn pass_on(&mut self, stretch: &Stretch, to: usize, rows: AffectedRows) {
         let (from, columns) = (stretch.row, self.free.cells()[1]);
-        self.work += STRETCH;
+        self.work += STRETCH_COST;
         // This is a circle of one row.
         if from == to {
             return;
@@ -117,30 +117,30 @@ impl RunWave<'_> {
             // Changes along the row lie beside blocked cells, and can get behind them, so they are also passed back.
             if first == start {
                 let value = self.labels[to * columns + first] + 1;
-                changed.start = self.spread(to, first, Side::Before, value, ways.opposite());
+                changed.start = self.spread(to, first, Side::Before, value, rows.opposite());
             }
             if last == end {
                 let value = self.labels[to * columns + last - 1] + 1;
-                changed.end = self.spread(to, last, Side::After, value, ways.opposite());
+                changed.end = self.spread(to, last, Side::After, value, rows.opposite());
             }
-            self.queue.push(least, Stretch { row: to, columns: changed, ways });
+            self.queue.push(least, Stretch { row: to, columns: changed, rows });
         }
     }
 
-    /// Improves a row from `edge` to one side with `value`, `value + 1`, ..., and queues the changes for `ways`; beyond
+    /// Improves a row from `edge` to one side with `value`, `value + 1`, ..., and queues the changes for `rows`; beyond
     /// a seam for both rows. Returns the new edge on this side of the seam.
-    fn spread(&mut self, row: usize, edge: usize, side: Side, value: u32, ways: Ways) -> usize {
+    fn spread(&mut self, row: usize, edge: usize, side: Side, value: u32, rows: AffectedRows) -> usize {
         let columns = self.free.cells()[1];
         let limit = if side == Side::Before { 0 } else { columns };
-        let (here, next) = self.rise(row, edge, side, value, ways);
+        let (here, next) = self.rise(row, edge, side, value, rows);
         if here == limit && self.free.circles()[1] {
-            self.rise(row, columns - limit, side, next, Ways::BOTH);
+            self.rise(row, columns - limit, side, next, AffectedRows::BOTH);
         }
         here
     }
 
     /// Does the same up to a limit or the seam. Returns the new edge and the next value.
-    fn rise(&mut self, row: usize, edge: usize, side: Side, value: u32, ways: Ways) -> (usize, u32) {
+    fn rise(&mut self, row: usize, edge: usize, side: Side, value: u32, rows: AffectedRows) -> (usize, u32) {
         let columns = self.free.cells()[1];
         let run = match side {
             Side::Before => self.free.run_start(row, edge)..edge,
@@ -163,7 +163,7 @@ impl RunWave<'_> {
         self.work += changed.len();
         let (next, here) = (label(changed.len()), if side == Side::Before { changed.start } else { changed.end });
         if !changed.is_empty() {
-            self.queue.push(value, Stretch { row, columns: changed, ways });
+            self.queue.push(value, Stretch { row, columns: changed, rows });
         }
         (here, next)
     }
@@ -215,14 +215,14 @@ impl Queue {
     /// Creates the queue. A stretch is at most as long as a row, and its labels increase by at most one per cell, which
     /// bounds how far ahead labels can be.
     fn new(columns: usize) -> Self {
-        Self { buckets: vec![Vec::new(); columns / BUCKET + 3], current: 0, waiting: 0 }
+        Self { buckets: vec![Vec::new(); columns / LEVELS_PER_BUCKET + 3], current: 0, waiting: 0 }
     }
 
     /// Queues a stretch. It is out of order if its label is below the current ones, or too far ahead, which costs only
     /// time.
     fn push(&mut self, label: u32, stretch: Stretch) {
         let ring = self.buckets.len();
-        let bucket = (label as usize / BUCKET).clamp(self.current, self.current + ring - 1);
+        let bucket = (label as usize / LEVELS_PER_BUCKET).clamp(self.current, self.current + ring - 1);
         self.buckets[bucket % ring].push(stretch);
         self.waiting += 1;
     }

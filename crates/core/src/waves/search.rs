@@ -5,7 +5,7 @@
 
 use super::deepening::deepen;
 use super::{FreeCells, Neighborhood, UNREACHED};
-use cplan_geometry::{OpenList, Ordered};
+use cplan_geometry::{OpenList, OrderedF64};
 use cplan_interrupt::checkpoint;
 use serde::{Deserialize, Serialize};
 use std::cmp::Reverse;
@@ -97,7 +97,7 @@ pub struct Search {
     /// Cells that were expanded, each once, in the order of their first expansion.
     pub expanded: Vec<u32>,
     /// Cells that were put on the list, sources included.
-    pub labelled: usize,
+    pub labeled: usize,
     /// The target that ended the search, if it met one.
     pub met: Option<usize>,
     /// Number of rounds: 1, except for iterative deepening.
@@ -136,7 +136,7 @@ impl Search {
             deepen(&mut search, free, neighborhood, &sources, &targets);
             return search;
         }
-        let mut open = Open::new(order);
+        let mut open = OpenCells::new(order);
         let estimate = |cell: usize| match order {
             Order::AStar(_) | Order::Greedy => {
                 let costs = targets.iter().map(|&target| straight_cost(free, neighborhood, cell, target));
@@ -165,7 +165,7 @@ impl Search {
                 let reached = cost.and(Cost { straight, diagonal });
                 let is_new = search.parents[next.to] == UNREACHED;
                 if is_new || (open.relaxes() && reached.value() < search.costs[next.to].value()) {
-                    search.labelled += usize::from(is_new);
+                    search.labeled += usize::from(is_new);
                     search.parents[next.to] = cell as u32;
                     search.costs[next.to] = reached;
                     open.push(next.to, reached, estimate(next.to));
@@ -188,8 +188,8 @@ impl Search {
                 begins.push(source);
             }
         }
-        let labelled = begins.len();
-        (Self { costs, parents, expanded: Vec::new(), labelled, met: None, rounds: 1, expansions: 0 }, begins)
+        let labeled = begins.len();
+        (Self { costs, parents, expanded: Vec::new(), labeled, met: None, rounds: 1, expansions: 0 }, begins)
     }
 
     /// Returns the cost of the path by which `cell` was reached. It is a shortest path for cells that Dijkstra or A\*
@@ -208,7 +208,7 @@ impl Search {
 
     /// Returns the cells from `cell` back to the source, if it was reached.
     #[must_use]
-    pub fn way_back(&self, cell: usize) -> Option<Vec<usize>> {
+    pub fn path_back(&self, cell: usize) -> Option<Vec<usize>> {
         if self.parents[cell] == UNREACHED {
             return None;
         }
@@ -238,19 +238,19 @@ fn straight_cost(free: &FreeCells, neighborhood: Neighborhood, from: usize, to: 
 }
 
 /// A waiting cell, by estimate; among equals by [`Ties`].
-type Waiting = (Reverse<Ordered>, Reverse<u64>, usize, [u32; 2]);
+type WaitingCell = (Reverse<OrderedF64>, Reverse<u64>, usize, [u32; 2]);
 
 /// The list of cells that wait for expansion.
-enum Open {
+enum OpenCells {
     Queue(VecDeque<(usize, Cost)>),
     Stack(Vec<(usize, Cost)>),
     /// The least first. The number counts the cells that were added.
-    Least(OpenList<Waiting>, Ties, u64),
+    Least(OpenList<WaitingCell>, Ties, u64),
     /// The least rest first, and the latest of equals. The number counts the cells that were added.
-    Nearest(OpenList<Waiting>, u64),
+    Nearest(OpenList<WaitingCell>, u64),
 }
 
-impl Open {
+impl OpenCells {
     fn new(order: Order) -> Self {
         match order {
             Order::BreadthFirst => Self::Queue(VecDeque::new()),
@@ -277,12 +277,12 @@ impl Open {
                     Ties::Farthest => (cost.value(), *count),
                     Ties::First => (0.0, u64::MAX - *count),
                 };
-                let tie = (Reverse(Ordered(farther)), Reverse(turn));
+                let tie = (Reverse(OrderedF64(farther)), Reverse(turn));
                 open.push(cost.and(rest).value(), (tie.0, tie.1, cell, [cost.straight, cost.diagonal]));
             }
             Self::Nearest(open, count) => {
                 *count += 1;
-                let tie = (Reverse(Ordered(0.0)), Reverse(*count));
+                let tie = (Reverse(OrderedF64(0.0)), Reverse(*count));
                 open.push(rest.value(), (tie.0, tie.1, cell, [cost.straight, cost.diagonal]));
             }
         }

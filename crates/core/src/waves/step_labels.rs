@@ -7,7 +7,7 @@ use super::{FreeCells, Neighborhood, UNREACHED};
 
 /// Mean length of runs of free cells above which the wave works run by run. In narrower mazes and in noise, tile by
 /// tile is faster.
-const RUN: usize = 40;
+const MIN_MEAN_RUN: usize = 40;
 
 /// The least number of moves from each cell to a source: the navigation function whose level sets a wave passes through
 /// (Latombe 1991).
@@ -28,7 +28,7 @@ impl StepLabels {
         let sources: Vec<usize> = sources.iter().copied().filter(|&source| free.is_free(source)).collect();
         let labels = match neighborhood {
             Neighborhood::Eight => queue_wave_of_eight(free, &sources),
-            Neighborhood::Four if free.count() < RUN * free.runs() => tile_wave(free, &sources),
+            Neighborhood::Four if free.count() < MIN_MEAN_RUN * free.runs() => tile_wave(free, &sources),
             Neighborhood::Four => run_wave(free, &sources).unwrap_or_else(|| tile_wave(free, &sources)),
         };
         Self { neighborhood, labels }

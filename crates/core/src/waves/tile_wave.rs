@@ -3,14 +3,14 @@
 use super::{FreeCells, UNREACHED};
 use std::collections::VecDeque;
 
-/// Rows and columns of a tile. Its cell `(i, j)` is bit `SIDE i + j`.
-const SIDE: usize = 8;
+/// Rows and columns of a tile. Its cell `(i, j)` is bit `TILE_SIDE i + j`.
+const TILE_SIDE: usize = 8;
 
 /// The first row of a tile.
-const ROW: u64 = 0xff;
+const FIRST_ROW: u64 = 0xff;
 
 /// The first column of a tile.
-const COLUMN: u64 = 0x0101_0101_0101_0101;
+const FIRST_COLUMN: u64 = 0x0101_0101_0101_0101;
 
 /// Labels every cell that a wave from `sources` (free cells) reaches over shared sides, and all others with
 /// [`UNREACHED`].
@@ -23,7 +23,7 @@ pub(super) fn tile_wave(free: &FreeCells, sources: &[usize]) -> Vec<u32> {
     let mut wave = TileWave::new(free);
     for &source in sources {
         let (i, j) = (source / columns, source % columns);
-        wave.enter(0, i / SIDE * wave.across + j / SIDE, 1 << (i % SIDE * SIDE + j % SIDE));
+        wave.enter(0, i / TILE_SIDE * wave.across + j / TILE_SIDE, 1 << (i % TILE_SIDE * TILE_SIDE + j % TILE_SIDE));
     }
     while let Some([tile, level]) = wave.queue.pop_front() {
         let at = &mut wave.tiles[tile as usize];
@@ -31,7 +31,7 @@ pub(super) fn tile_wave(free: &FreeCells, sources: &[usize]) -> Vec<u32> {
         let mut left = front;
         while left != 0 {
             let bit = left.trailing_zeros() as usize;
-            labels[at.corner as usize + bit / SIDE * columns + bit % SIDE] = level;
+            labels[at.corner as usize + bit / TILE_SIDE * columns + bit % TILE_SIDE] = level;
             left &= left - 1;
         }
         wave.advance(tile as usize, front, level + 1);
@@ -66,19 +66,19 @@ struct TileWave {
 impl TileWave {
     fn new(free: &FreeCells) -> Self {
         let [rows, columns] = free.cells();
-        let across = columns.div_ceil(SIDE);
-        let mut tiles = vec![Tile::default(); rows.div_ceil(SIDE) * across];
+        let across = columns.div_ceil(TILE_SIDE);
+        let mut tiles = vec![Tile::default(); rows.div_ceil(TILE_SIDE) * across];
         for (k, tile) in tiles.iter_mut().enumerate() {
             let (i, j) = (k / across, k % across);
-            (tile.corner, tile.column) = ((i * SIDE * columns + j * SIDE) as u32, j as u32);
+            (tile.corner, tile.column) = ((i * TILE_SIDE * columns + j * TILE_SIDE) as u32, j as u32);
         }
         for (i, words) in free.bits().chunks_exact(free.words().max(1)).enumerate() {
-            let line = &mut tiles[i / SIDE * across..(i / SIDE + 1) * across];
+            let line = &mut tiles[i / TILE_SIDE * across..(i / TILE_SIDE + 1) * across];
             for (tile, byte) in line.iter_mut().zip(words.iter().flat_map(|word| word.to_le_bytes())) {
-                tile.waiting |= u64::from(byte) << (i % SIDE * SIDE);
+                tile.waiting |= u64::from(byte) << (i % TILE_SIDE * TILE_SIDE);
             }
         }
-        let last = free.cells().map(|n| n.wrapping_sub(1) % SIDE);
+        let last = free.cells().map(|n| n.wrapping_sub(1) % TILE_SIDE);
         Self { tiles, across, queue: VecDeque::new(), circles: free.circles(), last }
     }
 
@@ -102,26 +102,26 @@ impl TileWave {
     fn advance(&mut self, tile: usize, front: u64, level: u32) {
         let (size, across) = (self.tiles.len(), self.across);
         let column = self.tiles[tile].column as usize;
-        let (first_column, last_column) = (front & COLUMN, front >> (SIDE - 1) & COLUMN);
-        let sideways = (front & !(COLUMN << (SIDE - 1))) << 1 | (front & !COLUMN) >> 1;
-        self.enter(level, tile, front << SIDE | front >> SIDE | sideways);
+        let (first_column, last_column) = (front & FIRST_COLUMN, front >> (TILE_SIDE - 1) & FIRST_COLUMN);
+        let sideways = (front & !(FIRST_COLUMN << (TILE_SIDE - 1))) << 1 | (front & !FIRST_COLUMN) >> 1;
+        self.enter(level, tile, front << TILE_SIDE | front >> TILE_SIDE | sideways);
         if tile >= across {
-            if front & ROW != 0 {
-                self.enter(level, tile - across, front << (SIDE * (SIDE - 1)));
+            if front & FIRST_ROW != 0 {
+                self.enter(level, tile - across, front << (TILE_SIDE * (TILE_SIDE - 1)));
             }
         } else if self.circles[0] {
-            self.enter(level, tile + size - across, (front & ROW) << (SIDE * self.last[0]));
+            self.enter(level, tile + size - across, (front & FIRST_ROW) << (TILE_SIDE * self.last[0]));
         }
         if tile + across < size {
-            if front >> (SIDE * (SIDE - 1)) != 0 {
-                self.enter(level, tile + across, front >> (SIDE * (SIDE - 1)));
+            if front >> (TILE_SIDE * (TILE_SIDE - 1)) != 0 {
+                self.enter(level, tile + across, front >> (TILE_SIDE * (TILE_SIDE - 1)));
             }
         } else if self.circles[0] {
-            self.enter(level, column, front >> (SIDE * self.last[0]) & ROW);
+            self.enter(level, column, front >> (TILE_SIDE * self.last[0]) & FIRST_ROW);
         }
         if column > 0 {
             if first_column != 0 {
-                self.enter(level, tile - 1, first_column << (SIDE - 1));
+                self.enter(level, tile - 1, first_column << (TILE_SIDE - 1));
             }
         } else if self.circles[1] {
             self.enter(level, tile + across - 1, first_column << self.last[1]);
@@ -131,7 +131,7 @@ impl TileWave {
                 self.enter(level, tile + 1, last_column);
             }
         } else if self.circles[1] {
-            self.enter(level, tile - column, front >> self.last[1] & COLUMN);
+            self.enter(level, tile - column, front >> self.last[1] & FIRST_COLUMN);
         }
     }
 }

@@ -4,14 +4,14 @@ use super::tags::cut;
 use crate::Error;
 
 /// First bytes of the binary form.
-const SENTINEL: &[u8] = b"AutoCAD Binary DXF\r\n\x1a\0";
+const BINARY_SENTINEL: &[u8] = b"AutoCAD Binary DXF\r\n\x1a\0";
 
 /// Converts a binary DXF to the equivalent text. Returns `None` if the bytes are not a binary DXF.
 ///
 /// # Errors
 /// If the file ends within a group.
 pub(super) fn as_text(bytes: &[u8]) -> Result<Option<Vec<u8>>, Error> {
-    let Some(mut rest) = bytes.strip_prefix(SENTINEL) else { return Ok(None) };
+    let Some(mut rest) = bytes.strip_prefix(BINARY_SENTINEL) else { return Ok(None) };
     // Since release 13 codes have two bytes: the first one, 0, shows it.
     let is_wide = rest.starts_with(&[0, 0]);
     let mut text = Vec::with_capacity(2 * bytes.len());

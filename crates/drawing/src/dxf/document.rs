@@ -25,7 +25,7 @@ pub(super) struct Document<'a> {
     /// The stated unit, if cplan does not know it.
     pub unread_unit: Option<Tag<'a>>,
     /// Layers that are hidden, in capitals, because names do not distinguish upper and lower case.
-    hidden: HashMap<String, Hidden>,
+    hidden: HashMap<String, HiddenReason>,
     /// Blocks by name in capitals.
     pub blocks: HashMap<String, Block<'a>>,
     pub entities: Vec<Entity<'a>>,
@@ -37,7 +37,7 @@ pub(super) struct Document<'a> {
 
 /// The reason why a layer is hidden.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Hidden {
+enum HiddenReason {
     /// Off or never printed. Hides entities on the layer itself.
     Off,
     /// Frozen. Hides insertions on the layer as well.
@@ -45,7 +45,7 @@ enum Hidden {
 }
 
 /// The layer that CAD programs use for definition points of dimensions. It is never printed.
-const UNPRINTED: &str = "DEFPOINTS";
+const UNPRINTED_LAYER: &str = "DEFPOINTS";
 
 impl<'a> Document<'a> {
     /// Reads the relevant sections. All other sections have no meaning in the plane.
@@ -116,7 +116,7 @@ impl<'a> Document<'a> {
 
     /// Returns true if insertions on a layer are hidden, too.
     pub fn freezes(&self, layer: &str) -> bool {
-        self.hidden.get(&layer.to_uppercase()) == Some(&Hidden::Frozen)
+        self.hidden.get(&layer.to_uppercase()) == Some(&HiddenReason::Frozen)
     }
 }
 
@@ -129,12 +129,12 @@ fn unit<'a>(header: &[Tag<'a>]) -> Result<(Option<Unit>, Option<Tag<'a>>), Error
     Ok((unit, value.copied().filter(|_| unit.is_none() && code != 0.0)))
 }
 
-fn hidden(tables: &[Record]) -> Result<HashMap<String, Hidden>, Error> {
-    let mut hidden = HashMap::from([(UNPRINTED.to_owned(), Hidden::Off)]);
+fn hidden(tables: &[Record]) -> Result<HashMap<String, HiddenReason>, Error> {
+    let mut hidden = HashMap::from([(UNPRINTED_LAYER.to_owned(), HiddenReason::Off)]);
     for layer in tables.iter().filter(|record| record.kind == "LAYER") {
         let why = match (layer.flag(1)?, layer.integer_or(62, 7)? < 0) {
-            (true, _) => Hidden::Frozen,
-            (false, true) => Hidden::Off,
+            (true, _) => HiddenReason::Frozen,
+            (false, true) => HiddenReason::Off,
             (false, false) => continue,
         };
         hidden.extend(layer.text(2).map(|name| (name.to_uppercase(), why)));

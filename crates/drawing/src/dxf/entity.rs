@@ -2,9 +2,9 @@
 
 use super::document::Entity;
 use super::tags::Record;
-use super::{Place, Reader, oriented, upwards};
+use super::{BlockPlacement, Reader, oriented, upwards};
 use crate::curve::{Ellipse, Spline, bulge, cubic};
-use crate::interpolation::{Ends, interpolated};
+use crate::interpolation::{EndConditions, interpolated};
 use crate::map::Map;
 use crate::sheet::{Origin, once};
 use crate::stroke::{Piece, covered};
@@ -20,7 +20,12 @@ struct Corner {
 
 impl<'a> Reader<'_, 'a> {
     /// Adds an entity to the sheet, or adds a note about the omission.
-    pub(super) fn entity(&mut self, entity: &Entity<'a>, place: &Place<'a>, origin: &Origin) -> Result<(), Error> {
+    pub(super) fn entity(
+        &mut self,
+        entity: &Entity<'a>,
+        place: &BlockPlacement<'a>,
+        origin: &Origin,
+    ) -> Result<(), Error> {
         let record = entity.record;
         if is_tilted(&record)? {
             self.sheet.leave_out(&format!("{} across the plane", record.kind), origin);
@@ -66,7 +71,7 @@ impl<'a> Reader<'_, 'a> {
         }
     }
 
-    fn open(&mut self, points: Vec<Point>, place: &Place, origin: &Origin) -> Result<(), Error> {
+    fn open(&mut self, points: Vec<Point>, place: &BlockPlacement, origin: &Origin) -> Result<(), Error> {
         let group = self.group(place, origin);
         self.sheet.open(points, group, origin)
     }
@@ -77,7 +82,7 @@ impl<'a> Reader<'_, 'a> {
         corners: &[Corner],
         is_closed: bool,
         map: &Map,
-        place: &Place,
+        place: &BlockPlacement,
         origin: &Origin,
     ) -> Result<(), Error> {
         let [first, ..] = corners else {
@@ -103,7 +108,7 @@ impl<'a> Reader<'_, 'a> {
         ways: &[(&Corner, &Corner)],
         is_closed: bool,
         map: &Map,
-        place: &Place,
+        place: &BlockPlacement,
         origin: &Origin,
     ) -> Result<(), Error> {
         let ways: Vec<_> = ways.iter().filter(|(from, to)| from.at != to.at).collect();
@@ -137,18 +142,24 @@ impl<'a> Reader<'_, 'a> {
     }
 
     /// Adds a polyline of the older form, whose vertices are separate records.
-    fn old_polyline(&mut self, entity: &Entity, map: &Map, place: &Place, origin: &Origin) -> Result<(), Error> {
-        const MESHES: i64 = 16 | 64;
-        const CONTROL: i64 = 16;
+    fn old_polyline(
+        &mut self,
+        entity: &Entity,
+        map: &Map,
+        place: &BlockPlacement,
+        origin: &Origin,
+    ) -> Result<(), Error> {
+        const MESH_FLAGS: i64 = 16 | 64;
+        const CONTROL_POINT_FLAG: i64 = 16;
         let record = entity.record;
-        if record.flag(MESHES)? {
+        if record.flag(MESH_FLAGS)? {
             self.sheet.leave_out("POLYLINE that is a mesh", origin);
             return Ok(());
         }
         let widths = [record.number_or(40, 0.0)?, record.number_or(41, 0.0)?];
         let mut corners = Vec::new();
         for vertex in entity.parts.iter().filter(|part| part.kind == "VERTEX") {
-            if !vertex.flag(CONTROL)? {
+            if !vertex.flag(CONTROL_POINT_FLAG)? {
                 let widths = [vertex.number_or(40, widths[0])?.abs(), vertex.number_or(41, widths[1])?.abs()];
                 corners.push(Corner { at: vertex.point(10)?, bulge: vertex.number_or(42, 0.0)?, widths });
             }
@@ -157,10 +168,17 @@ impl<'a> Reader<'_, 'a> {
     }
 
     /// Adds an elliptical arc between two parameters, or the whole ellipse.
-    fn arc(&mut self, ellipse: &Ellipse, from: f64, to: f64, place: &Place, origin: &Origin) -> Result<(), Error> {
-        const WHOLE: f64 = 1e-9;
+    fn arc(
+        &mut self,
+        ellipse: &Ellipse,
+        from: f64,
+        to: f64,
+        place: &BlockPlacement,
+        origin: &Origin,
+    ) -> Result<(), Error> {
+        const WHOLE_TURN_TOLERANCE: f64 = 1e-9;
         let turn = (to - from).rem_euclid(TAU);
-        if !(WHOLE..=TAU - WHOLE).contains(&turn) {
+        if !(WHOLE_TURN_TOLERANCE..=TAU - WHOLE_TURN_TOLERANCE).contains(&turn) {
             return self.sheet.ellipse(ellipse, origin);
         }
         let points = self.sheet.chords(ellipse.arc(from, turn, self.sheet.tolerance), origin)?;
@@ -168,7 +186,7 @@ impl<'a> Reader<'_, 'a> {
         self.open(points, place, origin)
     }
 
-    fn spline(&mut self, record: &Record, map: &Map, place: &Place, origin: &Origin) -> Result<(), Error> {
+    fn spline(&mut self, record: &Record, map: &Map, place: &BlockPlacement, origin: &Origin) -> Result<(), Error> {
         let control: Vec<Point> = record.points(10)?.into_iter().map(|p| map.point(p)).collect();
         let weights = record.numbers(41)?;
         let weights = if weights.is_empty() { vec![1.0; control.len()] } else { weights };
@@ -186,12 +204,13 @@ impl<'a> Reader<'_, 'a> {
     }
 
     /// Adds a spline that the file gives only by its fit points.
-    fn fitted(&mut self, record: &Record, map: &Map, place: &Place, origin: &Origin) -> Result<(), Error> {
-        const CLOSED: i64 = 1 | 2;
-        let is_closed = record.flag(CLOSED)?;
+    fn fitted(&mut self, record: &Record, map: &Map, place: &BlockPlacement, origin: &Origin) -> Result<(), Error> {
+        const CLOSED_FLAGS: i64 = 1 | 2;
+        let is_closed = record.flag(CLOSED_FLAGS)?;
         let fit = once(record.points(11)?, is_closed);
         let direction = |code: i32| record.number(code)?.map(|_| record.point(code)).transpose();
-        let ends = if is_closed { Ends::Closed } else { Ends::Open([direction(12)?, direction(13)?]) };
+        let ends =
+            if is_closed { EndConditions::Closed } else { EndConditions::Open([direction(12)?, direction(13)?]) };
         let mut points: Vec<Point> = fit.first().map(|&p| map.point(p)).into_iter().collect();
         for piece in interpolated(&fit, ends) {
             let piece = cubic(piece.map(|p| map.point(p)), self.sheet.tolerance);
@@ -213,9 +232,9 @@ fn size(record: &Record, code: i32) -> Result<f64, Error> {
 
 /// Returns true if its own z axis is not that of the drawing.
 fn is_tilted(record: &Record) -> Result<bool, Error> {
-    const ALONG: f64 = 1e-6;
+    const NORMAL_TOLERANCE: f64 = 1e-6;
     let [x, y] = [record.number_or(210, 0.0)?, record.number_or(220, 0.0)?];
-    Ok(x.hypot(y) > ALONG)
+    Ok(x.hypot(y) > NORMAL_TOLERANCE)
 }
 
 /// Returns the corners of a polyline in one record.

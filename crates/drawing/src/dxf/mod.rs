@@ -13,9 +13,9 @@ use std::collections::HashMap;
 use tags::Tag;
 
 /// Greatest depth of nested insertions; CAD programs allow fewer.
-const DEEPEST: usize = 64;
+const MAX_INSERTION_DEPTH: usize = 64;
 /// Greatest number of entities after all blocks are inserted.
-const MOST_ENTITIES: usize = 1 << 20;
+const MAX_ENTITIES: usize = 1 << 20;
 
 /// Reads a DXF.
 ///
@@ -42,14 +42,14 @@ pub(crate) fn read(bytes: &[u8], settings: &Settings) -> Result<Drawing, Error> 
     });
     let mut reader = Reader { document: &document, sheet, groups: HashMap::new(), instances: 0, entities: 0 };
     let scale = unit.metres() * settings.scale;
-    let place = Place { map: Map::scaling(scale, scale), up: [scale, 0.0], ..Place::default() };
+    let place = BlockPlacement { map: Map::scaling(scale, scale), up: [scale, 0.0], ..BlockPlacement::default() };
     reader.all(&document.entities, &place, &mut Vec::new())?;
     Ok(reader.sheet.finish())
 }
 
 /// Placement of a block's entities, accumulated from its insertions.
 #[derive(Debug, Clone)]
-struct Place<'a> {
+struct BlockPlacement<'a> {
     map: Map,
     /// Factor and offset of heights.
     up: [f64; 2],
@@ -66,7 +66,7 @@ struct Place<'a> {
     frame: Option<Frame>,
 }
 
-impl Default for Place<'_> {
+impl Default for BlockPlacement<'_> {
     fn default() -> Self {
         Self { map: Map::IDENTITY, up: [1.0, 0.0], name: None, layer: None, instance: 0, frozen: None, frame: None }
     }
@@ -83,12 +83,17 @@ struct Reader<'d, 'a> {
 
 impl<'d, 'a> Reader<'d, 'a> {
     /// Reads entities at a place, `within` blocks of these names.
-    fn all(&mut self, entities: &'d [Entity<'a>], place: &Place<'a>, within: &mut Vec<String>) -> Result<(), Error> {
+    fn all(
+        &mut self,
+        entities: &'d [Entity<'a>],
+        place: &BlockPlacement<'a>,
+        within: &mut Vec<String>,
+    ) -> Result<(), Error> {
         for entity in entities {
             self.entities += 1;
             let record = entity.record;
-            if self.entities > MOST_ENTITIES {
-                let message = format!("with all blocks inserted the drawing has more than {MOST_ENTITIES} entities");
+            if self.entities > MAX_ENTITIES {
+                let message = format!("with all blocks inserted the drawing has more than {MAX_ENTITIES} entities");
                 return Err(Error::new(record.line, message, "remove parts that the arm cannot reach"));
             }
             if record.integer_or(67, 0)? == 1 {
@@ -108,7 +113,7 @@ impl<'d, 'a> Reader<'d, 'a> {
     }
 
     /// Returns the origin of an entity: its name, layer and line.
-    fn origin(&self, entity: &Entity<'a>, place: &Place<'a>) -> Result<Origin, Error> {
+    fn origin(&self, entity: &Entity<'a>, place: &BlockPlacement<'a>) -> Result<Origin, Error> {
         let record = entity.record;
         let layer = layer(entity, place);
         let thickness = record.number_or(39, 0.0)?;
@@ -128,14 +133,19 @@ impl<'d, 'a> Reader<'d, 'a> {
     }
 
     /// Returns the number of the group of curves that may be joined with entities of a layer.
-    fn group(&mut self, place: &Place, origin: &Origin) -> usize {
+    fn group(&mut self, place: &BlockPlacement, origin: &Origin) -> usize {
         let next = self.groups.len();
         let layer = origin.layer.clone().unwrap_or_default();
         *self.groups.entry((place.instance, layer)).or_insert(next)
     }
 
     /// Inserts a block, once or in rows and columns.
-    fn insert(&mut self, entity: &Entity<'a>, place: &Place<'a>, within: &mut Vec<String>) -> Result<(), Error> {
+    fn insert(
+        &mut self,
+        entity: &Entity<'a>,
+        place: &BlockPlacement<'a>,
+        within: &mut Vec<String>,
+    ) -> Result<(), Error> {
         let record = entity.record;
         if !entity.parts.is_empty() {
             let origin = Origin { line: Some(entity.parts[0].line), ..self.origin(entity, place)? };
@@ -152,7 +162,7 @@ impl<'d, 'a> Reader<'d, 'a> {
             self.sheet.notes.add(message, Some(record.line));
             return Ok(());
         };
-        if within.contains(&key) || within.len() == DEEPEST {
+        if within.contains(&key) || within.len() == MAX_INSERTION_DEPTH {
             let what = if within.contains(&key) { "contains itself" } else { "is nested too deeply" };
             let message = format!("block \"{name}\" {what}");
             return Err(Error::new(record.line, message, "explode the block, or draw it without itself"));
@@ -179,16 +189,16 @@ impl<'d, 'a> Reader<'d, 'a> {
                 self.instances += 1;
                 // Even an empty block takes time.
                 self.entities += 1;
-                if self.entities > MOST_ENTITIES {
-                    let message =
-                        format!("with all blocks inserted the drawing has more than {MOST_ENTITIES} entities");
+                if self.entities > MAX_ENTITIES {
+                    let message = format!("with all blocks inserted the drawing has more than {MAX_ENTITIES} entities");
                     return Err(Error::new(record.line, message, "remove parts that the arm cannot reach"));
                 }
                 let shift = Map::moving([column as f64 * spacing[0], row as f64 * spacing[1]]);
                 let here = map.after(&at).after(&shift);
                 let frame = place.frame.or(Some(here.frame()));
                 let map = here.after(&own);
-                let inner = Place { map, up, name, layer: Some(layer), instance: self.instances, frozen, frame };
+                let inner =
+                    BlockPlacement { map, up, name, layer: Some(layer), instance: self.instances, frozen, frame };
                 self.all(&block.entities, &inner, within)?;
             }
         }
@@ -198,7 +208,7 @@ impl<'d, 'a> Reader<'d, 'a> {
 }
 
 /// Returns the layer of an entity. Within blocks, layer 0 means the layer of the insertion.
-fn layer<'a>(entity: &Entity<'a>, place: &Place<'a>) -> &'a str {
+fn layer<'a>(entity: &Entity<'a>, place: &BlockPlacement<'a>) -> &'a str {
     let own = entity.record.text(8).unwrap_or("0");
     if own == "0" { place.layer.unwrap_or(own) } else { own }
 }

@@ -17,27 +17,27 @@ use style::Style;
 use svgtypes::{Align, AspectRatio, Length, LengthUnit, PointsParser, Transform, ViewBox};
 
 /// Greatest depth of nested elements.
-const DEEPEST: usize = 128;
+const MAX_ELEMENT_DEPTH: usize = 128;
 /// Greatest number of elements after all uses are resolved.
-const MOST_ELEMENTS: usize = 1 << 20;
-const NAMESPACE: &str = "http://www.w3.org/2000/svg";
-const XLINK: &str = "http://www.w3.org/1999/xlink";
-const INKSCAPE: &str = "http://www.inkscape.org/namespaces/inkscape";
+const MAX_ELEMENTS: usize = 1 << 20;
+const SVG_NAMESPACE: &str = "http://www.w3.org/2000/svg";
+const XLINK_NAMESPACE: &str = "http://www.w3.org/1999/xlink";
+const INKSCAPE_NAMESPACE: &str = "http://www.inkscape.org/namespaces/inkscape";
 
 /// Reads an SVG. The origin is the lower left corner of the page.
 ///
 /// # Errors
 /// If the text is not XML (with its line) or not SVG.
 pub(crate) fn read(text: &str, settings: &Settings) -> Result<Drawing, Error> {
-    const CURE: &str = "save the drawing again, as a plain SVG";
+    const SAVE_HINT: &str = "save the drawing again, as a plain SVG";
     if text.trim().is_empty() {
-        return Err(Error::new(None, "the file is empty", CURE));
+        return Err(Error::new(None, "the file is empty", SAVE_HINT));
     }
     let options = ParsingOptions { allow_dtd: true, ..ParsingOptions::default() };
     let document = Document::parse_with_options(text, options).map_err(|error| {
         let (line, message) = (error.pos().row as usize, error.to_string());
         let message = message.split(" at ").next().unwrap_or_default();
-        Error::new(line, format!("this is not well-formed XML: {message}"), CURE)
+        Error::new(line, format!("this is not well-formed XML: {message}"), SAVE_HINT)
     })?;
     let root = document.root_element();
     if !is_svg(root) || root.tag_name().name() != "svg" {
@@ -45,7 +45,7 @@ pub(crate) fn read(text: &str, settings: &Settings) -> Result<Drawing, Error> {
         return Err(Error::new(1, message, "give an .svg file"));
     }
     let mut styles = StyleSheet::new();
-    let sheets = document.descendants().filter(|node| node.has_tag_name((NAMESPACE, "style")));
+    let sheets = document.descendants().filter(|node| node.has_tag_name((SVG_NAMESPACE, "style")));
     sheets.filter_map(|node| node.text()).for_each(|text| styles.parse_more(text));
     let ends = text.bytes().zip(0..).filter(|(byte, _)| *byte == b'\n').map(|(_, at)| at).collect();
     let ids = document.descendants().filter_map(|node| Some((node.attribute("id")?, node))).collect();
@@ -56,12 +56,12 @@ pub(crate) fn read(text: &str, settings: &Settings) -> Result<Drawing, Error> {
 }
 
 fn is_svg(node: Node) -> bool {
-    node.is_element() && node.tag_name().namespace().is_none_or(|space| space == NAMESPACE)
+    node.is_element() && node.tag_name().namespace().is_none_or(|space| space == SVG_NAMESPACE)
 }
 
 /// Properties inherited within an element.
 #[derive(Debug, Clone)]
-struct Inside {
+struct InheritedProperties {
     map: Map,
     style: Style,
     /// Name of the enclosing group, for elements without a name, or of the `use` element that shows them.
@@ -88,7 +88,7 @@ impl<'a, 'i> Reader<'a, 'i> {
     }
 
     /// Sets up the page: metres, y upwards, from its lower left corner.
-    fn page(&mut self, root: Node<'a, 'i>, settings: &Settings) -> Result<Inside, Error> {
+    fn page(&mut self, root: Node<'a, 'i>, settings: &Settings) -> Result<InheritedProperties, Error> {
         let unit = settings.unit;
         let view: Option<ViewBox> = self.parsed(root, "viewBox")?;
         // These are the parts of a page without a size.
@@ -128,7 +128,7 @@ impl<'a, 'i> Reader<'a, 'i> {
         };
         self.regular(&map, root)?;
         let page = view.map_or(size.unwrap_or(view_size), |view| [view.w, view.h]);
-        Ok(Inside {
+        Ok(InheritedProperties {
             map,
             style: Style::default().of(root, &self.styles),
             name: None,
@@ -177,15 +177,15 @@ impl<'a, 'i> Reader<'a, 'i> {
 
     /// Returns a length in units of its coordinates. Percentages refer to `whole`.
     fn length(&self, node: Node, name: &str, whole: f64) -> Result<Option<f64>, Error> {
-        const INCH: f64 = 96.0;
+        const PIXELS_PER_INCH: f64 = 96.0;
         let Some(Length { number, unit }) = self.parsed(node, name)? else { return Ok(None) };
         let factor = match unit {
             LengthUnit::None | LengthUnit::Px => 1.0,
-            LengthUnit::In => INCH,
-            LengthUnit::Cm => INCH / 2.54,
-            LengthUnit::Mm => INCH / 25.4,
-            LengthUnit::Pt => INCH / 72.0,
-            LengthUnit::Pc => INCH / 6.0,
+            LengthUnit::In => PIXELS_PER_INCH,
+            LengthUnit::Cm => PIXELS_PER_INCH / 2.54,
+            LengthUnit::Mm => PIXELS_PER_INCH / 25.4,
+            LengthUnit::Pt => PIXELS_PER_INCH / 72.0,
+            LengthUnit::Pc => PIXELS_PER_INCH / 6.0,
             LengthUnit::Percent => whole / 100.0,
             LengthUnit::Em | LengthUnit::Ex => {
                 return Err(self.wrong(node, name, node.attribute(name).unwrap_or_default()));
@@ -207,28 +207,30 @@ impl<'a, 'i> Reader<'a, 'i> {
         Err(Error::new(self.line(node), message, "give it a scale (or a viewBox) that is not 0"))
     }
 
-    fn children(&mut self, node: Node<'a, 'i>, inside: &Inside, depth: usize) -> Result<(), Error> {
+    fn children(&mut self, node: Node<'a, 'i>, inside: &InheritedProperties, depth: usize) -> Result<(), Error> {
         node.children().filter(|child| is_svg(*child)).try_for_each(|child| self.element(child, inside, depth + 1))
     }
 
-    fn element(&mut self, node: Node<'a, 'i>, around: &Inside, depth: usize) -> Result<(), Error> {
+    fn element(&mut self, node: Node<'a, 'i>, around: &InheritedProperties, depth: usize) -> Result<(), Error> {
         let (kind, line) = (node.tag_name().name(), self.line(node));
         self.elements += 1;
-        if depth > DEEPEST {
-            let message = format!("<{kind}> is in more than {DEEPEST} others, or uses itself");
+        if depth > MAX_ELEMENT_DEPTH {
+            let message = format!("<{kind}> is in more than {MAX_ELEMENT_DEPTH} others, or uses itself");
             return Err(Error::new(line, message, "ungroup the elements and remove the loop"));
         }
-        if self.elements > MOST_ELEMENTS {
-            let message = format!("with all uses followed the drawing has more than {MOST_ELEMENTS} elements");
+        if self.elements > MAX_ELEMENTS {
+            let message = format!("with all uses followed the drawing has more than {MAX_ELEMENTS} elements");
             return Err(Error::new(line, message, "remove parts that the arm cannot reach"));
         }
         let style = around.style.of(node, &self.styles);
-        let own_name = node.attribute((INKSCAPE, "label")).or(node.attribute("id")).map(str::to_owned);
+        let own_name = node.attribute((INKSCAPE_NAMESPACE, "label")).or(node.attribute("id")).map(str::to_owned);
         let own_name = own_name.filter(|_| !around.is_used);
         let name = own_name.clone().or_else(|| around.name.clone());
         if !style.is_displayed {
-            let hidden =
-                Origin { hidden_by: around.name.clone(), ..origin(kind, line, &Inside { name, ..around.clone() }) };
+            let hidden = Origin {
+                hidden_by: around.name.clone(),
+                ..origin(kind, line, &InheritedProperties { name, ..around.clone() })
+            };
             self.sheet.leave_out("elements not displayed", &hidden);
             return Ok(());
         }
@@ -239,10 +241,10 @@ impl<'a, 'i> Reader<'a, 'i> {
         let Transform { a, b, c, d, e, f } = transform.unwrap_or_default();
         let map = around.map.after(&Map { u: [a, b], v: [c, d], o: [e, f] });
         self.regular(&map, node)?;
-        let mut inside = Inside { map, style, name, ..around.clone() };
+        let mut inside = InheritedProperties { map, style, name, ..around.clone() };
         match kind {
             "g" | "a" | "switch" => {
-                let is_layer = node.attribute((INKSCAPE, "groupmode")) == Some("layer");
+                let is_layer = node.attribute((INKSCAPE_NAMESPACE, "groupmode")) == Some("layer");
                 if is_layer || inside.layer.is_none() && kind == "g" {
                     inside.layer = own_name.clone();
                 }
@@ -297,7 +299,12 @@ impl<'a, 'i> Reader<'a, 'i> {
     }
 
     /// Returns the properties within an `svg` or a `symbol` element of the size that `sized` gives.
-    fn viewport(&self, node: Node<'a, 'i>, sized: Node<'a, 'i>, mut inside: Inside) -> Result<Inside, Error> {
+    fn viewport(
+        &self,
+        node: Node<'a, 'i>,
+        sized: Node<'a, 'i>,
+        mut inside: InheritedProperties,
+    ) -> Result<InheritedProperties, Error> {
         let corner = [0, 1].map(|k| self.length_or_0(node, ["x", "y"][k], inside.page[k]));
         let [x, y] = corner;
         inside.map = inside.map.after(&Map::moving([x?, y?]));
@@ -316,9 +323,15 @@ impl<'a, 'i> Reader<'a, 'i> {
     }
 
     /// Draws the element to which a `use` element refers.
-    fn used(&mut self, node: Node<'a, 'i>, mut inside: Inside, is_named: bool, depth: usize) -> Result<(), Error> {
+    fn used(
+        &mut self,
+        node: Node<'a, 'i>,
+        mut inside: InheritedProperties,
+        is_named: bool,
+        depth: usize,
+    ) -> Result<(), Error> {
         let line = self.line(node);
-        let reference = node.attribute("href").or(node.attribute((XLINK, "href"))).unwrap_or_default();
+        let reference = node.attribute("href").or(node.attribute((XLINK_NAMESPACE, "href"))).unwrap_or_default();
         let Some(&target) = reference.strip_prefix('#').and_then(|id| self.ids.get(id)) else {
             self.sheet
                 .notes
@@ -331,14 +344,14 @@ impl<'a, 'i> Reader<'a, 'i> {
         if target.tag_name().name() != "symbol" {
             return self.element(target, &inside, depth + 1);
         }
-        if depth > DEEPEST {
+        if depth > MAX_ELEMENT_DEPTH {
             return Err(Error::new(line, "<use> uses itself", "remove the loop"));
         }
         let inside = self.viewport(target, node, inside)?;
         self.children(target, &inside, depth + 1)
     }
 
-    fn rect(&mut self, node: Node, inside: &Inside, origin: &Origin) -> Result<(), Error> {
+    fn rect(&mut self, node: Node, inside: &InheritedProperties, origin: &Origin) -> Result<(), Error> {
         let page = inside.page;
         let [x, y] = [self.length_or_0(node, "x", page[0])?, self.length_or_0(node, "y", page[1])?];
         let [w, h] = [self.length_or_0(node, "width", page[0])?, self.length_or_0(node, "height", page[1])?];
@@ -370,10 +383,10 @@ impl<'a, 'i> Reader<'a, 'i> {
         self.sheet.closed(ring, origin)
     }
 
-    fn round(&mut self, node: Node, inside: &Inside, origin: &Origin) -> Result<(), Error> {
+    fn round(&mut self, node: Node, inside: &InheritedProperties, origin: &Origin) -> Result<(), Error> {
         let page = inside.page;
         let center = [self.length_or_0(node, "cx", page[0])?, self.length_or_0(node, "cy", page[1])?];
-        let [rx, ry] = match node.has_tag_name("circle") || node.has_tag_name((NAMESPACE, "circle")) {
+        let [rx, ry] = match node.has_tag_name("circle") || node.has_tag_name((SVG_NAMESPACE, "circle")) {
             true => [self.length_or_0(node, "r", (page[0].hypot(page[1])) / 2.0_f64.sqrt())?; 2],
             false => [self.length_or_0(node, "rx", page[0])?, self.length_or_0(node, "ry", page[1])?],
         };
@@ -407,7 +420,7 @@ impl<'a, 'i> Reader<'a, 'i> {
     }
 }
 
-fn origin(kind: &str, line: usize, inside: &Inside) -> Origin {
+fn origin(kind: &str, line: usize, inside: &InheritedProperties) -> Origin {
     Origin {
         name: inside.name.clone(),
         layer: inside.layer.clone(),

@@ -1,7 +1,7 @@
 //! Path data as chords.
 
 use crate::Point;
-use crate::curve::{Ellipse, TooFine, cubic};
+use crate::curve::{Ellipse, TooFineCurve, cubic};
 use crate::map::Map;
 use std::f64::consts::TAU;
 use svgtypes::{PathParser, PathSegment};
@@ -19,8 +19,8 @@ pub(super) enum PathError {
     TooFine,
 }
 
-impl From<TooFine> for PathError {
-    fn from(_: TooFine) -> Self {
+impl From<TooFineCurve> for PathError {
+    fn from(_: TooFineCurve) -> Self {
         Self::TooFine
     }
 }
@@ -49,7 +49,7 @@ pub(super) fn stretches(data: &str, map: &Map, tolerance: f64) -> Result<Vec<Str
 }
 
 impl Pen<'_> {
-    fn draw(&mut self, segment: PathSegment) -> Result<(), TooFine> {
+    fn draw(&mut self, segment: PathSegment) -> Result<(), TooFineCurve> {
         let here = self.at;
         let to = |abs: bool, x: f64, y: f64| if abs { [x, y] } else { [here[0] + x, here[1] + y] };
         let reflected = |control: Option<Point>| control.map_or(here, |c| [0, 1].map(|k| 2.0 * here[k] - c[k]));
@@ -109,7 +109,7 @@ impl Pen<'_> {
         self.at = end;
     }
 
-    fn curve(&mut self, b: Point, c: Point, d: Point) -> Result<(), TooFine> {
+    fn curve(&mut self, b: Point, c: Point, d: Point) -> Result<(), TooFineCurve> {
         let points = cubic([self.at, b, c, d].map(|p| self.map.point(p)), self.tolerance)?;
         self.begin_stretch().points.extend(points);
         self.at = d;
@@ -118,7 +118,7 @@ impl Pen<'_> {
     }
 
     /// Draws a quadratic curve as a cubic one.
-    fn quadratic(&mut self, b: Point, c: Point) -> Result<(), TooFine> {
+    fn quadratic(&mut self, b: Point, c: Point) -> Result<(), TooFineCurve> {
         let towards = |p: Point| [0, 1].map(|k| p[k] + (b[k] - p[k]) * 2.0 / 3.0);
         self.curve(towards(self.at), towards(c), c)?;
         self.control = [None, Some(b)];

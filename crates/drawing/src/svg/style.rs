@@ -26,7 +26,7 @@ impl Style {
         for attribute in node.attributes().filter(|attribute| attribute.namespace().is_none()) {
             self.set(attribute.name(), attribute.value());
         }
-        for rule in sheet.rules.iter().filter(|rule| rule.selector.matches(&Matched(node))) {
+        for rule in sheet.rules.iter().filter(|rule| rule.selector.matches(&SelectorElement(node))) {
             rule.declarations.iter().for_each(|declared| self.set(declared.name, declared.value));
         }
         for declared in DeclarationTokenizer::from(node.attribute("style").unwrap_or_default()) {
@@ -50,9 +50,9 @@ impl Style {
 }
 
 /// An element in the form that selectors need.
-struct Matched<'a, 'i>(Node<'a, 'i>);
+struct SelectorElement<'a, 'i>(Node<'a, 'i>);
 
-impl Element for Matched<'_, '_> {
+impl Element for SelectorElement<'_, '_> {
     fn parent_element(&self) -> Option<Self> {
         self.0.parent_element().map(Self)
     }

@@ -14,7 +14,7 @@ enum Measure {
 use Measure::{Area, Length};
 
 #[test]
-fn a_cell_by_ezdxf_measures_what_others_measure() {
+fn areas_agree_with_ezdxf() {
     let drawing = read(CELL, Format::Dxf, &Settings::default()).unwrap();
     let expected: [(&str, Option<&str>, Measure); 9] = [
         ("robot", None, Area(156_912.83)),

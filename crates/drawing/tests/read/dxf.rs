@@ -361,7 +361,7 @@ fn an_insertion_hides_its_own_layer_or_all_if_that_is_frozen() {
 }
 
 #[test]
-fn what_is_not_taken_is_told() {
+fn omitted_elements_are_noted() {
     let given = dxf("0 TEXT 8 a 10 0 20 0 1 HELLO 0 MTEXT 8 a 1 x 0 TEXT 8 a 1 y 0 HATCH 8 a 0 3DFACE 8 a \
                      0 LINE 67 1 8 a 10 0 20 0 11 1 21 1 0 INSERT 8 a 2 NOWHERE 10 0 20 0 0 CIRCLE 8 a 10 0 20 0 40 1 \
                      0 LINE 8 a 10 5 20 5 30 0 11 5 21 5 31 9");
@@ -402,7 +402,7 @@ fn binary(text: &str, is_wide: bool) -> Vec<u8> {
 }
 
 #[test]
-fn a_binary_file_is_the_text_that_it_stands_for() {
+fn binary_files_equal_their_text_form() {
     let text = file(
         "0 BLOCK 2 plate 10 0 20 0 0 CIRCLE 8 0 10 5.25 20 -3 40 2.5 0 ENDBLK",
         "0 INSERT 8 jig 2 plate 10 100 20 50 50 30 1071 7 0 LWPOLYLINE 8 belt 90 3 70 1 10 0 20 0 10 40 20 0 10 0 20 30.5",
@@ -420,7 +420,7 @@ fn a_binary_file_is_the_text_that_it_stands_for() {
 }
 
 #[test]
-fn what_follows_the_end_and_circles_of_no_radius_are_notes() {
+fn content_after_the_end_and_empty_circles_are_noted() {
     let text = file("", "0 CIRCLE 8 a 10 1 20 0 40 0 0 CIRCLE 8 a 10 1 20 0 40 5");
     let found = drawing(&(text.clone() + "sent by mail\nyours\n"), Format::Dxf);
     assert_eq!(found.shapes.len(), 1);
@@ -432,7 +432,7 @@ fn what_follows_the_end_and_circles_of_no_radius_are_notes() {
 
 /// An insertion with a clip, one whose clip is off, and one without.
 #[test]
-fn clipped_blocks_are_said_to_be_taken_whole() {
+fn clipped_blocks_are_noted() {
     let insert = |dictionary: &str| format!("0 INSERT 8 a 2 b {dictionary} 10 0 20 0 ");
     let own = |handle: &str| format!("102 {{ACAD_XDICTIONARY 360 {handle} 102 }}");
     let inserts = insert(&own("A1")) + &insert(&own("B1")) + &insert("");

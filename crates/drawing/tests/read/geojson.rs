@@ -37,7 +37,7 @@ fn features_have_names_holes_and_heights() {
 }
 
 #[test]
-fn what_is_wrong_is_named_with_its_place() {
+fn errors_name_their_place() {
     let cases = [
         ("", None, "the file is empty"),
         ("{ \"type\":\n \"Polygon\", ]", Some(2), "this is not JSON"),
@@ -66,7 +66,7 @@ fn what_is_wrong_is_named_with_its_place() {
 }
 
 #[test]
-fn cures_are_for_what_is_wrong() {
+fn hints_match_the_error() {
     let cases = [
         (r#"{"type": "Polygon", "coordinates": {}}"#, "positions as lists"),
         (r#"{"type": "Polygon", "coordinates": [[[0, 0], [1, "x"]]]}"#, "both coordinates as numbers, without quotes"),

@@ -1,7 +1,7 @@
 //! Broken, cut, or endless files are refused, with the place of the defect.
 
 use super::dxf::file;
-use cplan_drawing::{Error, Format, MOST_POINTS, Settings, read};
+use cplan_drawing::{Error, Format, MAX_POINTS, Settings, read};
 
 fn refused(text: &str, format: Format) -> Error {
     let error = read(text.as_bytes(), format, &Settings::default()).expect_err(&text[..text.len().min(200)]);
@@ -120,7 +120,7 @@ fn many_lines_that_meet_in_one_place() {
 
 #[test]
 fn more_than_anyone_can_use() {
-    let many: String = "0,0 1,1 ".repeat(MOST_POINTS / 2 + 1);
+    let many: String = "0,0 1,1 ".repeat(MAX_POINTS / 2 + 1);
     let error = refused(&format!("<svg><polygon points='{many}'/></svg>"), Format::Svg);
     assert!(error.message.contains("points"), "{error:?}");
 }

@@ -87,7 +87,7 @@ fn transforms_are_applied_in_their_order() {
 }
 
 #[test]
-fn the_page_says_how_large_things_are() {
+fn page_size_and_view_box_give_the_scale() {
     let side = |head: &str| {
         let given = drawing(&format!("<svg {head}><rect width='96' height='48'/></svg>"), Format::Svg);
         let ring = ring(one(&given)).clone();
@@ -159,7 +159,7 @@ fn filling_makes_holes_and_closes() {
 }
 
 #[test]
-fn names_layers_uses_and_what_is_not_shown() {
+fn names_layers_uses_and_hidden_elements() {
     let given = svg(
         "<defs><rect id='tile' width='10' height='20'/><symbol id='s' viewBox='0 0 2 2'><circle id='dot' cx='1' cy='1' r='1'/></symbol></defs>\
         <g inkscape:groupmode='layer' inkscape:label='walls' id='layer1'>\

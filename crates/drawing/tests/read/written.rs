@@ -67,7 +67,7 @@ proptest! {
 
     /// Removes parts of a file. The rest is refused, or at least read without a panic.
     #[test]
-    fn nothing_makes_a_reader_panic(bytes in prop::collection::vec(any::<u8>(), 0..400), at in 0_usize..20_000) {
+    fn no_input_makes_a_reader_panic(bytes in prop::collection::vec(any::<u8>(), 0..400), at in 0_usize..20_000) {
         let cell = include_bytes!("../../../../workspaces/drawings/cell.dxf");
         let at = at.min(cell.len());
         let spoiled: Vec<u8> = [&cell[..at], &bytes, &cell[at..]].concat();

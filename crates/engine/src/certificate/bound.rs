@@ -29,34 +29,34 @@ pub(super) struct Potential {
 }
 
 /// Share by which legs count as shorter than they are, ...
-const SHORTER: f64 = 1e-8;
+const LEG_ROUNDING: f64 = 1e-8;
 
 /// ... and the amount subtracted in addition, as a share of the whole length: far above rounding.
-const LESS: f64 = 1e-11;
+const TOTAL_ROUNDING: f64 = 1e-11;
 
 /// Distance from the ends of a wall, as a share of its length, at which a leg must cross it.
-const INSIDE: f64 = 1e-9;
+const WALL_END_MARGIN: f64 = 1e-9;
 
 /// Rounds of dropping walls. Each round drops fewer.
-const ROUNDS: usize = 2;
+const PRUNING_ROUNDS: usize = 2;
 
 /// Largest number of wall ends from which paths are extended.
-const MOST_LOOKED: usize = 20_000;
+const MAX_EXTENDED_ENDS: usize = 20_000;
 
 /// Endpoints and limits of the paths from a start to goals.
-pub(super) struct Ways<'a> {
+pub(super) struct PathLimits<'a> {
     pub topology: &'a Topology,
     pub metric: Metric,
     pub start: Configuration,
     pub goals: &'a [Configuration],
     /// How near to a goal a path may end, as a share of the limit.
-    pub about: f64,
+    pub robot_members: f64,
     /// Longer paths are ignored.
     pub limit: f64,
 }
 
 /// A wall, shifted by whole turns.
-struct Copy {
+struct WallCopy {
     wall: usize,
     turns: [i64; 2],
     ends: [Configuration; 2],
@@ -87,7 +87,7 @@ type Line = (u64, i64);
 
 /// Overlapping walls on one line, from end to end. `beside` lists the walls that end within them, coming from either
 /// side.
-struct Run {
+struct WallRun {
     ends: [f64; 2],
     walls: Vec<usize>,
     beside: [Vec<(f64, usize)>; 2],
@@ -95,12 +95,12 @@ struct Run {
 
 impl LeastLength {
     /// Builds the evidence from these walls. `None` if they give none.
-    pub(super) fn new(ways: &Ways, walls: Vec<ClosedSegment>) -> Option<Self> {
-        let mut plane = Plane::new(ways, &walls);
+    pub(super) fn new(limits: &PathLimits, walls: Vec<ClosedSegment>) -> Option<Self> {
+        let mut plane = Plane::new(limits, &walls);
         let (length, reached) = plane.lengths()?;
-        let length = length - ways.less();
+        let length = length - limits.less();
         // Fewer walls have fewer ends from which paths extend, so even fewer walls are needed.
-        for _ in 0..ROUNDS {
+        for _ in 0..PRUNING_ROUNDS {
             let needed = plane.needed(length, &reached);
             plane.copies.retain(|copy| needed.contains(&copy.wall));
             plane.runs = runs(&plane.copies, &walls);
@@ -117,20 +117,20 @@ impl LeastLength {
     }
 }
 
-impl Ways<'_> {
+impl PathLimits<'_> {
     /// Returns the fixed amount by which every leg, however short, counts as shorter.
     fn less(&self) -> f64 {
-        LESS * self.limit
+        TOTAL_ROUNDING * self.limit
     }
 
     /// Returns the length of a leg as it counts in the evidence.
     fn leg(&self, from: Configuration, to: Configuration) -> f64 {
-        (self.metric.norm(to - from) * (1.0 - SHORTER) - self.less()).max(0.0)
+        (self.metric.norm(to - from) * (1.0 - LEG_ROUNDING) - self.less()).max(0.0)
     }
 
     /// Returns a lower bound on the length from a configuration to a goal, given the displacement between them.
     fn to_goal(&self, displacement: Configuration) -> f64 {
-        (self.metric.norm(displacement) - self.about * self.limit).max(0.0)
+        (self.metric.norm(displacement) - self.robot_members * self.limit).max(0.0)
     }
 
     /// Returns the turns of a joint that shift values from `low` to `high` to where paths can reach.
@@ -142,28 +142,28 @@ impl Ways<'_> {
     }
 }
 
-type Reached = BTreeMap<(usize, usize, [i64; 2]), f64>;
+type ReachedEnds = BTreeMap<(usize, usize, [i64; 2]), f64>;
 
 struct Plane<'a> {
-    ways: &'a Ways<'a>,
+    limits: &'a PathLimits<'a>,
     /// Sorted by the least value of joint 1.
-    copies: Vec<Copy>,
+    copies: Vec<WallCopy>,
     /// Largest extent of a wall along joint 1.
     widest: f64,
-    runs: BTreeMap<Line, Vec<Run>>,
+    runs: BTreeMap<Line, Vec<WallRun>>,
     corners: Vec<Corner>,
     goals: Vec<Configuration>,
 }
 
 impl<'a> Plane<'a> {
-    fn new(ways: &'a Ways<'a>, walls: &[ClosedSegment]) -> Self {
+    fn new(limits: &'a PathLimits<'a>, walls: &[ClosedSegment]) -> Self {
         let shifted = |at: Configuration, turns: [i64; 2]| {
             Configuration::new(at[0] + TAU * turns[0] as f64, at[1] + TAU * turns[1] as f64)
         };
         let on_all_turns = |ends: &[Configuration]| {
             let [first, second] = [0, 1].map(|k| {
                 let values = || ends.iter().map(|end| end[k]);
-                ways.turns(k, values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max))
+                limits.turns(k, values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max))
             });
             let pairs = first.flat_map(move |a| second.clone().map(move |b| [a, b]));
             pairs.collect::<Vec<_>>()
@@ -171,10 +171,10 @@ impl<'a> Plane<'a> {
         let mut copies = Vec::new();
         for (wall, closed) in walls.iter().enumerate() {
             for turns in on_all_turns(&closed.ends) {
-                copies.push(Copy { wall, turns, ends: closed.ends.map(|end| shifted(end, turns)) });
+                copies.push(WallCopy { wall, turns, ends: closed.ends.map(|end| shifted(end, turns)) });
             }
         }
-        let goals: Vec<Configuration> = ways
+        let goals: Vec<Configuration> = limits
             .goals
             .iter()
             .flat_map(|goal| on_all_turns(&[*goal]).into_iter().map(|turns| shifted(*goal, turns)))
@@ -186,45 +186,45 @@ impl<'a> Plane<'a> {
         for copy in &copies {
             for end in 0..2 {
                 let (value, at) = (walls[copy.wall].ends[end], copy.ends[end]);
-                let is_outside = |k: usize| match ways.topology.ranges[k] {
+                let is_outside = |k: usize| match limits.topology.ranges[k] {
                     JointRange::Interval { lower, upper } => value[k] <= lower || value[k] >= upper,
                     JointRange::Circle => false,
                 };
-                let rest = goals.iter().map(|goal| ways.to_goal(goal - at)).fold(f64::INFINITY, f64::min);
+                let rest = goals.iter().map(|goal| limits.to_goal(goal - at)).fold(f64::INFINITY, f64::min);
                 let line = (value[0].to_bits(), copy.turns[0]);
                 let is_within = runs.get(&line).is_some_and(|runs| runs.iter().any(|run| run.holds(at[1])));
                 if !is_outside(0)
                     && !is_outside(1)
                     && !is_within
-                    && ways.metric.norm(at - ways.start) + rest <= ways.limit
+                    && limits.metric.norm(at - limits.start) + rest <= limits.limit
                 {
                     corners.push(Corner { wall: copy.wall, end, turns: copy.turns, at, line, rest });
                 }
             }
         }
-        Self { ways, copies, widest, runs, corners, goals }
+        Self { limits, copies, widest, runs, corners, goals }
     }
 
     /// Computes the length of the shortest path to a goal, and the lengths of shorter paths to corners. `None` if there
     /// are too many corners.
-    fn lengths(&self) -> Option<(f64, Reached)> {
+    fn lengths(&self) -> Option<(f64, ReachedEnds)> {
         let corners = &self.corners;
         let mut lengths = vec![f64::INFINITY; corners.len()];
         let mut open = OpenList::default();
-        let mut best = self.ways.limit;
+        let mut best = self.limits.limit;
         let mut next = Some(self.start());
-        for _ in 0..MOST_LOOKED {
+        for _ in 0..MAX_EXTENDED_ENDS {
             if let Some(from) = next {
                 for goal in &self.goals {
-                    let leg = self.ways.leg(from.at, *goal) - self.ways.about * self.ways.limit;
+                    let leg = self.limits.leg(from.at, *goal) - self.limits.robot_members * self.limits.limit;
                     let length = from.potential + leg.max(0.0);
                     if length < best && !self.is_barred(from.at, from.line, *goal, None) {
                         best = length;
                     }
                 }
                 for (number, corner) in corners.iter().enumerate() {
-                    let length = from.potential + self.ways.leg(from.at, corner.at);
-                    let is_shorter = length < lengths[number] && length + corner.rest * (1.0 - SHORTER) < best;
+                    let length = from.potential + self.limits.leg(from.at, corner.at);
+                    let is_shorter = length < lengths[number] && length + corner.rest * (1.0 - LEG_ROUNDING) < best;
                     if is_shorter && !self.is_barred(from.at, from.line, corner.at, Some(corner.line)) {
                         lengths[number] = length;
                         open.push(length, number);
@@ -248,14 +248,14 @@ impl<'a> Plane<'a> {
 
     /// Returns the potential of a corner, which is the length of the shortest path there. `None` if no such path can be
     /// part of one shorter than `length`.
-    fn potential(&self, length: f64, reached: &Reached, corner: &Corner) -> Option<f64> {
+    fn potential(&self, length: f64, reached: &ReachedEnds, corner: &Corner) -> Option<f64> {
         let potential = *reached.get(&(corner.wall, corner.end, corner.turns))?;
-        (potential + corner.rest < length - self.ways.less() / 4.0).then_some(potential)
+        (potential + corner.rest < length - self.limits.less() / 4.0).then_some(potential)
     }
 
     /// Returns the walls that bar a leg along which potentials would grow too much, and the walls that contain the ends
     /// of such walls.
-    fn needed(&self, length: f64, reached: &Reached) -> BTreeSet<usize> {
+    fn needed(&self, length: f64, reached: &ReachedEnds) -> BTreeSet<usize> {
         let known = |corner: &Corner| {
             let potential = self.potential(length, reached, corner)?;
             Some(Source { at: corner.at, line: Some(corner.line), potential })
@@ -263,13 +263,13 @@ impl<'a> Plane<'a> {
         let start = self.start();
         let mut needed = BTreeSet::new();
         for from in self.corners.iter().filter_map(known).chain([start]) {
-            let grows = |leg: f64, potential: f64| from.potential + leg < potential + self.ways.less() / 4.0;
-            for goal in self.goals.iter().filter(|goal| grows(self.ways.to_goal(**goal - from.at), length)) {
+            let grows = |leg: f64, potential: f64| from.potential + leg < potential + self.limits.less() / 4.0;
+            for goal in self.goals.iter().filter(|goal| grows(self.limits.to_goal(**goal - from.at), length)) {
                 self.bar(from, *goal, None, &mut needed);
             }
             for corner in self.corners.iter() {
                 let potential = self.potential(length, reached, corner).unwrap_or(length - corner.rest);
-                if grows(self.ways.metric.norm(corner.at - from.at), potential) {
+                if grows(self.limits.metric.norm(corner.at - from.at), potential) {
                     self.bar(from, corner.at, Some(corner.line), &mut needed);
                 }
             }
@@ -287,7 +287,7 @@ impl<'a> Plane<'a> {
     }
 
     fn start(&self) -> Source {
-        Source { at: self.ways.start, line: Some((self.ways.start[0].to_bits(), 0)), potential: 0.0 }
+        Source { at: self.limits.start, line: Some((self.limits.start[0].to_bits(), 0)), potential: 0.0 }
     }
 
     /// Adds the walls that bar a leg, unless a needed wall already does.
@@ -313,7 +313,7 @@ impl<'a> Plane<'a> {
     }
 
     /// Returns the walls that a leg may cross, those near its beginning first.
-    fn near(&self, from: Configuration, to: Configuration) -> impl Iterator<Item = &Copy> {
+    fn near(&self, from: Configuration, to: Configuration) -> impl Iterator<Item = &WallCopy> {
         let first = self.copies.partition_point(|copy| copy.begins() < from[0].min(to[0]) - self.widest);
         let last = self.copies.partition_point(|copy| copy.begins() <= from[0].max(to[0]));
         let near = &self.copies[first..last.max(first)];
@@ -328,9 +328,9 @@ impl<'a> Plane<'a> {
         line: Option<Line>,
         to: Configuration,
         other: Option<Line>,
-    ) -> Option<(&Run, [usize; 2])> {
+    ) -> Option<(&WallRun, [usize; 2])> {
         let runs = self.runs.get(&line.filter(|_| line == other)?)?;
-        let hair = INSIDE * (to[1] - from[1]).abs();
+        let hair = WALL_END_MARGIN * (to[1] - from[1]).abs();
         let passed = |(y, _): &&(f64, usize)| from[1].min(to[1]) + hair < *y && *y < from[1].max(to[1]) - hair;
         runs.iter().find_map(|run| {
             let [left, right] = run.beside.each_ref().map(|side| side.iter().find(passed));
@@ -339,38 +339,38 @@ impl<'a> Plane<'a> {
     }
 }
 
-impl Copy {
+impl WallCopy {
     fn begins(&self) -> f64 {
         self.ends[0][0].min(self.ends[1][0])
     }
 }
 
-impl Run {
+impl WallRun {
     /// Returns true if a value of joint 2 is well within the run.
     fn holds(&self, q2: f64) -> bool {
-        let hair = INSIDE * (self.ends[1] - self.ends[0]);
+        let hair = WALL_END_MARGIN * (self.ends[1] - self.ends[0]);
         self.ends[0] + hair < q2 && q2 < self.ends[1] - hair
     }
 }
 
 /// Collects the runs of upright walls, with the other walls that end within them.
-fn runs(copies: &[Copy], walls: &[ClosedSegment]) -> BTreeMap<Line, Vec<Run>> {
-    let mut runs: BTreeMap<Line, Vec<Run>> = BTreeMap::new();
-    let lines = |copy: &Copy| walls[copy.wall].ends.map(|end| (end[0].to_bits(), copy.turns[0]));
+fn runs(copies: &[WallCopy], walls: &[ClosedSegment]) -> BTreeMap<Line, Vec<WallRun>> {
+    let mut runs: BTreeMap<Line, Vec<WallRun>> = BTreeMap::new();
+    let lines = |copy: &WallCopy| walls[copy.wall].ends.map(|end| (end[0].to_bits(), copy.turns[0]));
     for copy in copies {
         let [line, other] = lines(copy);
         if line == other {
             let [a, b] = copy.ends.map(|end| end[1]);
-            let run = Run { ends: [a.min(b), a.max(b)], walls: vec![copy.wall], beside: [vec![], vec![]] };
+            let run = WallRun { ends: [a.min(b), a.max(b)], walls: vec![copy.wall], beside: [vec![], vec![]] };
             runs.entry(line).or_default().push(run);
         }
     }
     for list in runs.values_mut() {
         list.sort_by(|a, b| a.ends[0].total_cmp(&b.ends[0]));
-        let mut merged: Vec<Run> = Vec::new();
+        let mut merged: Vec<WallRun> = Vec::new();
         for run in list.drain(..) {
             match merged.last_mut() {
-                Some(last) if run.ends[0] < last.ends[1] - INSIDE * (last.ends[1] - last.ends[0]) => {
+                Some(last) if run.ends[0] < last.ends[1] - WALL_END_MARGIN * (last.ends[1] - last.ends[0]) => {
                     last.ends[1] = last.ends[1].max(run.ends[1]);
                     last.walls.extend(run.walls);
                 }
@@ -404,5 +404,5 @@ fn crosses([a, b]: &[Configuration; 2], from: Configuration, to: Configuration) 
     let (wall, leg) = (b - a, to - from);
     let whole = cross(wall, leg);
     let (along_wall, along_leg) = (cross(from - a, leg) / whole, cross(from - a, wall) / whole);
-    [along_wall, along_leg].iter().all(|share| (INSIDE..=1.0 - INSIDE).contains(share))
+    [along_wall, along_leg].iter().all(|share| (WALL_END_MARGIN..=1.0 - WALL_END_MARGIN).contains(share))
 }

@@ -1,7 +1,7 @@
 //! The shapes and the parts of obstacles that evidence names.
 
 use super::{Evidence, lines, reaching_out};
-use cplan_core::check::StuckBox;
+use cplan_core::check::CollisionBox;
 use cplan_core::model::{Heights, OutlineSource, Pair, Part, Scene, SelfObstacle, Shape};
 use cplan_geometry::Convex;
 use serde::Serialize;
@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 
 /// A box in the form in which certificates hold it.
 #[derive(Serialize)]
-struct Stuck {
+struct CertificateBox {
     lower: [f64; 2],
     upper: [f64; 2],
     shape: usize,
@@ -56,16 +56,16 @@ impl<'a> Contacts<'a> {
     }
 
     /// Returns the list of boxes in the form in which certificates hold it.
-    pub fn boxes(&mut self, stuck: &[StuckBox]) -> (&'static str, String) {
-        let boxes: Vec<Stuck> = stuck.iter().flat_map(|stuck| self.stuck(stuck)).collect();
+    pub fn boxes(&mut self, stuck: &[CollisionBox]) -> (&'static str, String) {
+        let boxes: Vec<CertificateBox> = stuck.iter().flat_map(|stuck| self.collision_boxes(stuck)).collect();
         ("boxes", lines(&boxes))
     }
 
     /// Returns a box in the form in which certificates hold it. A box that reaches across half a turn becomes two.
-    fn stuck(&mut self, stuck: &StuckBox) -> Vec<Stuck> {
+    fn collision_boxes(&mut self, stuck: &CollisionBox) -> Vec<CertificateBox> {
         let (shape, part) = self.numbers(stuck.pair);
         let parts = reaching_out(self.scene, stuck).into_iter();
-        parts.map(|[lower, upper]| Stuck { lower, upper, shape, part }).collect()
+        parts.map(|[lower, upper]| CertificateBox { lower, upper, shape, part }).collect()
     }
 }
 

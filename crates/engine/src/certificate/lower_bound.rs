@@ -1,9 +1,9 @@
 //! The lower bound of a result, with the evidence that a checker needs.
 
-use super::bound::{LeastLength, Potential, Ways};
+use super::bound::{LeastLength, PathLimits, Potential};
 use super::contacts::Contacts;
-use super::{Evidence, inward, lines, ruled_out};
-use cplan_core::check::StuckBox;
+use super::{Evidence, infeasible_members, inward, lines};
+use cplan_core::check::CollisionBox;
 use cplan_core::model::{Arm, MotionProblem, inverse};
 use cplan_core::space::{Configuration, Metric, Segment};
 use cplan_geometry::cross;
@@ -13,9 +13,9 @@ use cplan_world::Overrides;
 use serde_json::json;
 
 /// Points that are checked along a wall in either direction. A checker that looks as closely takes longer.
-const LOOKS: usize = 60;
-/// The same where [`LOOKS`] lose too much of the bound.
-const MORE_LOOKS: usize = 300;
+const CHECKS_PER_WALL: usize = 60;
+/// The same where [`CHECKS_PER_WALL`] lose too much of the bound.
+const MORE_CHECKS_PER_WALL: usize = 300;
 
 /// That no motion is shorter than a length, which is the bound of a result up to a hair.
 ///
@@ -25,7 +25,7 @@ pub(super) struct LowerBound {
     least: LeastLength,
     metric: Metric,
     to: Option<Configuration>,
-    boxes: Vec<StuckBox>,
+    boxes: Vec<CollisionBox>,
 }
 
 impl LowerBound {
@@ -36,19 +36,19 @@ impl LowerBound {
         let scene = problem.scene();
         let topology = scene.arm().topology();
         let Ends { to, goals, boxes } = Ends::of(problem, asked)?;
-        let ways = Ways {
+        let limits = PathLimits {
             topology: &topology,
             metric: stated.metric,
             start: topology.wrap(problem.start()),
             goals: &goals,
-            about: if to.is_some() { 0.0 } else { ABOUT_A_GOAL },
+            robot_members: if to.is_some() { 0.0 } else { GOAL_TOLERANCE },
             limit: stated.upper,
         };
         let (evidence, clearance) = (stated.evidence(problem), scene.workspace().clearance);
-        let of = |looks: usize| LeastLength::new(&ways, evidence.segments(scene, clearance, looks));
-        let mut least = of(LOOKS)?;
+        let of = |looks: usize| LeastLength::new(&limits, evidence.segments(scene, clearance, looks));
+        let mut least = of(CHECKS_PER_WALL)?;
         if least.length < stated.lower * (1.0 - loss) {
-            least = of(MORE_LOOKS).filter(|closer| closer.length > least.length).unwrap_or(least);
+            least = of(MORE_CHECKS_PER_WALL).filter(|closer| closer.length > least.length).unwrap_or(least);
         }
         Some(Self { least, metric: stated.metric, to, boxes })
     }
@@ -97,7 +97,7 @@ struct Ends {
     /// All configurations that may count as goals.
     goals: Vec<Configuration>,
     /// Boxes around solutions that are not goals.
-    boxes: Vec<StuckBox>,
+    boxes: Vec<CollisionBox>,
 }
 
 impl Ends {
@@ -115,31 +115,31 @@ impl Ends {
         }
         let solved = inverse(arm, arm.tip_at(*goals.first()?), problem.start());
         // All solutions share the parts that a checker examines, including solutions on other turns.
-        let least = STRETCHED * solved.solutions(arm).len().max(1) as f64;
+        let least = MIN_SEPARATION * solved.solutions(arm).len().max(1) as f64;
         if solved.free.is_some() || solved.branches.iter().any(|q| tells_apart(arm, *q) <= least) {
             return None;
         }
-        let (boxes, left) = ruled_out(problem);
+        let (boxes, left) = infeasible_members(problem);
         Some(Self { to: None, goals: [goals, left].concat(), boxes })
     }
 }
 
 /// Tolerance of a checker for the place of the tip, as a share of the path length. The checker finds these
 /// configurations itself, down to 10^-12 of the joints' ranges.
-const ABOUT_A_GOAL: f64 = 1e-6;
+const GOAL_TOLERANCE: f64 = 1e-6;
 
 /// Below this value of [`tells_apart`], a checker cannot separate configurations that put the tip at a place from their
 /// neighbours, because it divides both joints' ranges into equal shares.
-const STRETCHED: f64 = 0.012;
+const MIN_SEPARATION: f64 = 0.012;
 
 /// Computes the area spanned by the two directions in which the joints move the tip, divided by the square of the sum
 /// of their lengths. At most a quarter; zero if the arm is stretched or folded.
 fn tells_apart(arm: &Arm, q: Configuration) -> f64 {
-    const STEP: f64 = 1e-6;
+    const DERIVATIVE_STEP: f64 = 1e-6;
     let ranges = arm.topology().ranges;
     let moved = |k: usize| {
         let (lower, upper) = ranges[k].domain();
-        let step = Configuration::from_fn(|i, _| if i == k { STEP * (upper - lower) } else { 0.0 });
+        let step = Configuration::from_fn(|i, _| if i == k { DERIVATIVE_STEP * (upper - lower) } else { 0.0 });
         arm.tip_at(q + step) - arm.tip_at(q - step)
     };
     let [a, b] = [moved(0), moved(1)];

@@ -13,7 +13,7 @@ pub use stated::{BoundCertificate, certificate_of_bound, certificate_of_boxes};
 use super::{Detail, Motion, Plan};
 use crate::result::step_reports;
 use contacts::Contacts;
-use cplan_core::check::{Cell, StuckBox};
+use cplan_core::check::{Cell, CollisionBox};
 use cplan_core::model::{Arm, MotionProblem, Outcome, Scene, Status, inverse};
 use cplan_core::space::{Configuration, JointRange, Segment, Topology};
 use cplan_handling::Task;
@@ -27,7 +27,7 @@ use std::collections::BTreeSet;
 use thiserror::Error;
 
 /// Share of a bound that the certificate of a motion may lose, so that it is small and quickly checked.
-const LOSS: f64 = 1e-3;
+const MAX_BOUND_LOSS: f64 = 1e-3;
 
 /// Why an answer has no certificate.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
@@ -72,18 +72,18 @@ fn certificate_of_motion(
     let (word, evidence) = match &answer.outcome {
         Outcome::Found(motion) => {
             let mut evidence = vec![motion::evidence(problem.scene().arm(), &motion.timed.trajectory)];
-            let bound = motion.path.bound.and_then(|stated| LowerBound::of(problem, &stated, asked, LOSS));
+            let bound = motion.path.bound.and_then(|stated| LowerBound::of(problem, &stated, asked, MAX_BOUND_LOSS));
             evidence.extend(bound.into_iter().flat_map(|bound| bound.evidence(&mut contacts)));
             ("found", evidence)
         }
         Outcome::Infeasible(proof) => {
-            let stuck = [proof.stuck(), &ruled_out(problem).0].concat();
+            let stuck = [proof.collision_boxes(), &infeasible_members(problem).0].concat();
             ("infeasible", vec![contacts.boxes(&stuck)])
         }
         Outcome::Unknown(_) => return Err(NoCertificate::Answer(Status::Unknown)),
     };
-    let said = [about(files, problem.scene().arm()), said(problem, asked)].concat();
-    Ok(written(word, said, contacts.named().into_iter().chain(evidence)))
+    let members = [robot_members(files, problem.scene().arm()), members(problem, asked)].concat();
+    Ok(written(word, members, contacts.named().into_iter().chain(evidence)))
 }
 
 fn certificate_of_task(
@@ -99,27 +99,27 @@ fn certificate_of_task(
     let Outcome::Found(motion) = &answer.outcome else { return Err(NoCertificate::Answer(Status::Unknown)) };
     let start = asked.start.map(|_| ("start", json!(inward(&task.arm.topology(), task.start))));
     let clearance = asked.clearance.map(|clearance| ("clearance", json!(clearance)));
-    let said = about(files, &task.arm).into_iter().chain(start).chain(clearance).collect();
+    let members = robot_members(files, &task.arm).into_iter().chain(start).chain(clearance).collect();
     let (steps, _) = step_reports(task, answer);
     let evidence = [motion::evidence(&task.arm, &motion.sequence.trajectory), task::steps(&steps)];
-    Ok(written("found", said, evidence))
+    Ok(written("found", members, evidence))
 }
 
 /// Members of a certificate by name, in the form in which certificates hold them.
 type Evidence = Vec<(&'static str, String)>;
 
 /// Formats a certificate as text, one member per line.
-fn written(answer: &str, said: Said, evidence: impl IntoIterator<Item = (&'static str, String)>) -> String {
+fn written(answer: &str, members: JsonMembers, evidence: impl IntoIterator<Item = (&'static str, String)>) -> String {
     let mut text = format!("{{\n  \"format\": \"cplan certificate 1\",\n  \"answer\": \"{answer}\"");
-    let said = said.into_iter().map(|(name, value)| (name, value.to_string()));
-    for (name, value) in said.chain(evidence) {
+    let members = members.into_iter().map(|(name, value)| (name, value.to_string()));
+    for (name, value) in members.chain(evidence) {
         text += &format!(",\n  \"{name}\": {value}");
     }
     text + "\n}\n"
 }
 
 /// Members of a certificate, by name.
-type Said = Vec<(&'static str, serde_json::Value)>;
+type JsonMembers = Vec<(&'static str, serde_json::Value)>;
 
 /// Formats a list as JSON, one entry per line.
 fn lines(entries: &[impl Serialize]) -> String {
@@ -128,7 +128,7 @@ fn lines(entries: &[impl Serialize]) -> String {
 }
 
 /// Returns the files, the joints, and the robot's links that overlap in every configuration.
-fn about(files: Option<&Digests>, arm: &Arm) -> Said {
+fn robot_members(files: Option<&Digests>, arm: &Arm) -> JsonMembers {
     let joints = ("joints", json!(arm.joints.each_ref().map(|joint| &joint.name)));
     let permanent =
         arm.self_obstacles.iter().flat_map(|own| own.permanent.iter().map(|link| [&own.obstacle.name, link]));
@@ -141,7 +141,7 @@ fn about(files: Option<&Digests>, arm: &Arm) -> Said {
 }
 
 /// Returns the values that override the world file.
-fn said(problem: &MotionProblem, asked: &Overrides) -> Said {
+fn members(problem: &MotionProblem, asked: &Overrides) -> JsonMembers {
     let topology = problem.scene().arm().topology();
     let written = |q| json!(inward(&topology, q));
     let start = asked.start.map(|_| ("start", written(problem.start())));
@@ -152,29 +152,29 @@ fn said(problem: &MotionProblem, asked: &Overrides) -> Said {
 }
 
 /// Values of a joint that are closer than this, radians or metres, count as equal.
-const SAME: f64 = 1e-6;
+const EQUALITY_TOLERANCE: f64 = 1e-6;
 
 /// Margins of boxes around their contents, as shares of the joints' ranges, widest first.
-const MARGINS: [f64; 11] = [1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 3e-5, 1e-5, 3e-6, 1e-6, 3e-7, 1e-7];
+const BOX_MARGINS: [f64; 11] = [1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 3e-5, 1e-5, 3e-6, 1e-6, 3e-7, 1e-7];
 
 /// Largest number of halvings of a curve of IK solutions.
-const MOST_HALVINGS: u32 = 12;
+const MAX_HALVINGS: u32 = 12;
 
 /// Returns boxes around the IK solutions that are not goals because they are not free. A checker knows only the tip's
 /// place, so it counts them among the targets. Also returns the middles of pieces for which no box was found.
-fn ruled_out(problem: &MotionProblem) -> (Vec<StuckBox>, Vec<Configuration>) {
+fn infeasible_members(problem: &MotionProblem) -> (Vec<CollisionBox>, Vec<Configuration>) {
     let (scene, goals) = (problem.scene(), problem.goals());
     let (arm, topology) = (scene.arm(), scene.arm().topology());
     let Some(goal) = goals.pieces().first() else { return (vec![], vec![]) };
     let solved = inverse(arm, arm.tip_at(goal.ends()[0]), problem.start());
-    let is_goal = |piece: &Segment| goals.contains(&topology, piece.at(0.5), SAME);
+    let is_goal = |piece: &Segment| goals.contains(&topology, piece.at(0.5), EQUALITY_TOLERANCE);
     let solutions = solved.solutions(arm).into_iter().flat_map(|piece| piece.wrapped(&topology));
     let mut waiting: Vec<(Segment, u32)> = solutions.filter(|piece| !is_goal(piece)).map(|piece| (piece, 0)).collect();
     let (mut boxes, mut left) = (Vec::new(), Vec::new());
     while let Some((piece, halvings)) = waiting.pop() {
-        if let Some(stuck) = stuck_about(scene, &piece) {
+        if let Some(stuck) = collision_box_about(scene, &piece) {
             boxes.push(stuck);
-        } else if !piece.is_point() && halvings < MOST_HALVINGS {
+        } else if !piece.is_point() && halvings < MAX_HALVINGS {
             let halves = [[0.0, 0.5], [0.5, 1.0]].map(|[a, b]| Segment::new(piece.at(a), piece.at(b)));
             waiting.extend(halves.map(|half| (half, halvings + 1)));
         } else {
@@ -185,16 +185,16 @@ fn ruled_out(problem: &MotionProblem) -> (Vec<StuckBox>, Vec<Configuration>) {
 }
 
 /// Returns the widest box around a piece in which the same obstacle collides everywhere.
-fn stuck_about(scene: &Scene, piece: &Segment) -> Option<StuckBox> {
+fn collision_box_about(scene: &Scene, piece: &Segment) -> Option<CollisionBox> {
     let (scene, [from, to]) = (&*scene.inner(), piece.ends());
     let ranges = scene.arm().topology().ranges.map(|range| range.domain());
     // An obstacle that the arm may pass over or under proves nothing.
     let obstructions = scene.obstructions(piece.at(0.5));
-    MARGINS.into_iter().find_map(|margin| {
+    BOX_MARGINS.into_iter().find_map(|margin| {
         let room = ranges.map(|(lower, upper)| margin * (upper - lower));
         let lower = [0, 1].map(|k| from[k].min(to[k]) - room[k]);
         let upper = [0, 1].map(|k| from[k].max(to[k]) + room[k]);
-        let claims = obstructions.iter().map(|o| StuckBox { cell: Cell { lower, upper }, pair: o.contact.pair });
+        let claims = obstructions.iter().map(|o| CollisionBox { cell: Cell { lower, upper }, pair: o.contact.pair });
         claims.into_iter().find(|stuck| stuck.holds(scene, scene.workspace().clearance))
     })
 }
@@ -202,13 +202,13 @@ fn stuck_about(scene: &Scene, piece: &Segment) -> Option<StuckBox> {
 /// Distance from a limit that absorbs rounding, as a share of the limit or of the range, whichever is larger. A limit
 /// given in degrees, or with more digits than a double has, lies up to two units in the last place inside the double
 /// that represents it. Near a limit of 0, control points of polynomials are differences of values within the range.
-const BESIDE_A_LIMIT: f64 = 4.0 * f64::EPSILON;
+const LIMIT_MARGIN: f64 = 4.0 * f64::EPSILON;
 
 /// Returns a configuration for the certificate. Values at a limit are moved slightly inwards.
 fn inward(topology: &Topology, q: Configuration) -> Configuration {
     Configuration::from_fn(|k, _| match topology.ranges[k] {
         JointRange::Interval { lower, upper } => {
-            let room = |limit: f64| BESIDE_A_LIMIT * limit.abs().max(upper - lower);
+            let room = |limit: f64| LIMIT_MARGIN * limit.abs().max(upper - lower);
             q[k].min(upper - room(upper)).max(lower + room(lower))
         }
         JointRange::Circle => q[k],
@@ -218,7 +218,7 @@ fn inward(topology: &Topology, q: Configuration) -> Configuration {
 /// Returns the ends of a box. A box that reaches across half a turn of a circle is split into its parts on either side.
 /// A part that ends with the domain is extended slightly, because limits are decimals and half a turn is irrational: a
 /// double next to it would leave a gap.
-fn reaching_out(scene: &Scene, stuck: &StuckBox) -> Vec<[[f64; 2]; 2]> {
+fn reaching_out(scene: &Scene, stuck: &CollisionBox) -> Vec<[[f64; 2]; 2]> {
     let mut parts = vec![[stuck.cell.lower, stuck.cell.upper]];
     for (k, range) in scene.arm().topology().ranges.into_iter().enumerate() {
         let (lower, upper) = range.domain();

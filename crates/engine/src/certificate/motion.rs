@@ -1,7 +1,7 @@
 //! Evidence for a motion: the curve that consumers of the file execute. A checker needs nothing else.
 
 use super::task::{checkable, steps_of_recording};
-use super::{NoCertificate, about, inward, lines, written};
+use super::{NoCertificate, inward, lines, robot_members, written};
 use cplan_core::model::{Arm, Goal, Scene};
 use cplan_core::space::{Configuration, Topology};
 use cplan_handling::{Interpolation, RecordedStep, Recording, Task};
@@ -43,18 +43,18 @@ pub fn recorded(
     let topology = &scene.arm().topology();
     let q = recording.positions();
     let own = [q[0], q[q.len() - 1]];
-    let mut said = about(Some(files), scene.arm());
+    let mut members = robot_members(Some(files), scene.arm());
     for (k, (end, is_asked)) in ends.iter().zip([asked.start.is_some(), asked.goal.is_some()]).enumerate() {
         let name = ["start", "goal"][k];
         match end {
-            Some(Goal::Joints(q)) if is_asked => said.push((name, json!(inward(topology, *q)))),
+            Some(Goal::Joints(q)) if is_asked => members.push((name, json!(inward(topology, *q)))),
             Some(_) => {}
             None if k == 1 && steps.is_some() => {}
-            None => said.push((name, json!(inward(topology, own[k])))),
+            None => members.push((name, json!(inward(topology, own[k])))),
         }
     }
-    said.extend(asked.goal_tip.map(|TipPoint(tip)| ("goal_tip", json!([tip.x, tip.y]))));
-    said.extend(asked.clearance.map(|clearance| ("clearance", json!(clearance))));
+    members.extend(asked.goal_tip.map(|TipPoint(tip)| ("goal_tip", json!([tip.x, tip.y]))));
+    members.extend(asked.clearance.map(|clearance| ("clearance", json!(clearance))));
     let counted: Vec<f64> = (0..q.len()).map(|k| k as f64).collect();
     let rows = |values: &[Configuration]| values.iter().map(|&q| q.into()).collect::<Vec<[f64; 2]>>();
     let positions = written_inward(topology, &rows(q));
@@ -68,7 +68,7 @@ pub fn recorded(
     };
     let all = [&positions, &velocities, &accelerations];
     let motion = played(&[reading], recording.times().unwrap_or(&counted), &all[..columns]);
-    Ok(written("found", said, [motion].into_iter().chain(steps.map(|(_, steps)| steps_of_recording(steps)))))
+    Ok(written("found", members, [motion].into_iter().chain(steps.map(|(_, steps)| steps_of_recording(steps)))))
 }
 
 /// Returns values of the joints in the form in which certificates hold them.

@@ -2,14 +2,14 @@
 
 use super::contacts::Contacts;
 use super::lower_bound::LowerBound;
-use super::{about, ruled_out, said, written};
-use cplan_core::check::StuckBox;
+use super::{infeasible_members, members, robot_members, written};
+use cplan_core::check::CollisionBox;
 use cplan_core::model::MotionProblem;
 use cplan_solver::Bound;
 use cplan_world::Overrides;
 
 /// Share of a bound that its own certificate may lose before it is computed more closely.
-const LOSS: f64 = 1e-6;
+const MAX_STATED_BOUND_LOSS: f64 = 1e-6;
 
 /// A certificate that no motion is shorter than a length.
 #[derive(Debug, Clone, PartialEq)]
@@ -27,25 +27,29 @@ pub struct BoundCertificate {
 ///
 /// # Errors
 /// Returns the first box whose shapes are not part of the problem, or never meet.
-pub fn certificate_of_boxes(problem: &MotionProblem, stuck: &[StuckBox], asked: &Overrides) -> Result<String, usize> {
+pub fn certificate_of_boxes(
+    problem: &MotionProblem,
+    stuck: &[CollisionBox],
+    asked: &Overrides,
+) -> Result<String, usize> {
     let scene = problem.scene();
     if let Some(odd) = stuck.iter().position(|stuck| scene.pairs().binary_search(&stuck.pair).is_err()) {
         return Err(odd);
     }
     let mut contacts = Contacts::new(scene);
-    let boxes = contacts.boxes(&[stuck, &ruled_out(problem).0].concat());
-    let said = [about(None, scene.arm()), said(problem, asked)].concat();
-    Ok(written("infeasible", said, contacts.named().into_iter().chain([boxes])))
+    let boxes = contacts.boxes(&[stuck, &infeasible_members(problem).0].concat());
+    let members = [robot_members(None, scene.arm()), members(problem, asked)].concat();
+    Ok(written("infeasible", members, contacts.named().into_iter().chain([boxes])))
 }
 
 /// Returns the certificate of a bound. `None` if the goals form a curve, or if a checker could not separate them from
 /// neighbouring configurations.
 #[must_use]
 pub fn certificate_of_bound(problem: &MotionProblem, stated: &Bound, asked: &Overrides) -> Option<BoundCertificate> {
-    let bound = LowerBound::of(problem, stated, asked, LOSS)?;
+    let bound = LowerBound::of(problem, stated, asked, MAX_STATED_BOUND_LOSS)?;
     let mut contacts = Contacts::new(problem.scene());
     let evidence = bound.evidence(&mut contacts);
-    let said = [about(None, problem.scene().arm()), said(problem, asked)].concat();
-    let text = written("no_shorter", said, contacts.named().into_iter().chain(evidence));
+    let members = [robot_members(None, problem.scene().arm()), members(problem, asked)].concat();
+    let text = written("no_shorter", members, contacts.named().into_iter().chain(evidence));
     Some(BoundCertificate { length: bound.length(), walls: bound.walls(), text })
 }

@@ -3,7 +3,7 @@
 
 use super::{NoCertificate, lines};
 use crate::result::StepReport;
-use cplan_geometry::can_be_drawn_in;
+use cplan_geometry::can_inset_union;
 use cplan_handling::{Action, Object, Payload, RecordedStep, Step, Task};
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
@@ -52,7 +52,7 @@ pub(super) fn checkable(task: &Task) -> Result<(), NoCertificate> {
     let allowance = Payload::penetration_allowance(&task.arm);
     for object in pressed(task) {
         let Object { name, pieces, .. } = &task.objects[object];
-        if !can_be_drawn_in(pieces, allowance) {
+        if !can_inset_union(pieces, allowance) {
             return Err(NoCertificate::Outline(name.clone()));
         }
     }

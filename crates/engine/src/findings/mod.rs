@@ -6,15 +6,16 @@ mod motion;
 mod task;
 
 pub use configuration::{BasisFinding, ConfigurationFindings, CornerFinding, NearestFinding, PairFinding, check};
-use motion::Broken;
-pub use motion::{EncounterFinding, Judgement, LimitFinding, MomentFinding, MotionFindings, WayFinding};
+use motion::ExceededLimits;
+pub use motion::{CollisionFinding, EncounterFinding, Judgement, LimitFinding, MomentFinding, MotionFindings};
 pub use task::{StepFinding, TurnContactFinding, TurnFinding};
 
 use cplan_core::model::Scene;
 use cplan_dynamics::Torques;
 use cplan_handling::{Claims, HeldMotion, RecordedStep, Recording};
 use cplan_motion::recorded::{
-    ENDS_WITHIN, check_collision, check_collision_with, claims_kept, ends_kept, limits_kept, replay, torques_kept,
+    END_TOLERANCE, check_collision, check_collision_with, endpoint_errors, false_claims, limit_violations, replay,
+    torque_violations,
 };
 use cplan_robot::InputError;
 use cplan_world::{LoadedRecording, LoadedScene, LoadedTask, Overrides};
@@ -62,21 +63,21 @@ fn judge_motion(
     let scene = &loaded.scene;
     let (start, goals) = if anywhere { (None, Vec::new()) } else { loaded.ends(overrides)? };
     notes.push(match (start.is_some(), !goals.is_empty()) {
-        (true, true) => format!("the motion must begin at the start and end at the goal, each within {ENDS_WITHIN}"),
+        (true, true) => format!("the motion must begin at the start and end at the goal, each within {END_TOLERANCE}"),
         (true, false) => {
-            format!("the motion must begin at the start, within {ENDS_WITHIN}; there is no goal")
+            format!("the motion must begin at the start, within {END_TOLERANCE}; there is no goal")
         }
         (false, true) => {
-            format!("the motion must end at the goal, within {ENDS_WITHIN}; there is no start")
+            format!("the motion must end at the goal, within {END_TOLERANCE}; there is no start")
         }
         (false, false) => "start and goal of the motion are not judged".into(),
     });
-    let has_movers = !loaded.courses.is_empty();
-    if has_movers {
+    let has_moving_obstacles = !loaded.courses.is_empty();
+    if has_moving_obstacles {
         notes.push("obstacles move on the recording's clock, from its first sample on".into());
     }
     let untold = [
-        (has_movers && recording.times().is_none())
+        (has_moving_obstacles && recording.times().is_none())
             .then_some("obstacles move, but the file has no times: whether the motion hits them is unknown"),
         (Torques::limited(scene).is_some() && recording.velocities().is_none())
             .then_some("efforts are limited, but the file has no velocities: torques are unknown"),
@@ -88,12 +89,12 @@ fn judge_motion(
         [] => check_collision(loaded.timed(), recording, clearance),
         held => check_collision_with(loaded.timed(), recording, held, clearance),
     };
-    let mut broken = limits_kept(&scene.arm().joints, recording);
-    broken.extend(torques_kept(scene, recording));
-    let broken = Broken::new(&scene.arm().joints, &broken, &loaded.robot.assumed);
+    let mut broken = limit_violations(&scene.arm().joints, recording);
+    broken.extend(torque_violations(scene, recording));
+    let broken = ExceededLimits::new(&scene.arm().joints, &broken, &loaded.robot.assumed);
     let findings = MotionFindings::new(scene, recording, &collision_check, broken, notes);
-    let misses = ends_kept(scene.arm(), recording, start, &goals);
-    let false_claims = claims_kept(loaded.timed(), recording, claims, &collision_check);
+    let misses = endpoint_errors(scene.arm(), recording, start, &goals);
+    let false_claims = false_claims(loaded.timed(), recording, claims, &collision_check);
     let findings = findings.but(Judgement::Undecided, untold.into_iter().flatten().collect());
     Ok(findings.but(Judgement::Ends, misses).but(Judgement::Claims, false_claims))
 }

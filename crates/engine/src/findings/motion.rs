@@ -3,7 +3,7 @@
 use super::StepFinding;
 use cplan_core::model::{Joint, Scene};
 use cplan_handling::{Claims, Recording};
-use cplan_motion::recorded::{CollisionCheck, Encounter, Excess, Limit, Moment};
+use cplan_motion::recorded::{CollisionCheck, Encounter, Limit, LimitViolation, Moment};
 use cplan_robot::AssumedLimits;
 use serde::Serialize;
 
@@ -61,7 +61,7 @@ pub struct MotionFindings {
     pub required: f64,
     /// Collisions and clearance along the motion.
     #[serde(flatten)]
-    pub way: WayFinding,
+    pub collisions: CollisionFinding,
     /// Violated limits, each once.
     pub limits_broken: Vec<LimitFinding>,
     /// Limits that the files do not give, and whose assumed values the motion exceeds, each once. They do not affect
@@ -83,7 +83,7 @@ pub struct MotionFindings {
 
 /// Collisions and clearance along a motion.
 #[derive(Debug, Clone, Default, Serialize)]
-pub struct WayFinding {
+pub struct CollisionFinding {
     /// Proven lower bound on the distance to every obstacle, metres. Only for a free motion with obstacles within
     /// reach.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -155,21 +155,21 @@ pub struct LimitFinding {
     pub moment: MomentFinding,
     /// The violation in its original form.
     #[serde(skip)]
-    pub excess: Excess,
+    pub excess: LimitViolation,
 }
 
 /// Limits that a motion exceeds, by their origin.
-pub(super) struct Broken {
+pub(super) struct ExceededLimits {
     /// Limits that the files give.
-    pub given: Vec<Excess>,
+    pub given: Vec<LimitViolation>,
     /// Limits that cplan assumes.
-    pub assumed: Vec<Excess>,
+    pub assumed: Vec<LimitViolation>,
 }
 
-impl Broken {
+impl ExceededLimits {
     /// Separates given limits from assumed ones.
-    pub fn new(joints: &[Joint; 2], broken: &[Excess], assumed: &AssumedLimits) -> Self {
-        let is_assumed = |excess: &Excess| {
+    pub fn new(joints: &[Joint; 2], broken: &[LimitViolation], assumed: &AssumedLimits) -> Self {
+        let is_assumed = |excess: &LimitViolation| {
             let name = &joints[excess.joint].name;
             match excess.limit {
                 Limit::Velocity => assumed.velocity.contains_key(name),
@@ -188,14 +188,14 @@ impl MotionFindings {
         scene: &Scene,
         recording: &Recording,
         collision_check: &CollisionCheck,
-        broken: Broken,
+        broken: ExceededLimits,
         notes: Vec<String>,
     ) -> Self {
         let timed = recording.times().is_some();
-        let of = |excesses: &[Excess]| limits(&scene.arm().joints, excesses, timed);
+        let of = |excesses: &[LimitViolation]| limits(&scene.arm().joints, excesses, timed);
         Self {
             verdict: verdict(collision_check, &broken.given),
-            way: WayFinding::new(scene, collision_check, timed),
+            collisions: CollisionFinding::new(scene, collision_check, timed),
             limits_broken: of(&broken.given),
             assumed_exceeded: of(&broken.assumed),
             notes,
@@ -213,7 +213,7 @@ impl MotionFindings {
             samples: recording.positions().len(),
             duration: recording.duration(),
             required: scene.workspace().clearance,
-            way: WayFinding::default(),
+            collisions: CollisionFinding::default(),
             limits_broken: Vec::new(),
             assumed_exceeded: Vec::new(),
             faults: Vec::new(),
@@ -240,7 +240,7 @@ impl MotionFindings {
 }
 
 /// Returns the verdict on a motion in one word.
-pub(super) fn verdict(collision_check: &CollisionCheck, broken: &[Excess]) -> Judgement {
+pub(super) fn verdict(collision_check: &CollisionCheck, broken: &[LimitViolation]) -> Judgement {
     match collision_check {
         CollisionCheck::Collision { .. } => Judgement::Collision,
         _ if !broken.is_empty() => Judgement::Limits,
@@ -249,7 +249,7 @@ pub(super) fn verdict(collision_check: &CollisionCheck, broken: &[Excess]) -> Ju
     }
 }
 
-impl WayFinding {
+impl CollisionFinding {
     /// Converts the result of the collision check of a motion, `timed` or not.
     pub(super) fn new(scene: &Scene, collision_check: &CollisionCheck, timed: bool) -> Self {
         let encounter = |e: &Encounter| encounter(scene, e, timed);
@@ -271,7 +271,7 @@ impl WayFinding {
 }
 
 /// Returns the violations of limits.
-pub(super) fn limits(joints: &[Joint; 2], broken: &[Excess], timed: bool) -> Vec<LimitFinding> {
+pub(super) fn limits(joints: &[Joint; 2], broken: &[LimitViolation], timed: bool) -> Vec<LimitFinding> {
     broken.iter().map(|excess| limit(joints, excess, timed)).collect()
 }
 
@@ -297,7 +297,7 @@ fn moment(m: &Moment, timed: bool) -> MomentFinding {
     }
 }
 
-fn limit(joints: &[Joint; 2], excess: &Excess, timed: bool) -> LimitFinding {
+fn limit(joints: &[Joint; 2], excess: &LimitViolation, timed: bool) -> LimitFinding {
     LimitFinding {
         joint: joints[excess.joint].name.clone(),
         limit: match excess.limit {

@@ -1,9 +1,11 @@
 //! Findings about a task, step by step.
 
-use super::motion::{Broken, Judgement, LimitFinding, MotionFindings, WayFinding, limits, verdict};
+use super::motion::{CollisionFinding, ExceededLimits, Judgement, LimitFinding, MotionFindings, limits, verdict};
 use cplan_core::model::Scene;
 use cplan_handling::{Claims, RecordedStep, Recording, Task};
-use cplan_motion::recorded::{Departure, Replay, ReplayedStep, ReplayedTurn, step_claims_kept, task_claims_kept};
+use cplan_motion::recorded::{
+    OrderDeviation, Replay, ReplayedStep, ReplayedTurn, false_step_claims, false_task_claims,
+};
 use cplan_robot::AssumedLimits;
 use serde::Serialize;
 
@@ -30,7 +32,7 @@ pub struct StepFinding {
     pub seconds: f64,
     /// Collisions and clearance along its motion.
     #[serde(flatten)]
-    pub way: WayFinding,
+    pub collisions: CollisionFinding,
     /// The turn of the wrist at its end.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub turn: Option<TurnFinding>,
@@ -80,7 +82,7 @@ impl StepFinding {
             _ => Judgement::Free,
         };
         let joints = &scene.arm().joints;
-        let broken = Broken::new(joints, broken, assumed);
+        let broken = ExceededLimits::new(joints, broken, assumed);
         let of_faults = if faults.is_empty() { Judgement::Free } else { Judgement::Task };
         Self {
             step: step.number,
@@ -92,7 +94,7 @@ impl StepFinding {
             first_sample: *recorded.samples.start(),
             last_sample: *recorded.samples.end(),
             seconds: replayed.seconds,
-            way: WayFinding::new(scene, collision_check, true),
+            collisions: CollisionFinding::new(scene, collision_check, true),
             turn,
             limits_broken: limits(joints, &broken.given, true),
             assumed_exceeded: limits(joints, &broken.assumed, true),
@@ -111,7 +113,7 @@ impl StepFinding {
     #[must_use]
     pub fn clearance(&self) -> Option<f64> {
         let turn = self.turn.as_ref().and_then(|turn| turn.clearance);
-        turn.into_iter().chain(self.way.clearance).reduce(f64::min)
+        turn.into_iter().chain(self.collisions.clearance).reduce(f64::min)
     }
 }
 
@@ -140,15 +142,15 @@ pub(super) fn judged(
     let (mut happened, mut false_claims) = (Vec::new(), Vec::new());
     let mut steps = Vec::new();
     for (index, step) in replay.by_ref().enumerate() {
-        false_claims.extend(step_claims_kept(task, recording, &step, claims, index));
+        false_claims.extend(false_step_claims(task, recording, &step, claims, index));
         happened.extend(step.event.clone());
         steps.push(StepFinding::new(task, &step, assumed));
     }
     // If a task breaks off, the statements about the whole describe another task.
     if replay.departure().is_none() {
-        false_claims.extend(task_claims_kept(task, recording, recorded, &happened, claims));
+        false_claims.extend(false_task_claims(task, recording, recorded, &happened, claims));
     }
-    let departure = replay.departure().map(Departure::to_string);
+    let departure = replay.departure().map(OrderDeviation::to_string);
     let of_departure = if departure.is_some() { Judgement::Task } else { Judgement::Free };
     let worst = steps.iter().map(|step| step.verdict).max().unwrap_or(Judgement::Free);
     let of_step = |step: &StepFinding| {
@@ -158,7 +160,7 @@ pub(super) fn judged(
     let faults = steps.iter().flat_map(of_step).chain(departure).collect();
     MotionFindings {
         verdict: worst.max(of_departure),
-        way: way(&steps),
+        collisions: collisions(&steps),
         limits_broken: steps.iter().flat_map(|step| step.limits_broken.iter().cloned()).collect(),
         assumed_exceeded: steps.iter().flat_map(|step| step.assumed_exceeded.iter().cloned()).collect(),
         faults,
@@ -170,22 +172,27 @@ pub(super) fn judged(
 }
 
 /// Returns collisions and clearance along the whole path.
-fn way(steps: &[StepFinding]) -> WayFinding {
-    let undecided = steps.iter().position(|step| step.way.undecided.is_some());
+fn collisions(steps: &[StepFinding]) -> CollisionFinding {
+    let undecided = steps.iter().position(|step| step.collisions.undecided.is_some());
     let turn_hits = |step: &StepFinding| step.turn.as_ref().is_some_and(|turn| turn.contact.is_some());
-    if let Some(hit) = steps.iter().position(|step| step.way.first_contact.is_some()) {
+    if let Some(hit) = steps.iter().position(|step| step.collisions.first_contact.is_some()) {
         let proven = undecided.is_none_or(|open| open > hit) && !steps[..hit].iter().any(turn_hits);
-        let way = steps[hit].way.clone();
-        return WayFinding { free_until: way.free_until.filter(|_| proven), ..way };
+        let collisions = steps[hit].collisions.clone();
+        return CollisionFinding { free_until: collisions.free_until.filter(|_| proven), ..collisions };
     }
     if let Some(open) = undecided {
-        return steps[open].way.clone();
+        return steps[open].collisions.clone();
     }
     if steps.iter().any(turn_hits) {
-        return WayFinding::default();
+        return CollisionFinding::default();
     }
     let clearance = steps.iter().filter_map(StepFinding::clearance).reduce(f64::min);
-    let depth = |step: &&StepFinding| step.way.nearest.as_ref().map_or(f64::NEG_INFINITY, |nearest| nearest.depth);
+    let depth =
+        |step: &&StepFinding| step.collisions.nearest.as_ref().map_or(f64::NEG_INFINITY, |nearest| nearest.depth);
     let nearest = steps.iter().max_by(|a, b| depth(a).total_cmp(&depth(b)));
-    WayFinding { clearance, nearest: nearest.and_then(|step| step.way.nearest.clone()), ..WayFinding::default() }
+    CollisionFinding {
+        clearance,
+        nearest: nearest.and_then(|step| step.collisions.nearest.clone()),
+        ..CollisionFinding::default()
+    }
 }

@@ -11,7 +11,7 @@ use crate::motion::Motion;
 use crate::plan::{Detail, Plan};
 use cplan_core::model::{Joint, MotionProblem};
 use cplan_handling::Task;
-use cplan_motion::{Blends, Trajectory, interpolation, line_a_field};
+use cplan_motion::{BlendReport, Trajectory, field_per_line, interpolation};
 use cplan_robot::AssumedLimits;
 use cplan_solver::{Answer, GridSpace};
 use cplan_tasks::{TaskAnswer, TaskMotion};
@@ -30,7 +30,7 @@ struct Fields<'a, M> {
 
 impl<M: SerializeMap> Fields<'_, M> {
     fn put(&mut self, name: &'static str, value: &(impl Serialize + ?Sized)) -> Result<(), M::Error> {
-        debug_assert!(Plan::FIELDS.contains(&name), "{name} is not listed");
+        debug_assert!(Plan::FIELD_NAMES.contains(&name), "{name} is not listed");
         let is_written = self.only.is_empty() || self.only.iter().any(|only| only == name);
         if is_written { self.map.serialize_entry(name, value) } else { Ok(()) }
     }
@@ -52,7 +52,7 @@ struct Samples<'a> {
 
 /// Limits that the files do not give, by joint and in words.
 #[derive(Serialize)]
-struct AssumedInWords {
+struct AssumedLimitTexts {
     #[serde(flatten)]
     limits: AssumedLimits,
     notes: Vec<String>,
@@ -99,7 +99,7 @@ impl PlanResult<'_> {
         fields.some("name", Some(name).filter(|name| !name.is_empty()))?;
         fields.put("planner", planner.method().name())?;
         fields.some("search", plan.search())?;
-        fields.some("space", planner.space().and_then(GridSpace::told))?;
+        fields.some("space", planner.space().and_then(GridSpace::reported_name))?;
         fields.put("joints", &plan.arm().joints.each_ref().map(|joint| &joint.name))?;
         fields.put("units", &plan.arm().joints.each_ref().map(Joint::unit))?;
         fields.some("assumed", self.assumed_in_words())?;
@@ -107,13 +107,13 @@ impl PlanResult<'_> {
     }
 
     /// Returns the limits that the files do not give, with the usual notes.
-    fn assumed_in_words(&self) -> Option<AssumedInWords> {
+    fn assumed_in_words(&self) -> Option<AssumedLimitTexts> {
         let mut limits = self.plan.problem().robot().assumed.clone();
         if self.plan.options().drive.torque {
             limits.acceleration.clear();
         }
         let joints = self.plan.arm().joints.each_ref().map(|joint| (joint.name.as_str(), joint.unit()));
-        (!limits.is_empty()).then(|| AssumedInWords { notes: limits.notes(joints), limits })
+        (!limits.is_empty()).then(|| AssumedLimitTexts { notes: limits.notes(joints), limits })
     }
 
     fn motion<M: SerializeMap>(
@@ -142,7 +142,7 @@ impl PlanResult<'_> {
         let size: BTreeMap<_, _> = answer.run.size.figures().into_iter().collect();
         fields.some("size", Some(size).filter(|size| !size.is_empty()))?;
         self.timings(fields)?;
-        fields.some("blends", motion.map(|motion| Blends::of(&motion.timed.curve)))?;
+        fields.some("blends", motion.map(|motion| BlendReport::of(&motion.timed.curve)))?;
         fields.some("duration", plan.duration())?;
         self.trajectory(fields, plan.trajectory().map(|trajectory| Samples { trajectory, step: None }))
     }
@@ -195,7 +195,7 @@ fn free_joints(problem: &MotionProblem) -> Vec<&str> {
 
 impl Plan {
     /// The names of all fields that results can have.
-    pub const FIELDS: [&str; 35] = [
+    pub const FIELD_NAMES: [&str; 35] = [
         "status",
         "name",
         "planner",
@@ -243,12 +243,12 @@ impl Plan {
     /// have enough digits to restore the same `f64`.
     #[must_use]
     pub fn to_json(&self) -> String {
-        line_a_field(&self.result(&[]))
+        field_per_line(&self.result(&[]))
     }
 
     /// Returns the same with a [`Plan::certificate`] as its last member.
     #[must_use]
     pub fn to_json_with(&self, certificate: &RawValue) -> String {
-        line_a_field(&PlanResult { plan: self, fields: &[], certificate: Some(certificate) })
+        field_per_line(&PlanResult { plan: self, fields: &[], certificate: Some(certificate) })
     }
 }

@@ -188,9 +188,9 @@ impl Tool<'_> {
                 if duration == 0.0 {
                     return [self.wrist, 0.0];
                 }
-                let way = back(joint.rest - self.wrist, duration, limits);
+                let distance = back(joint.rest - self.wrist, duration, limits);
                 let u = trajectory.time[k] / duration;
-                [self.wrist + way * u * u * (3.0 - 2.0 * u), way * 6.0 * u * (1.0 - u) / duration]
+                [self.wrist + distance * u * u * (3.0 - 2.0 * u), distance * 6.0 * u * (1.0 - u) / duration]
             }
         }
     }
@@ -213,9 +213,9 @@ impl Tool<'_> {
         };
         let sign = joint.sign * (turn.to - turn.from).signum();
         let from = *still;
-        for [time, way, speed] in single((turn.to - turn.from).abs(), limits.velocity, limits.acceleration) {
+        for [time, distance, speed] in single((turn.to - turn.from).abs(), limits.velocity, limits.acceleration) {
             still.at = from.at + nanoseconds(time);
-            still.value.wrist = from.value.wrist + sign * way;
+            still.value.wrist = from.value.wrist + sign * distance;
             rows.push(Row { rate: Drives { wrist: sign * speed, ..Drives::default() }, ..*still });
         }
         self.wrist = still.value.wrist;
@@ -231,10 +231,10 @@ impl Tool<'_> {
         let ends = if up { [stroke.lowered, stroke.raised] } else { [stroke.raised, stroke.lowered] };
         let sign = (ends[1] - ends[0]).signum();
         let (from, samples) = (still.at, single((ends[1] - ends[0]).abs(), limits.velocity, limits.acceleration));
-        for (k, [time, way, speed]) in samples.iter().enumerate() {
+        for (k, [time, distance, speed]) in samples.iter().enumerate() {
             still.at = from + nanoseconds(*time);
             // The end is exact in spite of rounding.
-            still.value.stroke = if k + 1 == samples.len() { ends[1] } else { ends[0] + sign * way };
+            still.value.stroke = if k + 1 == samples.len() { ends[1] } else { ends[0] + sign * distance };
             rows.push(Row { rate: Drives { stroke: sign * speed, ..Drives::default() }, ..*still });
         }
     }
@@ -252,9 +252,9 @@ impl Tool<'_> {
 
 /// Returns how much of a distance the wrist can cover in a given time, from rest to rest along a cubic. Its top speed
 /// is 1.5 times the mean speed, and its greatest acceleration is 6 times the distance over the squared time.
-fn back(way: f64, duration: f64, limits: Wrist) -> f64 {
+fn back(distance: f64, duration: f64, limits: Wrist) -> f64 {
     let most = (limits.velocity * duration / 1.5).min(limits.acceleration * duration * duration / 6.0);
-    way.clamp(-most, most)
+    distance.clamp(-most, most)
 }
 
 /// Describes the violation, if a joint exceeds its speed or range.

@@ -14,7 +14,7 @@ use cplan_core::model::Status;
 use cplan_core::planner::VisibilityGraph;
 use cplan_core::space::{Metric, Path};
 use cplan_handling::Task;
-use cplan_motion::{Optimum, SearchUsed, Trajectory};
+use cplan_motion::{LengthOptimality, SearchReport, Trajectory};
 use cplan_movers::Timing;
 use cplan_solver::{Bound, Planner, Setting, Settings};
 use cplan_tasks::FailedStep;
@@ -101,7 +101,7 @@ impl Plan {
 
     /// Returns how the planner searched its grid, or its roadmap if it did not use the usual search.
     #[must_use]
-    pub fn search(&self) -> Option<SearchUsed> {
+    pub fn search(&self) -> Option<SearchReport> {
         search_used(&self.options().planner)
     }
 }
@@ -128,20 +128,20 @@ pub(super) fn finite(value: f64) -> Option<f64> {
 }
 
 /// A bound as the result has it.
-fn optimum(bound: Bound) -> Optimum {
+fn optimum(bound: Bound) -> LengthOptimality {
     let (metric, weights) = match bound.metric {
         Metric::Euclidean => ("euclidean", None),
         Metric::Weighted { weights } => ("weighted", Some(weights)),
         Metric::Time { .. } => ("time", None),
     };
-    Optimum { metric, weights, length: bound.upper, lower_bound: bound.lower, gap: finite(bound.gap()) }
+    LengthOptimality { metric, weights, length: bound.upper, lower_bound: bound.lower, gap: finite(bound.gap()) }
 }
 
 /// Returns how a planner searches its grid, or its roadmap if it does not use the usual search.
-fn search_used(planner: &Planner) -> Option<SearchUsed> {
+fn search_used(planner: &Planner) -> Option<SearchReport> {
     let Settings { grid_search, ties, forward, neighborhood, .. } = planner.settings();
     if planner.method().reads(Setting::GridSearch) {
-        return Some(SearchUsed {
+        return Some(SearchReport {
             search: grid_search.name(),
             ties: (!ties.is_usual()).then(|| ties.name()),
             neighbors: Some(neighborhood.count()),
@@ -152,5 +152,5 @@ fn search_used(planner: &Planner) -> Option<SearchUsed> {
     let graph = planner.graph().filter(|graph| *graph == VisibilityGraph::Full).map(VisibilityGraph::name);
     let search = planner.search().filter(|search| !search.is_usual() || graph.is_some())?;
     let backward = Some(search.backward);
-    Some(SearchUsed { search: search.order.name(), ties: None, neighbors: None, backward, graph })
+    Some(SearchReport { search: search.order.name(), ties: None, neighbors: None, backward, graph })
 }

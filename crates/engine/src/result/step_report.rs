@@ -3,7 +3,7 @@
 use super::finite;
 use cplan_core::check::CheckedProof;
 use cplan_handling::{Action, Task};
-use cplan_motion::Blends;
+use cplan_motion::BlendReport;
 use cplan_motion::recorded::WristTurn;
 use cplan_tasks::{Event, FailedStep, Leg, RefusedIkSolution, Sequence, TaskAnswer, ToolStroke};
 use serde::Serialize;
@@ -87,7 +87,7 @@ pub struct StepReport {
     /// The link (or payload) and the obstacle that come closest during the motion, in words.
     pub closest: Option<String>,
     /// The path's corners that the motion rounds.
-    pub blends: Blends,
+    pub blends: BlendReport,
     /// The turn of the wrist after the motion.
     pub turn: Option<TurnReport>,
     /// The stroke of the tool at the end of the motion, if the world has one.
@@ -120,7 +120,7 @@ impl StepReport {
             length: path.length(),
             clearance: finite(leg.clearance()),
             closest: curve.nearest().map(|nearest| leg.scene.describe(nearest.contact.pair)),
-            blends: Blends::of(curve),
+            blends: BlendReport::of(curve),
             turn: leg.turn.map(|(WristTurn { from, to, clearance }, seconds)| TurnReport {
                 from,
                 to,

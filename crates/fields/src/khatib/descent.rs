@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 
 /// The forces as a [`Guide`]: down the potential, or, where they are saturated and have none, along them as long as they
 /// lead to where the way has not been.
-pub struct Downforce<'a, F> {
+pub struct ForceGuide<'a, F> {
     field: &'a ForceField<'a>,
     goals: BTreeSet<usize>,
     visited: BTreeSet<usize>,
@@ -14,23 +14,23 @@ pub struct Downforce<'a, F> {
     at: F,
     /// Method of leaving local minima. Without one they end the path.
     escape: Option<Escape>,
-    escaped: Escaped,
+    escaped: EscapedMinima,
 }
 
 /// The local minima that a way has left.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub struct Escaped {
+pub struct EscapedMinima {
     /// Number of local minima.
     pub minima: usize,
     /// Moves from cell to cell on the ways out of them.
     pub moves: usize,
 }
 
-impl<'a, F: Fn(Place) -> Option<usize>> Downforce<'a, F> {
+impl<'a, F: Fn(Place) -> Option<usize>> ForceGuide<'a, F> {
     /// Creates the guide. `at` returns the free cell at a place of the lattice.
     pub fn new(field: &'a ForceField<'a>, goals: &[usize], at: F) -> Self {
         let goals = goals.iter().copied().collect();
-        Self { field, goals, visited: BTreeSet::new(), at, escape: None, escaped: Escaped::default() }
+        Self { field, goals, visited: BTreeSet::new(), at, escape: None, escaped: EscapedMinima::default() }
     }
 
     /// Adds a method for leaving local minima. Saturated forces have none: the path ends where they trap it.
@@ -40,7 +40,7 @@ impl<'a, F: Fn(Place) -> Option<usize>> Downforce<'a, F> {
     }
 
     /// Returns the number of local minima left so far.
-    pub fn escaped(&self) -> Escaped {
+    pub fn escaped(&self) -> EscapedMinima {
         self.escaped
     }
 
@@ -48,10 +48,10 @@ impl<'a, F: Fn(Place) -> Option<usize>> Downforce<'a, F> {
     fn out_of(&mut self, trap: Trap) -> Result<Vec<usize>, Trap> {
         let by = self.escape.filter(|_| trap.minimum).ok_or(trap)?;
         let number = self.escaped.minima as u64;
-        let way = self.field.escape(trap.cell, by, number, |cell| self.goals.contains(&cell)).ok_or(trap)?;
+        let path = self.field.escape(trap.cell, by, number, |cell| self.goals.contains(&cell)).ok_or(trap)?;
         self.escaped.minima += 1;
-        self.escaped.moves += way.len() - 1;
-        Ok(way[1..].to_vec())
+        self.escaped.moves += path.len() - 1;
+        Ok(path[1..].to_vec())
     }
 
     /// Returns the place of a neighbouring cell. On a circle of two cells, a cell is a neighbour in both directions.
@@ -61,8 +61,8 @@ impl<'a, F: Fn(Place) -> Option<usize>> Downforce<'a, F> {
     }
 }
 
-impl<F: Fn(Place) -> Option<usize>> Guide for Downforce<'_, F> {
-    type Stuck = Trap;
+impl<F: Fn(Place) -> Option<usize>> Guide for ForceGuide<'_, F> {
+    type DeadEnd = Trap;
 
     fn slope(&self, place: Place) -> Option<[f64; 2]> {
         let cell = (self.at)(place).filter(|cell| !self.goals.contains(cell))?;
@@ -87,10 +87,10 @@ impl<F: Fn(Place) -> Option<usize>> Guide for Downforce<'_, F> {
         let cell = (self.at)(from).unwrap_or_else(|| unreachable!("a way stays in free cells"));
         self.visited.insert(cell);
         let next = self.field.next(cell, |cell| self.visited.contains(&cell));
-        let way = next.map_or_else(|trap| self.out_of(trap), |next| Ok(vec![next]))?;
-        self.visited.extend(&way);
-        let mut places: Vec<Place> = Vec::with_capacity(way.len());
-        for cell in way {
+        let path = next.map_or_else(|trap| self.out_of(trap), |next| Ok(vec![next]))?;
+        self.visited.extend(&path);
+        let mut places: Vec<Place> = Vec::with_capacity(path.len());
+        for cell in path {
             let last = places.last().copied().unwrap_or(from);
             places.extend(self.place_beside(last, cell));
         }

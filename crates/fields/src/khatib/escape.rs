@@ -4,7 +4,7 @@
 //! walks, and a search that fills the basin of the minimum.
 
 use super::ForceField;
-use cplan_core::space::Draws;
+use cplan_core::space::SplitMix64;
 use cplan_geometry::OpenList;
 use cplan_interrupt::checkpoint;
 use serde::{Deserialize, Serialize};
@@ -47,10 +47,10 @@ impl fmt::Display for Escape {
 }
 
 /// Random walks from one minimum at the most.
-const WALKS: usize = 256;
+const MAX_WALKS: usize = 256;
 
 /// Steps of the first walk; each later one has as many more.
-const STEPS: usize = 16;
+const FIRST_WALK_STEPS: usize = 16;
 
 impl ForceField<'_> {
     /// Returns the cells from a local minimum to a lower cell or a goal: neighbours, the minimum first. `number` counts the minima of
@@ -67,8 +67,8 @@ impl ForceField<'_> {
         match by {
             Escape::Wave => self.fill(minimum, is_out),
             Escape::Walk { seed } => {
-                let mut draws = Draws::nth(seed, number);
-                (1..=WALKS).find_map(|walk| self.walk(minimum, STEPS * walk, &mut draws, is_out))
+                let mut draws = SplitMix64::nth(seed, number);
+                (1..=MAX_WALKS).find_map(|walk| self.walk(minimum, FIRST_WALK_STEPS * walk, &mut draws, is_out))
             }
         }
     }
@@ -82,9 +82,9 @@ impl ForceField<'_> {
             checkpoint();
             if is_out(cell) {
                 let back = std::iter::successors(Some(cell), |at| parents.get(at).copied().filter(|next| next != at));
-                let mut way: Vec<usize> = back.collect();
-                way.reverse();
-                return Some(way);
+                let mut path: Vec<usize> = back.collect();
+                path.reverse();
+                return Some(path);
             }
             for (next, _) in self.neighbors(cell) {
                 parents.entry(next).or_insert_with(|| {
@@ -97,22 +97,28 @@ impl ForceField<'_> {
     }
 
     /// Walks at random for so many steps and then descends; the way without its loops, if it comes out of the basin.
-    fn walk(&self, from: usize, steps: usize, draws: &mut Draws, is_out: impl Fn(usize) -> bool) -> Option<Vec<usize>> {
+    fn walk(
+        &self,
+        from: usize,
+        steps: usize,
+        draws: &mut SplitMix64,
+        is_out: impl Fn(usize) -> bool,
+    ) -> Option<Vec<usize>> {
         checkpoint();
-        let (mut way, mut at) = (vec![from], from);
+        let (mut path, mut at) = (vec![from], from);
         for _ in 0..steps {
             let around: Vec<usize> = self.neighbors(at).map(|(next, _)| next).collect();
             at = *around.get((draws.unit() * around.len() as f64) as usize)?;
-            way.push(at);
+            path.push(at);
             if is_out(at) {
-                return Some(without_loops(way));
+                return Some(without_loops(path));
             }
         }
         while let Ok(next) = self.next(at, |_| false) {
             at = next;
-            way.push(at);
+            path.push(at);
             if is_out(at) {
-                return Some(without_loops(way));
+                return Some(without_loops(path));
             }
         }
         None
@@ -120,10 +126,10 @@ impl ForceField<'_> {
 }
 
 /// Removes the loops of a walk, so that it comes to no cell twice.
-fn without_loops(way: Vec<usize>) -> Vec<usize> {
+fn without_loops(path: Vec<usize>) -> Vec<usize> {
     let mut kept: Vec<usize> = Vec::new();
     let mut places: BTreeMap<usize, usize> = BTreeMap::new();
-    for cell in way {
+    for cell in path {
         if let Some(&place) = places.get(&cell) {
             kept.drain(place + 1..).for_each(|left_out| {
                 places.remove(&left_out);

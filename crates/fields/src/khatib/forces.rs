@@ -255,9 +255,9 @@ impl<'a> ForceField<'a> {
     /// Iterates over the free neighbours that share a side or a corner, with their displacements. A corner counts only
     /// between two free cells.
     pub(super) fn neighbors(&self, at: usize) -> impl Iterator<Item = (usize, [f64; 2])> + '_ {
-        const AROUND: [[i64; 2]; 8] = [[-1, 0], [1, 0], [0, -1], [0, 1], [-1, -1], [-1, 1], [1, -1], [1, 1]];
+        const NEIGHBOR_OFFSETS: [[i64; 2]; 8] = [[-1, 0], [1, 0], [0, -1], [0, 1], [-1, -1], [-1, 1], [1, -1], [1, 1]];
         let step = self.grid.step();
-        AROUND.into_iter().filter_map(move |[i, j]| {
+        NEIGHBOR_OFFSETS.into_iter().filter_map(move |[i, j]| {
             let next = self.free(at, [i, j])?;
             let passable = i == 0 || j == 0 || (self.free(at, [i, 0]).is_some() && self.free(at, [0, j]).is_some());
             (passable && next != at).then_some((next, [i as f64 * step[0], j as f64 * step[1]]))

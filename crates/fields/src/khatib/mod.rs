@@ -6,7 +6,7 @@ mod distance;
 mod escape;
 mod forces;
 
-pub use descent::{Downforce, Escaped};
+pub use descent::{EscapedMinima, ForceGuide};
 pub use distance::nearest_obstacles;
 pub use escape::Escape;
 pub use forces::{Attraction, ForceField, Khatib, Repulsion, Trap};

@@ -2,22 +2,22 @@
 
 use super::stencil::sides;
 use super::sweeps::begun;
-use super::{Boundary, Convergence, Domain, Equation, Measure, RelaxError, Relaxed, Stopping};
+use super::{Boundary, Convergence, Domain, Equation, Measure, RelaxError, RelaxedField, Stopping};
 use cplan_interrupt::checkpoint;
 use cplan_multigrid::{Ends, Multigrid, Workspace};
 
 /// Steps until directions are forgotten: so many vectors are kept.
-const RESTART: usize = 16;
+const RESTART_STEPS: usize = 16;
 
 /// The error to which a step solves for the equation without its drift. It only leads the way: a digit is enough.
-const ADVICE: f64 = 0.1;
+const PRECONDITIONER_ERROR: f64 = 0.1;
 
 /// The least error to which a step solves where there is no drift: about what single precision allows.
-const FINEST: f64 = 1e-6;
+const MIN_STEP_ERROR: f64 = 1e-6;
 
 /// Fraction of the requested change at which a step may stop. The residual decides, not its estimate, and rounding adds
 /// to it.
-const ENOUGH: f64 = 0.5;
+const STEP_STOP_FRACTION: f64 = 0.5;
 
 /// Solves a linear equation from `start`, such as the field before obstacles moved slightly. Flexible GMRES (Saad
 /// 1993), preconditioned by the multigrid solution of the same problem without the drift, to one digit.
@@ -54,7 +54,7 @@ pub fn by_multigrid(
     equation: &Equation,
     stopping: &Stopping,
     start: Vec<f64>,
-) -> Result<Relaxed, RelaxError> {
+) -> Result<RelaxedField, RelaxError> {
     by_multigrid_in(domain, equation, stopping, start, &mut Memory::default())
 }
 
@@ -76,7 +76,7 @@ pub fn by_multigrid_in(
     stopping: &Stopping,
     start: Vec<f64>,
     memory: &mut Memory,
-) -> Result<Relaxed, RelaxError> {
+) -> Result<RelaxedField, RelaxError> {
     let refused = |why: &str| RelaxError::Refused(why.into());
     if let Some(refusal) = equation.refusal(domain) {
         return Err(RelaxError::Refused(refusal));
@@ -88,7 +88,7 @@ pub fn by_multigrid_in(
         equation.drift().ok_or_else(|| refused("multigrid solves linear equations: relax preferences"))?;
     if domain.kinds().is_empty() {
         let stage = Convergence { sweeps: 0, change: 0.0, converged: true };
-        return Ok(Relaxed { values: Vec::new(), stages: vec![stage] });
+        return Ok(RelaxedField { values: Vec::new(), stages: vec![stage] });
     }
     // Whether the equation is another one than that of the preconditioner.
     let has_drift = *equation != Equation::Harmonic || domain.beta() != 1.0;
@@ -110,18 +110,19 @@ pub fn by_multigrid_in(
         if stage.converged || stage.sweeps >= stopping.max_sweeps || stage.change >= before {
             values.pop();
             memory.0 = preconditioner.map(|Preconditioner { workspace, .. }| workspace).or(memory.0.take());
-            return Ok(Relaxed { values, stages: vec![stage] });
+            return Ok(RelaxedField { values, stages: vec![stage] });
         }
         let advice = preconditioner.get_or_insert_with(|| Preconditioner::new(&system, memory));
         if !has_drift {
             // The preconditioner returns the solution, as precisely as requested.
-            let error = (ENOUGH * stopping.below / stage.change).sqrt().clamp(FINEST, ADVICE);
-            let way = advice.way(&system, &residual, error);
-            values.iter_mut().zip(&way).for_each(|(value, way)| *value += way);
+            let error =
+                (STEP_STOP_FRACTION * stopping.below / stage.change).sqrt().clamp(MIN_STEP_ERROR, PRECONDITIONER_ERROR);
+            let correction = advice.correction(&system, &residual, error);
+            values.iter_mut().zip(&correction).for_each(|(value, correction)| *value += correction);
             stage.sweeps += 1;
             continue;
         }
-        let most = RESTART.min(stopping.max_sweeps - stage.sweeps);
+        let most = RESTART_STEPS.min(stopping.max_sweeps - stage.sweeps);
         stage.sweeps += system.round(advice, residual, stopping.below, most, &mut values);
     }
 }
@@ -241,15 +242,15 @@ impl System {
         values: &mut [f64],
     ) -> usize {
         let mut left = vec![square(&residual).sqrt()];
-        let (mut basis, mut ways) = (vec![scaled(residual, 1.0 / left[0])], Vec::new());
+        let (mut basis, mut corrections) = (vec![scaled(residual, 1.0 / left[0])], Vec::new());
         // Columns of a triangle, and the turns that made it one.
         let (mut columns, mut turns): (Vec<Vec<f64>>, Vec<[f64; 2]>) = (Vec::new(), Vec::new());
-        while ways.len() < most {
+        while corrections.len() < most {
             checkpoint();
-            let way = advice.way(self, &basis[basis.len() - 1], ADVICE);
+            let correction = advice.correction(self, &basis[basis.len() - 1], PRECONDITIONER_ERROR);
             // The residual falls by this where the values go the way.
-            let mut image = scaled(self.residual(&way), -1.0);
-            ways.push(way);
+            let mut image = scaled(self.residual(&correction), -1.0);
+            corrections.push(correction);
             let mut column: Vec<f64> = Vec::with_capacity(basis.len() + 1);
             for direction in &basis {
                 let part: f64 = direction.iter().zip(&image).map(|(a, b)| a * b).sum();
@@ -265,7 +266,7 @@ impl System {
             let length = column[k].hypot(beyond);
             if !(length > 0.0 && length.is_finite()) {
                 // The way changes nothing that others have not.
-                ways.pop();
+                corrections.pop();
                 break;
             }
             let turn = [column[k] / length, beyond / length];
@@ -275,20 +276,20 @@ impl System {
             let last = left[k];
             left[k] = turn[0] * last;
             left.push(-turn[1] * last);
-            if beyond == 0.0 || left[k + 1] * left[k + 1] < ENOUGH * below {
+            if beyond == 0.0 || left[k + 1] * left[k + 1] < STEP_STOP_FRACTION * below {
                 break;
             }
             basis.push(scaled(image, 1.0 / beyond));
         }
         let mut shares = left;
-        for k in (0..ways.len()).rev() {
-            let later: f64 = (k + 1..ways.len()).map(|j| columns[j][k] * shares[j]).sum();
+        for k in (0..corrections.len()).rev() {
+            let later: f64 = (k + 1..corrections.len()).map(|j| columns[j][k] * shares[j]).sum();
             shares[k] = (shares[k] - later) / columns[k][k];
         }
-        for (way, share) in ways.iter().zip(&shares) {
-            values.iter_mut().zip(way).for_each(|(value, way)| *value += share * way);
+        for (correction, share) in corrections.iter().zip(&shares) {
+            values.iter_mut().zip(correction).for_each(|(value, correction)| *value += share * correction);
         }
-        ways.len().max(1)
+        corrections.len().max(1)
     }
 }
 
@@ -313,13 +314,13 @@ impl Preconditioner {
 
     /// Returns the correction that reduces the residual by `residual`, up to an `error`: one entry per cell, and 0 last
     /// for the boundary.
-    fn way(&mut self, system: &System, residual: &[f64], error: f64) -> Vec<f64> {
+    fn correction(&mut self, system: &System, residual: &[f64], error: f64) -> Vec<f64> {
         let asked = residual.iter().zip(&system.sums).map(|(residual, sum)| sum * residual);
         self.right.iter_mut().zip(asked).for_each(|(to, asked)| *to = asked);
-        let mut way = vec![0.0; self.right.len()];
-        self.multigrid.solve(&self.right, &mut way, error, &mut self.workspace);
-        way.push(0.0);
-        way
+        let mut correction = vec![0.0; self.right.len()];
+        self.multigrid.solve(&self.right, &mut correction, error, &mut self.workspace);
+        correction.push(0.0);
+        correction
     }
 }
 

@@ -6,7 +6,7 @@ use std::collections::{BTreeMap, VecDeque};
 
 /// A cell at which a descent ended without a goal.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Stuck {
+pub struct DeadEnd {
     /// The cell in which it ended.
     pub cell: usize,
     /// The value of the field there.
@@ -21,13 +21,13 @@ pub struct Stuck {
 /// cross cells with the very value of obstacles or goals: there the field says nothing any more. No cell comes twice.
 ///
 /// # Errors
-/// [`Stuck`] where there is no better value to go to. The fields of monotone equations, relaxed to convergence, have no
+/// [`DeadEnd`] where there is no better value to go to. The fields of monotone equations, relaxed to convergence, have no
 /// such cell, but where their values differ by less than doubles can tell, and where no obstacle can be reached but by way
 /// of goals: there the field is constant.
 ///
 /// # Panics
 /// If there is not one value a cell, or `from` is no cell.
-pub fn descend(domain: &Domain, values: &[f64], from: usize) -> Result<Vec<usize>, Stuck> {
+pub fn descend(domain: &Domain, values: &[f64], from: usize) -> Result<Vec<usize>, DeadEnd> {
     assert_eq!(values.len(), domain.kinds().len(), "one value a cell");
     let slope = Values { domain, values };
     let mut cells = vec![from];
@@ -69,10 +69,10 @@ impl Values<'_> {
     }
 
     /// Returns the cells after `from`, all of its value, up to the nearest one that has a better neighbour.
-    fn across(&self, from: usize) -> Result<Vec<usize>, Stuck> {
+    fn across(&self, from: usize) -> Result<Vec<usize>, DeadEnd> {
         let value = self.values[from];
         let is_level = |cell: usize| self.values[cell] == value && self.domain.kinds()[cell] == Cell::Free;
-        let stuck = Stuck { cell: from, value, flat: self.neighbors(from).any(|next| self.values[next] == value) };
+        let stuck = DeadEnd { cell: from, value, flat: self.neighbors(from).any(|next| self.values[next] == value) };
         let levels = self.domain.levels();
         if value == levels.obstacle || value == levels.goal {
             return Err(stuck);
@@ -81,12 +81,12 @@ impl Values<'_> {
         let mut queue = VecDeque::from([from]);
         while let Some(cell) = queue.pop_front() {
             if cell != from && self.lowest(cell).is_some() {
-                let mut way = vec![cell];
-                while before[&way[way.len() - 1]] != from {
-                    way.push(before[&way[way.len() - 1]]);
+                let mut path = vec![cell];
+                while before[&path[path.len() - 1]] != from {
+                    path.push(before[&path[path.len() - 1]]);
                 }
-                way.reverse();
-                return Ok(way);
+                path.reverse();
+                return Ok(path);
             }
             for next in self.neighbors(cell).filter(|&next| is_level(next)) {
                 before.entry(next).or_insert_with(|| {
@@ -101,13 +101,13 @@ impl Values<'_> {
 
 /// The values of a field as a [`Guide`]: towards the goals' along the gradient of the logarithm of their distance from the
 /// obstacles' value, by central differences.
-pub struct Slope<'a, F> {
+pub struct ValueGuide<'a, F> {
     values: Values<'a>,
     /// The cell at a place; none beyond limits.
     at: F,
 }
 
-impl<'a, F: Fn(Place) -> Option<usize>> Slope<'a, F> {
+impl<'a, F: Fn(Place) -> Option<usize>> ValueGuide<'a, F> {
     /// Creates the guide. `at` returns the cell at a place of the lattice.
     ///
     /// # Panics
@@ -123,8 +123,8 @@ impl<'a, F: Fn(Place) -> Option<usize>> Slope<'a, F> {
     }
 }
 
-impl<F: Fn(Place) -> Option<usize>> Guide for Slope<'_, F> {
-    type Stuck = Stuck;
+impl<F: Fn(Place) -> Option<usize>> Guide for ValueGuide<'_, F> {
+    type DeadEnd = DeadEnd;
 
     fn slope(&self, place: Place) -> Option<[f64; 2]> {
         let cell = self.of_kind(place, Cell::Free)?;
@@ -153,7 +153,7 @@ impl<F: Fn(Place) -> Option<usize>> Guide for Slope<'_, F> {
         }
     }
 
-    fn onward(&mut self, from: Place) -> Result<Vec<Place>, Stuck> {
+    fn onward(&mut self, from: Place) -> Result<Vec<Place>, DeadEnd> {
         let cell = (self.at)(from).unwrap_or_else(|| unreachable!("a way stays in free cells"));
         let cells = self.values.lowest(cell).map_or_else(|| self.values.across(cell), |next| Ok(vec![next]))?;
         let mut place = from;

@@ -1,6 +1,6 @@
 //! The device that relaxes a field.
 
-use super::{Domain, Equation, RelaxError, Relaxation, Relaxed, Stopping, relax};
+use super::{Domain, Equation, RelaxError, Relaxation, RelaxedField, Stopping, relax};
 use serde::{Deserialize, Serialize};
 
 /// A device for sweeps.
@@ -26,7 +26,7 @@ impl Device {
             #[cfg(feature = "gpu")]
             Self::Gpu => super::gpu::shared().map(|gpu| Some(gpu.adapter())),
             #[cfg(not(feature = "gpu"))]
-            Self::Gpu => Err(WITHOUT_GPU.into()),
+            Self::Gpu => Err(NO_GPU_MESSAGE.into()),
         }
     }
 
@@ -44,7 +44,7 @@ impl Device {
 }
 
 #[cfg(not(feature = "gpu"))]
-const WITHOUT_GPU: &str = "this program was built without GPU; build it with --features gpu, or relax on the CPU";
+const NO_GPU_MESSAGE: &str = "this program was built without GPU; build it with --features gpu, or relax on the CPU";
 
 /// Does the same as [`relax`], on a device. On a GPU, fields differ from the CPU's by rounding to single precision. A
 /// stage that cannot improve in single precision ends unconverged before `stopping.max_sweeps`.
@@ -59,12 +59,12 @@ pub fn relax_on(
     equation: &Equation,
     relaxation: &Relaxation,
     stopping: &Stopping,
-) -> Result<Relaxed, RelaxError> {
+) -> Result<RelaxedField, RelaxError> {
     match device {
         Device::Cpu => relax(domain, equation, relaxation, stopping),
         #[cfg(feature = "gpu")]
         Device::Gpu => super::gpu::relax(domain, equation, relaxation, stopping),
         #[cfg(not(feature = "gpu"))]
-        Device::Gpu => Err(RelaxError::Refused(WITHOUT_GPU.into())),
+        Device::Gpu => Err(RelaxError::Refused(NO_GPU_MESSAGE.into())),
     }
 }

@@ -1,15 +1,15 @@
 //! Fields by elimination: what relaxations are measured against.
 
-use super::stencil::{Stencil as _, Weighted};
+use super::stencil::{Stencil as _, WeightedMean};
 use super::{Domain, Equation, Neighbor};
 use cplan_interrupt::checkpoint;
 
 /// Largest residual of an accepted solution, as a fraction of the greatest value. Elimination of central differences
 /// with a strong drift may lose all digits.
-const RESIDUAL: f64 = 1e-9;
+const MAX_RESIDUAL: f64 = 1e-9;
 
 /// Numbers that a band may have: 256 MB of them.
-const MOST: usize = 1 << 25;
+const MAX_BAND_NUMBERS: usize = 1 << 25;
 
 /// Solves a linear equation by banded Gaussian elimination. Returns `None` for preferences (whose drift depends on a
 /// field), if elimination without pivoting fails (strong drifts with central differences), if the band would take more
@@ -25,7 +25,7 @@ pub fn eliminated(domain: &Domain, equation: &Equation) -> Option<Vec<f64>> {
     }
     let (drift, difference) = equation.drift()?;
     let unknowns = folded(domain);
-    let weights = Weighted::new(domain, &unknowns, drift, difference);
+    let weights = WeightedMean::new(domain, &unknowns, drift, difference);
     let mut place = vec![None; domain.kinds().len()];
     for (k, &cell) in unknowns.iter().enumerate() {
         place[cell as usize] = Some(k);
@@ -77,7 +77,7 @@ fn reach(domain: &Domain, unknowns: &[u32], place: &[Option<usize>]) -> usize {
 }
 
 /// Returns true if each value agrees with the one that its neighbours imply.
-fn fits(domain: &Domain, unknowns: &[u32], weights: &Weighted, values: &[f64]) -> bool {
+fn fits(domain: &Domain, unknowns: &[u32], weights: &WeightedMean, values: &[f64]) -> bool {
     let greatest = values.iter().fold(0.0, |greatest: f64, value| greatest.max(value.abs()));
     greatest.is_finite()
         && unknowns.iter().enumerate().all(|(k, &cell)| {
@@ -88,7 +88,7 @@ fn fits(domain: &Domain, unknowns: &[u32], weights: &Weighted, values: &[f64]) -
                 Neighbor::Mirror => own,
             });
             // NaN agrees with nothing.
-            (weights.asked(k, own, around) - own).abs() <= RESIDUAL * greatest
+            (weights.target(k, own, around) - own).abs() <= MAX_RESIDUAL * greatest
         })
 }
 
@@ -103,7 +103,7 @@ struct Band {
 impl Band {
     /// Allocates a band, or returns `None` if it is too large.
     fn new(reach: usize, equations: usize) -> Option<Self> {
-        let size = equations.checked_mul(2 * reach + 1).filter(|&size| size <= MOST)?;
+        let size = equations.checked_mul(2 * reach + 1).filter(|&size| size <= MAX_BAND_NUMBERS)?;
         Some(Self { reach, factors: vec![0.0; size], right: vec![0.0; equations] })
     }
 

@@ -1,10 +1,10 @@
 //! Relaxing on a GPU: the equations as weights a cell, stage after stage.
 
 use super::stages::{Stages, in_stages};
-use super::stencil::Weighted;
+use super::stencil::WeightedMean;
 use super::sweeps::{hint, refusal, unknowns};
 use super::{Boundary, Cell, Convergence, Difference, Domain, Equation, Measure, Order, RelaxError, Relaxation};
-use super::{Relaxed, Scheme, Stopping};
+use super::{RelaxedField, Scheme, Stopping};
 use cplan_gpu::{Edge, Ending, Gpu, GpuError, GridEquations, Settings, Stencil, Sweep};
 use std::sync::OnceLock;
 
@@ -23,7 +23,7 @@ pub(super) fn relax(
     equation: &Equation,
     relaxation: &Relaxation,
     stopping: &Stopping,
-) -> Result<Relaxed, RelaxError> {
+) -> Result<RelaxedField, RelaxError> {
     if let Some(refusal) = refusal(domain, equation, relaxation) {
         return Err(refusal);
     }
@@ -53,7 +53,7 @@ pub(super) fn relax(
     let unknowns = unknowns(domain);
     let mut field = Field { gpu, domain, equation, settings, unknowns, values: domain.start(), stages: Vec::new() };
     in_stages(equation, domain, &mut field)?;
-    Ok(Relaxed { values: field.values, stages: field.stages })
+    Ok(RelaxedField { values: field.values, stages: field.stages })
 }
 
 /// A field under way.
@@ -73,7 +73,7 @@ impl Stages for Field<'_> {
     }
 
     fn linear(&mut self, drift: impl Fn(usize) -> [f64; 2], difference: Difference) -> Result<(), RelaxError> {
-        let weighted = Weighted::new(self.domain, &self.unknowns, drift, difference);
+        let weighted = WeightedMean::new(self.domain, &self.unknowns, drift, difference);
         // If all cells have the same weights, the GPU needs no list of them.
         let stencil = if (0..self.unknowns.len()).all(|k| weighted.at(k) == [0.25; 4]) {
             Stencil::Mean

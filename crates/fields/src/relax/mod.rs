@@ -23,12 +23,12 @@ mod trace;
 
 pub use by_multigrid::by_multigrid;
 pub(super) use by_multigrid::{Memory, by_multigrid_in};
-pub use descent::{Slope, Stuck, descend};
+pub use descent::{DeadEnd, ValueGuide, descend};
 pub use device::{Device, relax_on};
 pub use direct::eliminated;
 pub use domain::{Boundary, Cell, Domain, Levels, Limits, Neighbor, Stencil};
 pub use equation::{Difference, Direction, Equation, Influence, around};
 pub use relaxation::{Factor, Lines, Order, Precision, Relaxation, Scan, Scheme};
 pub use stopping::{Convergence, Measure, Stopping};
-pub use sweeps::{RelaxError, Relaxed, Watched, relax, relax_from, relax_watched};
+pub use sweeps::{RelaxError, RelaxedField, SweepSnapshot, relax, relax_from, relax_watched};
 pub use trace::{Ending, Leap, Sample, Trace, trace};

@@ -151,7 +151,7 @@ impl Relaxation {
 
     /// Stores new values in another precision.
     #[must_use]
-    pub const fn kept(self, precision: Precision) -> Self {
+    pub const fn with_precision(self, precision: Precision) -> Self {
         Self { precision, ..self }
     }
 
@@ -233,7 +233,7 @@ impl Order {
         match self {
             // Unsorted: sorting takes as long as several sweeps, which is more than a field needs after a small change.
             Self::Lines(Scan::ROWS) => vec![(0..unknowns.len() as u32).collect()],
-            Self::Lines(way) => vec![scan(way)],
+            Self::Lines(lines) => vec![scan(lines)],
             Self::Corners(lines) => {
                 let [across, along] = if lines == Lines::Rows { [0, 1] } else { [1, 0] };
                 let corners = [[false, false], [false, true], [true, false], [true, true]];
@@ -255,29 +255,29 @@ mod tests {
     use super::*;
 
     /// Cells of a 2 x 3 domain in the order of each sweep.
-    fn ways(order: Order) -> Vec<Vec<u32>> {
+    fn passes_of(order: Order) -> Vec<Vec<u32>> {
         order.passes([2, 3], &[0, 1, 2, 3, 4, 5])
     }
 
     #[test]
-    fn sweeps_visit_cells_in_the_order_that_their_names_say() {
-        assert_eq!(ways(Order::Lines(Scan::ROWS)), [[0, 1, 2, 3, 4, 5]]);
-        assert_eq!(ways(Order::Lines(Scan { lines: Lines::Rows, falling: [true, false] })), [[3, 4, 5, 0, 1, 2]]);
-        assert_eq!(ways(Order::Lines(Scan { lines: Lines::Columns, falling: [false; 2] })), [[0, 3, 1, 4, 2, 5]]);
+    fn sweep_orders_match_their_names() {
+        assert_eq!(passes_of(Order::Lines(Scan::ROWS)), [[0, 1, 2, 3, 4, 5]]);
+        assert_eq!(passes_of(Order::Lines(Scan { lines: Lines::Rows, falling: [true, false] })), [[3, 4, 5, 0, 1, 2]]);
+        assert_eq!(passes_of(Order::Lines(Scan { lines: Lines::Columns, falling: [false; 2] })), [[0, 3, 1, 4, 2, 5]]);
         assert_eq!(
-            ways(Order::Corners(Lines::Rows)),
+            passes_of(Order::Corners(Lines::Rows)),
             [[0, 1, 2, 3, 4, 5], [2, 1, 0, 5, 4, 3], [3, 4, 5, 0, 1, 2], [5, 4, 3, 2, 1, 0]]
         );
         assert_eq!(
-            ways(Order::Corners(Lines::Columns)),
+            passes_of(Order::Corners(Lines::Columns)),
             [[0, 3, 1, 4, 2, 5], [3, 0, 4, 1, 5, 2], [2, 5, 1, 4, 0, 3], [5, 2, 4, 1, 3, 0]]
         );
-        assert_eq!(ways(Order::RedBlack), [[0, 2, 4, 1, 3, 5]]);
-        assert_eq!(ways(Order::FourColors), [[0, 2, 1, 3, 5, 4]]);
+        assert_eq!(passes_of(Order::RedBlack), [[0, 2, 4, 1, 3, 5]]);
+        assert_eq!(passes_of(Order::FourColors), [[0, 2, 1, 3, 5, 4]]);
     }
 
     #[test]
-    fn sweeps_pass_over_what_is_not_sought() {
+    fn sweeps_skip_fixed_cells() {
         assert_eq!(Order::Corners(Lines::Rows).passes([2, 3], &[1, 5])[3], [1, 0]);
         assert_eq!(Order::RedBlack.passes([2, 3], &[1, 2]), [[1, 0]]);
     }

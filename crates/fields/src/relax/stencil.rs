@@ -6,23 +6,23 @@ use super::{Difference, Domain, Neighbor};
 pub(super) trait Stencil {
     /// Returns the implied value for the unknown at `position` with the value `own`, from its neighbours in the order
     /// `-q1, +q1, -q2, +q2`.
-    fn asked(&self, position: usize, own: f64, around: [f64; 4]) -> f64;
+    fn target(&self, position: usize, own: f64, around: [f64; 4]) -> f64;
 }
 
-/// The mean of the four neighbours. It does not hold at reflecting limits: see [`Weighted`].
+/// The mean of the four neighbours. It does not hold at reflecting limits: see [`WeightedMean`].
 pub(super) struct Mean;
 
 impl Stencil for Mean {
-    fn asked(&self, _: usize, _: f64, [a, b, c, d]: [f64; 4]) -> f64 {
+    fn target(&self, _: usize, _: f64, [a, b, c, d]: [f64; 4]) -> f64 {
         0.25 * ((a + b) + (c + d))
     }
 }
 
 /// A mean with weights of its own at each position, which add up to 1. Where the neighbour is the cell itself the weight
 /// is 0 and the others are the greater for it: the equation is solved for the cell's value.
-pub(super) struct Weighted(Vec<[f64; 4]>);
+pub(super) struct WeightedMean(Vec<[f64; 4]>);
 
-impl Weighted {
+impl WeightedMean {
     /// Computes the weights for a drift at each of the unknowns (indices of cells).
     pub fn new(domain: &Domain, unknowns: &[u32], drift: impl Fn(usize) -> [f64; 2], difference: Difference) -> Self {
         let weights = unknowns.iter().map(|&cell| {
@@ -39,8 +39,8 @@ impl Weighted {
     }
 }
 
-impl Stencil for Weighted {
-    fn asked(&self, position: usize, _: f64, around: [f64; 4]) -> f64 {
+impl Stencil for WeightedMean {
+    fn target(&self, position: usize, _: f64, around: [f64; 4]) -> f64 {
         let weights = &self.0[position];
         (weights[0] * around[0] + weights[1] * around[1]) + (weights[2] * around[2] + weights[3] * around[3])
     }
@@ -71,19 +71,19 @@ pub(super) fn sides(beta: f64, drift: [f64; 2], difference: Difference) -> [f64;
 /// Altered preferences: `h + strength d`, where `strength` is `epsilon / 4` with the sign that fits the levels. Beyond
 /// a reflecting limit lies the cell's own value. If cells are not square, `h` is the weighted mean, the slope along
 /// axis 2 has the factor `beta`, and 4 becomes the sum of the weights, `2 + 2 beta^2`.
-pub(super) struct Altered {
+pub(super) struct AlteredMean {
     /// `epsilon / 4`, one a position.
     pub strength: Vec<f64>,
     /// Width of a cell along axis 1 over that along axis 2.
     pub beta: f64,
 }
 
-impl Stencil for Altered {
-    fn asked(&self, position: usize, own: f64, around: [f64; 4]) -> f64 {
+impl Stencil for AlteredMean {
+    fn target(&self, position: usize, own: f64, around: [f64; 4]) -> f64 {
         let [a, b, c, d] = around;
         if self.beta == 1.0 {
             let slope = 0.5 * ((b - a).abs() + (d - c).abs());
-            return Mean.asked(position, own, around) + self.strength[position] * slope;
+            return Mean.target(position, own, around) + self.strength[position] * slope;
         }
         let (square, sum) = (self.beta * self.beta, 2.0 + 2.0 * self.beta * self.beta);
         let slope = 0.5 * ((b - a).abs() + self.beta * (d - c).abs());

@@ -56,30 +56,30 @@ pub(super) trait Tally {
     fn add(total: f64, old: f64, new: f64) -> f64;
 }
 
-pub(super) struct Sum;
-pub(super) struct Squares;
-pub(super) struct Greatest;
-pub(super) struct Relative;
+pub(super) struct SumTally;
+pub(super) struct SquareTally;
+pub(super) struct GreatestTally;
+pub(super) struct RelativeTally;
 
-impl Tally for Sum {
+impl Tally for SumTally {
     fn add(total: f64, old: f64, new: f64) -> f64 {
         total + (new - old).abs()
     }
 }
 
-impl Tally for Squares {
+impl Tally for SquareTally {
     fn add(total: f64, old: f64, new: f64) -> f64 {
         total + (new - old) * (new - old)
     }
 }
 
-impl Tally for Greatest {
+impl Tally for GreatestTally {
     fn add(total: f64, old: f64, new: f64) -> f64 {
         total.max((new - old).abs())
     }
 }
 
-impl Tally for Relative {
+impl Tally for RelativeTally {
     fn add(total: f64, old: f64, new: f64) -> f64 {
         // Nothing over nothing is NaN, which `max` passes over: no change. To 0 from anything else is infinite.
         total.max((new - old).abs() / new.abs())

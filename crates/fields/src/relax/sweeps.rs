@@ -2,22 +2,22 @@
 
 use super::relaxation::{Precision, Relaxation, Scheme};
 use super::stages::{Stages, in_stages};
-use super::stencil::{Altered, Mean, Stencil, Weighted};
-use super::stopping::{Convergence, Greatest, Measure, Relative, Squares, Stopping, Sum, Tally};
+use super::stencil::{AlteredMean, Mean, Stencil, WeightedMean};
+use super::stopping::{Convergence, GreatestTally, Measure, RelativeTally, SquareTally, Stopping, SumTally, Tally};
 use super::{Boundary, Cell, Difference, Direction, Domain, Equation, Neighbor};
 use cplan_interrupt::checkpoint;
 use std::fmt;
 
 /// A relaxed field.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Relaxed {
+pub struct RelaxedField {
     /// One value per cell. Those of obstacles and goals are their levels.
     pub values: Vec<f64>,
     /// Result of each stage. With preferences, the first stage is the harmonic field; other equations have one stage.
     pub stages: Vec<Convergence>,
 }
 
-impl Relaxed {
+impl RelaxedField {
     /// Passes over all cells, of all stages.
     #[must_use]
     pub fn sweeps(&self) -> usize {
@@ -73,15 +73,15 @@ impl std::error::Error for RelaxError {}
 
 /// A value greater than all at the start by this factor will not come back. Over-relaxation overshoots: under a drift `b`
 /// on the way against it by `exp(b / 2)` a cell, which may be many orders of magnitude, and converges all the same.
-const BEYOND: f64 = 1e100;
+const DIVERGENCE_FACTOR: f64 = 1e100;
 
 /// A guarded relaxation drops its factor when no value changes by more than this fraction of the difference between the
 /// obstacles' and the goals' value. This is about a hundred roundings of the greatest values, the amplification by
 /// over-relaxation.
-const OVER_RELAXED_TO: f64 = 1e-13;
+const OVER_RELAXATION_LIMIT: f64 = 1e-13;
 
 /// Number of sweeps between checks for divergence.
-const LOOKED_AT: usize = 16;
+const DIVERGENCE_CHECK_INTERVAL: usize = 16;
 
 /// Relaxes from [`Domain::start`]. A sweep costs some nanoseconds a free cell.
 ///
@@ -106,7 +106,7 @@ pub fn relax(
     equation: &Equation,
     relaxation: &Relaxation,
     stopping: &Stopping,
-) -> Result<Relaxed, RelaxError> {
+) -> Result<RelaxedField, RelaxError> {
     relax_from(domain, equation, relaxation, stopping, domain.start())
 }
 
@@ -121,13 +121,13 @@ pub fn relax_from(
     relaxation: &Relaxation,
     stopping: &Stopping,
     start: Vec<f64>,
-) -> Result<Relaxed, RelaxError> {
+) -> Result<RelaxedField, RelaxError> {
     relax_watched(domain, equation, relaxation, stopping, start, &mut |_| {})
 }
 
 /// The values after a sweep, while a field is relaxed.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Watched<'a> {
+pub struct SweepSnapshot<'a> {
     /// The stage, from 0: with preferences 0 is the harmonic field, 1 that with them.
     pub stage: usize,
     /// Sweeps of this stage so far; 0 before the first.
@@ -147,15 +147,15 @@ pub fn relax_watched(
     relaxation: &Relaxation,
     stopping: &Stopping,
     start: Vec<f64>,
-    watch: &mut dyn FnMut(Watched),
-) -> Result<Relaxed, RelaxError> {
+    watch: &mut dyn FnMut(SweepSnapshot),
+) -> Result<RelaxedField, RelaxError> {
     if let Some(refusal) = refusal(domain, equation, relaxation) {
         return Err(refusal);
     }
     let mut engine = Engine::new(domain, equation, relaxation, stopping, begun(domain, start)?, watch);
     in_stages(equation, domain, &mut engine)?;
     engine.values.pop();
-    Ok(Relaxed { values: engine.values, stages: engine.stages })
+    Ok(RelaxedField { values: engine.values, stages: engine.stages })
 }
 
 /// Returns the reason why the request is invalid, or `None`.
@@ -255,7 +255,7 @@ struct Engine<'a> {
     /// Places of their neighbours' values.
     around: Vec<[u32; 4]>,
     stages: Vec<Convergence>,
-    watch: &'a mut dyn FnMut(Watched),
+    watch: &'a mut dyn FnMut(SweepSnapshot),
 }
 
 impl Stages for Engine<'_> {
@@ -264,13 +264,13 @@ impl Stages for Engine<'_> {
     }
 
     fn linear(&mut self, drift: impl Fn(usize) -> [f64; 2], difference: Difference) -> Result<(), RelaxError> {
-        let stencil = Weighted::new(self.domain, &self.unknowns, drift, difference);
+        let stencil = WeightedMean::new(self.domain, &self.unknowns, drift, difference);
         self.run(&stencil)
     }
 
     fn altered(&mut self, strengths: Vec<f64>) -> Result<(), RelaxError> {
         let strength = self.unknowns.iter().map(|&cell| strengths[cell as usize]).collect();
-        self.run(&Altered { strength, beta: self.domain.beta() })
+        self.run(&AlteredMean { strength, beta: self.domain.beta() })
     }
 
     fn values(&self) -> &[f64] {
@@ -285,7 +285,7 @@ impl<'a> Engine<'a> {
         relaxation: &'a Relaxation,
         stopping: &'a Stopping,
         values: Vec<f64>,
-        watch: &'a mut dyn FnMut(Watched),
+        watch: &'a mut dyn FnMut(SweepSnapshot),
     ) -> Self {
         let unknowns = unknowns(domain);
         let around = places_around(domain, &unknowns);
@@ -302,10 +302,10 @@ impl<'a> Engine<'a> {
     /// Relaxes one stage, with the norm that the stopping rule asks for.
     fn run<S: Stencil>(&mut self, stencil: &S) -> Result<(), RelaxError> {
         match self.stopping.measure {
-            Measure::SumOfChange | Measure::DifferenceOfSums => self.stage::<S, Sum>(stencil),
-            Measure::SumOfSquares => self.stage::<S, Squares>(stencil),
-            Measure::GreatestChange => self.stage::<S, Greatest>(stencil),
-            Measure::GreatestRelativeChange => self.stage::<S, Relative>(stencil),
+            Measure::SumOfChange | Measure::DifferenceOfSums => self.stage::<S, SumTally>(stencil),
+            Measure::SumOfSquares => self.stage::<S, SquareTally>(stencil),
+            Measure::GreatestChange => self.stage::<S, GreatestTally>(stencil),
+            Measure::GreatestRelativeChange => self.stage::<S, RelativeTally>(stencil),
         }
     }
 
@@ -317,7 +317,7 @@ impl<'a> Engine<'a> {
             Scheme::Successive { order, .. } => order.passes(self.domain.cells(), &self.unknowns),
         };
         let levels = self.domain.levels();
-        let floor = OVER_RELAXED_TO * (levels.obstacle - levels.goal).abs();
+        let floor = OVER_RELAXATION_LIMIT * (levels.obstacle - levels.goal).abs();
         let has_floor = relaxation.guarded && factor > 1.0 && stopping.measure.is_relative();
         let guard = relaxation.guarded.then_some([levels.orientation(), levels.obstacle]);
         let mut step = Step { stencil, factor, guard, clamp: relaxation.clamp, precision: relaxation.precision };
@@ -339,7 +339,10 @@ impl<'a> Engine<'a> {
             if has_floor && greatest < floor {
                 step.factor = 1.0;
             }
-            if stage.sweeps.is_multiple_of(LOOKED_AT) || stage.converged || stage.sweeps == stopping.max_sweeps {
+            if stage.sweeps.is_multiple_of(DIVERGENCE_CHECK_INTERVAL)
+                || stage.converged
+                || stage.sweeps == stopping.max_sweeps
+            {
                 self.look_for_divergence(stage.sweeps)?;
             }
         }
@@ -350,7 +353,7 @@ impl<'a> Engine<'a> {
     fn show(&mut self, sweep: usize) {
         // Without the last value, which is for the boundary.
         let values = &self.values[..self.values.len() - 1];
-        (self.watch)(Watched { stage: self.stages.len(), sweep, values });
+        (self.watch)(SweepSnapshot { stage: self.stages.len(), sweep, values });
     }
 
     fn at_once<S: Stencil, T: Tally>(&mut self, step: &Step<S>, next: &mut [f64]) -> Changes {
@@ -382,7 +385,7 @@ impl<'a> Engine<'a> {
     fn look_for_divergence(&self, sweeps: usize) -> Result<(), RelaxError> {
         let lost = |&&cell: &&u32| {
             let value = self.values[cell as usize];
-            value.is_nan() || value.abs() > BEYOND * self.greatest
+            value.is_nan() || value.abs() > DIVERGENCE_FACTOR * self.greatest
         };
         let Some(&cell) = self.unknowns.iter().find(lost) else { return Ok(()) };
         let (cell, columns) = (cell as usize, self.domain.cells()[1]);
@@ -419,7 +422,7 @@ struct Step<'a, S> {
 
 impl<S: Stencil> Step<'_, S> {
     fn new_value(&self, position: usize, old: f64, around: [f64; 4]) -> f64 {
-        let asked = self.stencil.asked(position, old, around);
+        let asked = self.stencil.target(position, old, around);
         // With factor 1 take exactly the implied value, without additional rounding.
         let new = if self.factor == 1.0 { asked } else { old + self.factor * (asked - old) };
         let new = match self.guard {

@@ -1,6 +1,6 @@
 //! The convergence of a relaxation, sweep by sweep.
 
-use super::{Domain, Equation, RelaxError, Relaxation, Stopping, Watched, relax_watched};
+use super::{Domain, Equation, RelaxError, Relaxation, Stopping, SweepSnapshot, relax_watched};
 
 /// Reasons why a relaxation ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -55,13 +55,13 @@ pub struct Leap {
 }
 
 /// The share of a sweep's number by which the next sample is later.
-const LATER: f64 = 0.01;
+const SAMPLE_SPACING: f64 = 0.01;
 
 /// Sweeps, counted back from the end in samples, over which [`Trace::rate`] is measured: the last half.
-const SETTLED: f64 = 0.5;
+const RATE_WINDOW: f64 = 0.5;
 
 /// Below this error is nothing but rounding, which has no rate.
-const ROUNDING: f64 = 1e-13;
+const ERROR_FLOOR: f64 = 1e-13;
 
 /// Relaxes from `start` and measures after each sweep. `exact` is the solution, for the error
 /// ([`eliminated`](super::eliminated)). An equation with preferences has two stages and no known error. Measuring takes
@@ -112,10 +112,10 @@ impl Trace {
         let errors: Vec<(usize, f64)> = self
             .samples
             .iter()
-            .filter_map(|sample| Some((sample.sweep, sample.error.filter(|&error| error > ROUNDING)?)))
+            .filter_map(|sample| Some((sample.sweep, sample.error.filter(|&error| error > ERROR_FLOOR)?)))
             .collect();
         let &(end, last) = errors.last()?;
-        let from = (SETTLED * end as f64) as usize;
+        let from = (RATE_WINDOW * end as f64) as usize;
         let &(begin, first) = errors.iter().find(|(sweep, _)| *sweep >= from)?;
         // Of a few sweeps nothing has settled.
         (end > begin + 1).then(|| (last / first).powf(1.0 / (end - begin) as f64))
@@ -157,7 +157,7 @@ struct Observer<'a> {
 }
 
 impl Observer<'_> {
-    fn see(&mut self, seen: &Watched) {
+    fn see(&mut self, seen: &SweepSnapshot) {
         if seen.sweep == 0 {
             // The last sweep of the stage before is its end.
             self.keep_last();
@@ -177,7 +177,7 @@ impl Observer<'_> {
         }
         self.samples.extend(sample);
         self.last = None;
-        self.next = self.sweeps + 1 + (LATER * self.sweeps as f64) as usize;
+        self.next = self.sweeps + 1 + (SAMPLE_SPACING * self.sweeps as f64) as usize;
     }
 
     fn keep_last(&mut self) {
@@ -185,7 +185,7 @@ impl Observer<'_> {
     }
 
     /// Measures a sweep. Returns `None` if a number is not finite.
-    fn measured(&self, seen: &Watched) -> Option<Sample> {
+    fn measured(&self, seen: &SweepSnapshot) -> Option<Sample> {
         let (mut squares, mut relative) = (0.0, 0.0_f64);
         for (old, new) in self.before.iter().zip(seen.values) {
             let change = (new - old).abs();

@@ -18,7 +18,7 @@ use std::cmp::Ordering;
 use std::ops::Range;
 
 /// Marks an empty entry in tables of indices.
-pub const NONE: u32 = u32::MAX;
+pub const NO_ENTRY: u32 = u32::MAX;
 
 /// A side of the boundary, by vertex numbers. The inside (for planners: free space) lies to its left.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -67,7 +67,7 @@ pub struct Boundary {
     /// 1]` of them.
     by_right_end: Vec<u32>,
     last: Vec<u32>,
-    /// For each vertex, the side straight below it that does not end there, or `NONE`.
+    /// For each vertex, the side straight below it that does not end there, or `NO_ENTRY`.
     below: Vec<u32>,
 }
 
@@ -150,7 +150,7 @@ impl Boundary {
 
     /// Returns the side straight below vertex `v` that does not end there.
     pub fn below(&self, v: usize) -> Option<usize> {
-        (self.below[v] != NONE).then_some(self.below[v] as usize)
+        (self.below[v] != NO_ENTRY).then_some(self.below[v] as usize)
     }
 
     /// Stores the sides that [`Boundary::below`] returns.

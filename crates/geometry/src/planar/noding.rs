@@ -1,25 +1,25 @@
 //! Noding: cuts sides where they touch or cross, so that they meet in vertices only.
 
-use super::{Boundary, NONE, Side, Status};
+use super::{Boundary, NO_ENTRY, Side, Status};
 use crate::{Orientation, Point};
 use cplan_interrupt::checkpoint;
 use std::cmp::Ordering;
 
 /// Sides that cross by at most this much cross because of rounding, as a fraction of the greatest coordinate: a few
 /// units in the last place of the values from which the corners were computed.
-const HAIR: f64 = 64.0 * f64::EPSILON;
+const CROSSING_TOLERANCE: f64 = 64.0 * f64::EPSILON;
 
 /// Number of passes after which remaining crossings are left. The first pass joins corners to the sides that rounding
 /// has moved them across. The pieces of these sides turn slightly, which rarely causes another crossing.
-const PASSES: usize = 16;
+const MAX_PASSES: usize = 16;
 
 /// Returns a boundary whose sides meet in vertices only, with the side below each vertex. Each pass takes `O(n log n)`,
 /// and one pass suffices if contours neither touch nor cross.
 pub(super) fn planar(mut boundary: Boundary) -> Boundary {
-    for pass in 1..=PASSES {
+    for pass in 1..=MAX_PASSES {
         boundary.arrange();
         let Sweep { below, mut cuts, .. } = Sweep::over(&mut boundary);
-        if cuts.is_empty() || pass == PASSES {
+        if cuts.is_empty() || pass == MAX_PASSES {
             boundary.set_below(below);
             break;
         }
@@ -52,7 +52,7 @@ struct Sweep<'a> {
     boundary: &'a mut Boundary,
     status: Status,
     below: Vec<u32>,
-    /// [`HAIR`] as a length.
+    /// [`CROSSING_TOLERANCE`] as a length.
     hair: f64,
     /// Sides and the vertices at which they must be cut.
     cuts: Vec<(usize, u32)>,
@@ -62,7 +62,7 @@ impl<'a> Sweep<'a> {
     fn over(boundary: &'a mut Boundary) -> Self {
         let (sides, vertices) = (boundary.sides.len(), boundary.vertices.len());
         let greatest = boundary.vertices.iter().flat_map(|p| [p.x.abs(), p.y.abs()]).fold(0.0, f64::max);
-        let (status, below, hair) = (Status::new(sides), vec![NONE; vertices], HAIR * greatest);
+        let (status, below, hair) = (Status::new(sides), vec![NO_ENTRY; vertices], CROSSING_TOLERANCE * greatest);
         let mut sweep = Self { boundary, status, below, hair, cuts: Vec::new() };
         for v in 0..vertices {
             checkpoint();
@@ -87,7 +87,7 @@ impl<'a> Sweep<'a> {
         for side in boundary.ending(v) {
             status.remove(side);
         }
-        self.below[v] = below.map_or(NONE, |side| side as u32);
+        self.below[v] = below.map_or(NO_ENTRY, |side| side as u32);
         let above = status.above(below);
         if let (None, Some(above)) = (lowest, above)
             && boundary.place(above, at) == Orientation::Collinear

@@ -1,6 +1,6 @@
 //! The status of a sweep line: the sides under it, in order, in a balanced tree.
 
-use super::NONE;
+use super::NO_ENTRY;
 
 /// A sequence of sides from bottom to top, each at most once.
 ///
@@ -26,13 +26,13 @@ struct Node {
     next: u32,
 }
 
-const ALONE: Node = Node { parent: NONE, children: [NONE; 2], previous: NONE, next: NONE };
+const SINGLE_NODE: Node = Node { parent: NO_ENTRY, children: [NO_ENTRY; 2], previous: NO_ENTRY, next: NO_ENTRY };
 
 impl Status {
     /// Creates an empty sequence for up to `count` sides.
     #[must_use]
     pub fn new(count: usize) -> Self {
-        Self { root: NONE, first: NONE, nodes: vec![ALONE; count] }
+        Self { root: NO_ENTRY, first: NO_ENTRY, nodes: vec![SINGLE_NODE; count] }
     }
 
     /// Returns the side above `side`, or the lowest side if `side` is `None`.
@@ -50,8 +50,8 @@ impl Status {
     /// Returns the highest side for which `holds`. The condition must be true for all sides below one for which it is
     /// true.
     pub fn last_where(&self, mut holds: impl FnMut(usize) -> bool) -> Option<usize> {
-        let (mut at, mut best) = (self.root, NONE);
-        while at != NONE {
+        let (mut at, mut best) = (self.root, NO_ENTRY);
+        while at != NO_ENTRY {
             let upwards = holds(at as usize);
             if upwards {
                 best = at;
@@ -65,7 +65,7 @@ impl Status {
     pub fn insert_above(&mut self, below: Option<usize>, side: usize) {
         let next = self.above(below);
         let number = side as u32;
-        self.nodes[side] = Node { previous: number_of(below), next: number_of(next), ..ALONE };
+        self.nodes[side] = Node { previous: number_of(below), next: number_of(next), ..SINGLE_NODE };
         match below {
             Some(below) => self.nodes[below].next = number,
             None => self.first = number,
@@ -75,7 +75,7 @@ impl Status {
         }
         // One of two neighbours is below the other in the tree, and has no child on that side.
         let (parent, child) = match (below, next) {
-            (Some(below), _) if self.nodes[below].children[1] == NONE => (below, 1),
+            (Some(below), _) if self.nodes[below].children[1] == NO_ENTRY => (below, 1),
             (_, Some(next)) => (next, 0),
             _ => {
                 self.root = number;
@@ -103,9 +103,9 @@ impl Status {
             self.rotate_up(if priority(below) > priority(above) { below } else { above });
         }
         let Node { parent, children: [below, above], .. } = self.nodes[side];
-        let child = if below == NONE { above } else { below };
+        let child = if below == NO_ENTRY { above } else { below };
         self.replace_child(parent, side as u32, child);
-        self.nodes[side] = ALONE;
+        self.nodes[side] = SINGLE_NODE;
     }
 
     /// Swaps a node with its parent.
@@ -139,11 +139,11 @@ impl Status {
 }
 
 fn index(number: u32) -> Option<usize> {
-    (number != NONE).then_some(number as usize)
+    (number != NO_ENTRY).then_some(number as usize)
 }
 
 fn number_of(side: Option<usize>) -> u32 {
-    side.map_or(NONE, |side| side as u32)
+    side.map_or(NO_ENTRY, |side| side as u32)
 }
 
 /// Mixes the bits of a side's number (the finaliser of SplitMix64).

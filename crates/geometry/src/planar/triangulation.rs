@@ -1,6 +1,6 @@
 //! Triangulation by a sweep.
 
-use super::{Boundary, NONE};
+use super::{Boundary, NO_ENTRY};
 use crate::{Orientation, Point, orientation};
 use cplan_interrupt::checkpoint;
 
@@ -9,7 +9,7 @@ use cplan_interrupt::checkpoint;
 pub struct HalfEdges {
     /// The vertex at which each half-edge starts.
     pub origin: Vec<u32>,
-    /// The half-edge of the same edge in the triangle on its other side; `NONE` on the boundary.
+    /// The half-edge of the same edge in the triangle on its other side; `NO_ENTRY` on the boundary.
     pub twin: Vec<u32>,
 }
 
@@ -45,7 +45,7 @@ struct Link {
     /// The neighbours in the chain.
     below: u32,
     above: u32,
-    /// The edge to the link above, as an index into [`Sweep::pending`]; `NONE` if that edge is a side.
+    /// The edge to the link above, as an index into [`Sweep::pending`]; `NO_ENTRY` if that edge is a side.
     edge: u32,
 }
 
@@ -60,7 +60,7 @@ struct Region {
 struct Sweep<'a> {
     vertices: &'a [Point],
     links: Vec<Link>,
-    /// For each inner edge, the half-edge that was made first, or `NONE`.
+    /// For each inner edge, the half-edge that was made first, or `NO_ENTRY`.
     pending: Vec<u32>,
     result: HalfEdges,
 }
@@ -117,13 +117,13 @@ impl Sweep<'_> {
 
     /// Starts a region between two sides that start at `v`.
     fn begin(&mut self, v: u32) -> Region {
-        let link = self.link(Link { vertex: v, below: NONE, above: NONE, edge: NONE });
+        let link = self.link(Link { vertex: v, below: NO_ENTRY, above: NO_ENTRY, edge: NO_ENTRY });
         Region { bottom: link, top: link, rightmost: link }
     }
 
     /// Joins `v` to the chain from below, where the floor ends.
     fn extend_bottom(&mut self, region: &mut Region, v: u32) {
-        let link = self.link(Link { vertex: v, below: NONE, above: region.bottom, edge: NONE });
+        let link = self.link(Link { vertex: v, below: NO_ENTRY, above: region.bottom, edge: NO_ENTRY });
         self.links[region.bottom as usize].below = link;
         (region.bottom, region.rightmost) = (link, link);
         self.cut_upwards(region);
@@ -131,7 +131,7 @@ impl Sweep<'_> {
 
     /// Joins `v` to the chain from above, where the ceiling ends.
     fn extend_top(&mut self, region: &mut Region, v: u32) {
-        let link = self.link(Link { vertex: v, below: region.top, above: NONE, edge: NONE });
+        let link = self.link(Link { vertex: v, below: region.top, above: NO_ENTRY, edge: NO_ENTRY });
         self.links[region.top as usize].above = link;
         (region.top, region.rightmost) = (link, link);
         self.cut_downwards(region);
@@ -141,10 +141,10 @@ impl Sweep<'_> {
     fn split(&mut self, region: Region, v: u32) -> (Option<Region>, Option<Region>) {
         // Nothing lies between the vertex and the rightmost vertex before it.
         let middle = region.rightmost;
-        let edge = self.edge(NONE);
-        let copy = self.link(Link { below: NONE, ..self.links[middle as usize] });
-        let low = self.link(Link { vertex: v, below: middle, above: NONE, edge: NONE });
-        let high = self.link(Link { vertex: v, below: NONE, above: copy, edge });
+        let edge = self.edge(NO_ENTRY);
+        let copy = self.link(Link { below: NO_ENTRY, ..self.links[middle as usize] });
+        let low = self.link(Link { vertex: v, below: middle, above: NO_ENTRY, edge: NO_ENTRY });
+        let high = self.link(Link { vertex: v, below: NO_ENTRY, above: copy, edge });
         self.links[copy as usize].below = high;
         let above = self.links[middle as usize].above;
         if let Some(above) = self.links.get_mut(above as usize) {
@@ -174,7 +174,7 @@ impl Sweep<'_> {
         let bottom = region.bottom as usize;
         loop {
             let near = self.links[bottom].above;
-            let Some(far) = self.links.get(near as usize).map(|near| near.above).filter(|&far| far != NONE) else {
+            let Some(far) = self.links.get(near as usize).map(|near| near.above).filter(|&far| far != NO_ENTRY) else {
                 break;
             };
             let [v, a, b] = [self.links[bottom], self.links[near as usize], self.links[far as usize]];
@@ -192,7 +192,7 @@ impl Sweep<'_> {
         let top = region.top as usize;
         loop {
             let near = self.links[top].below;
-            let Some(far) = self.links.get(near as usize).map(|near| near.below).filter(|&far| far != NONE) else {
+            let Some(far) = self.links.get(near as usize).map(|near| near.below).filter(|&far| far != NO_ENTRY) else {
                 break;
             };
             let [v, a, b] = [self.links[top], self.links[near as usize], self.links[far as usize]];
@@ -217,7 +217,7 @@ impl Sweep<'_> {
     fn triangle(&mut self, corners: [u32; 3], second: u32, third: u32) -> u32 {
         let half_edge = self.result.origin.len() as u32;
         self.result.origin.extend(corners);
-        self.result.twin.extend([NONE; 3]);
+        self.result.twin.extend([NO_ENTRY; 3]);
         self.join(second, half_edge + 1);
         self.join(third, half_edge + 2);
         self.edge(half_edge)
@@ -232,7 +232,7 @@ impl Sweep<'_> {
     /// Adds the second half-edge to an edge.
     fn join(&mut self, edge: u32, half: u32) {
         let Some(pending) = self.pending.get_mut(edge as usize) else { return };
-        if *pending == NONE {
+        if *pending == NO_ENTRY {
             *pending = half;
         } else {
             self.result.twin[*pending as usize] = half;

@@ -12,12 +12,12 @@ use super::super::Point;
 use super::super::box_tree::BoxTree;
 use super::super::predicates::{Orientation, orientation, point_on_segment, segments_meet};
 use super::RingError;
-use super::noding::{Loop, Noded};
+use super::noding::{Loop, NodedGraph};
 use cplan_interrupt::checkpoint;
 
 /// A graph with its diagonals.
-pub(super) struct Bridged {
-    pub noded: Noded,
+pub(super) struct BridgedGraph {
+    pub noded: NodedGraph,
     pub bridges: Vec<Bridge>,
 }
 
@@ -32,9 +32,9 @@ pub(super) struct Bridge {
 ///
 /// # Errors
 /// If a hole sees nothing on one side, because it is not inside.
-pub(super) fn bridged(noded: Noded) -> Result<Bridged, RingError> {
-    let Noded { points, edges, around, loops } = &noded;
-    let sight = Sight::new(points, edges);
+pub(super) fn bridged(noded: NodedGraph) -> Result<BridgedGraph, RingError> {
+    let NodedGraph { points, edges, around, loops } = &noded;
+    let sight = Visibility::new(points, edges);
     let mut bridges: Vec<Bridge> = Vec::new();
     // For each vertex, whether an edge leads to the left, and whether one leads to the right.
     let mut has: Vec<[bool; 2]> = vec![[false; 2]; points.len()];
@@ -64,7 +64,7 @@ pub(super) fn bridged(noded: Noded) -> Result<Bridged, RingError> {
             note(&mut has, [from, to]);
         }
     }
-    Ok(Bridged { noded, bridges })
+    Ok(BridgedGraph { noded, bridges })
 }
 
 /// Returns true if a loop is counter-clockwise, by its leftmost vertex, where it cannot be straight.
@@ -76,13 +76,13 @@ fn is_counter_clockwise(points: &[Point], walk: &Loop) -> bool {
 }
 
 /// Visibility between vertices.
-struct Sight<'a> {
+struct Visibility<'a> {
     points: &'a [Point],
     edges: &'a [[usize; 2]],
     tree: BoxTree,
 }
 
-impl<'a> Sight<'a> {
+impl<'a> Visibility<'a> {
     fn new(points: &'a [Point], edges: &'a [[usize; 2]]) -> Self {
         let bounds = |e: &[usize; 2]| {
             let [a, b] = e.map(|v| points[v]);

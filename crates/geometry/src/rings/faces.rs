@@ -2,7 +2,7 @@
 
 use super::super::SimplePolygon;
 use super::RingError;
-use super::bridges::Bridged;
+use super::bridges::BridgedGraph;
 use super::noding::counter_clockwise;
 
 /// An edge seen from one of its vertices.
@@ -22,7 +22,7 @@ struct End {
 /// # Errors
 /// If the inside around some vertex is ambiguous, because the rings cross there, or one lies on the wrong side of
 /// another.
-pub(super) fn faces(graph: &Bridged) -> Result<Vec<SimplePolygon>, RingError> {
+pub(super) fn faces(graph: &BridgedGraph) -> Result<Vec<SimplePolygon>, RingError> {
     let points = &graph.noded.points;
     let around = ends(graph);
     for (vertex, ends) in around.iter().enumerate() {
@@ -60,7 +60,7 @@ pub(super) fn faces(graph: &Bridged) -> Result<Vec<SimplePolygon>, RingError> {
 }
 
 /// Returns the edges of each vertex, counter-clockwise.
-fn ends(graph: &Bridged) -> Vec<Vec<End>> {
+fn ends(graph: &BridgedGraph) -> Vec<Vec<End>> {
     let points = &graph.noded.points;
     let mut around: Vec<Vec<End>> = vec![Vec::new(); points.len()];
     for &[from, to] in &graph.noded.edges {

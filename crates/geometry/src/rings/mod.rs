@@ -4,11 +4,11 @@ mod bridges;
 mod faces;
 mod noding;
 
-use super::polygon::without_straight;
+use super::polygon::without_straight_corners;
 use super::{Convex, Point, PolygonError, SimplePolygon};
 use bridges::bridged;
 use faces::faces;
-use noding::Noded;
+use noding::NodedGraph;
 use std::fmt;
 
 /// The closed region inside an outer ring and outside its holes.
@@ -108,10 +108,10 @@ impl Polygon {
             };
             super::polygon::check_ring(corners).map_err(error)?;
         }
-        let noded = Noded::of(&rings)?;
+        let noded = NodedGraph::of(&rings)?;
         // Holes must not be joined to a straight corner. If sides cross in one, the noding below reports it.
         let bared: Vec<Vec<Point>> = rings.iter().map(|ring| bare(ring)).collect();
-        let noded = if bared == rings { noded } else { Noded::of(&bared).unwrap_or(noded) };
+        let noded = if bared == rings { noded } else { NodedGraph::of(&bared).unwrap_or(noded) };
         Ok(Self { parts: faces(&bridged(noded)?)? })
     }
 
@@ -142,5 +142,5 @@ fn bare(ring: &[Point]) -> Vec<Point> {
     if once.len() > 1 && once.first() == once.last() {
         once.pop();
     }
-    without_straight(&once)
+    without_straight_corners(&once)
 }

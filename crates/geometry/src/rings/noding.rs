@@ -8,7 +8,7 @@ use cplan_interrupt::checkpoint;
 use std::cmp::Ordering;
 
 /// The graph of several rings. The region lies to the left of every edge, if the rings are consistent.
-pub(super) struct Noded {
+pub(super) struct NodedGraph {
     /// Positions of the vertices, numbered from left to right, and upwards on vertical lines. Along any segment the
     /// numbers increase or decrease.
     pub points: Vec<Point>,
@@ -34,7 +34,7 @@ struct Piece {
     of: RingSide,
 }
 
-impl Noded {
+impl NodedGraph {
     /// # Errors
     /// If two sides cross or overlap.
     pub fn of(rings: &[Vec<Point>]) -> Result<Self, RingError> {
@@ -165,17 +165,17 @@ fn is_counter_clockwise(points: &[Point], walk: &[usize]) -> bool {
 
 /// Splits a walk into loops.
 fn taken_apart(walk: &[usize], vertices: usize) -> Vec<Vec<usize>> {
-    const NOWHERE: usize = usize::MAX;
-    let mut place = vec![NOWHERE; vertices];
+    const NO_INDEX: usize = usize::MAX;
+    let mut place = vec![NO_INDEX; vertices];
     let (mut loops, mut open) = (Vec::new(), Vec::new());
     for &vertex in walk.iter().chain(walk.first()) {
-        if place[vertex] == NOWHERE {
+        if place[vertex] == NO_INDEX {
             place[vertex] = open.len();
             open.push(vertex);
             continue;
         }
         let closed: Vec<usize> = open.split_off(place[vertex] + 1);
-        closed.iter().for_each(|v| place[*v] = NOWHERE);
+        closed.iter().for_each(|v| place[*v] = NO_INDEX);
         loops.push([vec![vertex], closed].concat());
     }
     loops

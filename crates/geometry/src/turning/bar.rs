@@ -20,10 +20,10 @@ use std::f64::consts::TAU;
 
 /// Lengths that differ by less count as equal, metres. This exceeds the rounding of coordinates up to about 100 m, and
 /// is far below [`super::ROUNDING`].
-const BLUR: f64 = 1e-11;
+const LENGTH_TOLERANCE: f64 = 1e-11;
 
 /// Least ratio of width to reach of a bar. The arcs are then much wider than the rounding errors of their ends.
-const LEAST_WIDTH: f64 = 1e-6;
+const MIN_WIDTH_RATIO: f64 = 1e-6;
 
 /// A rectangle from `rear` to `front` along the axis, symmetric about it, with the joint at the origin.
 #[derive(Debug, Clone, PartialEq)]
@@ -48,13 +48,13 @@ impl Bar {
             let (front, half_width) = (axis.dot(&right), (left - right).norm() / 2.0);
             let back = axis.dot(&rear_left);
             let corner = |along: f64, across: f64| axis * along + perpendicular(axis) * across;
-            let is = |at: Vector, along: f64, across: f64| (at - corner(along, across)).norm() <= BLUR;
+            let is = |at: Vector, along: f64, across: f64| (at - corner(along, across)).norm() <= LENGTH_TOLERANCE;
             let rectangle = is(right, front, -half_width)
                 && is(left, front, half_width)
                 && is(rear_left, back, half_width)
                 && is(rear_right, back, -half_width);
             let reach = front.hypot(half_width);
-            (rectangle && back.abs() < front && half_width > LEAST_WIDTH * reach).then(|| Self {
+            (rectangle && back.abs() < front && half_width > MIN_WIDTH_RATIO * reach).then(|| Self {
                 axis,
                 front,
                 half_width,
@@ -68,11 +68,10 @@ impl Bar {
     /// piece, or if only the front corners of the bar reach it. `O(n)`.
     pub fn arc(&self, pivot: Point, zero: Vector, piece: &Features, out: &mut Vec<[f64; 2]>) -> Option<Hits> {
         let side_gap = |normal: Vector, offset: f64| normal.dot(&pivot) - offset;
-        let (gap, toward) = piece
-            .sides
-            .iter()
-            .map(|s| (side_gap(s.normal, s.offset), -s.normal))
-            .fold((self.rear + BLUR, Vector::zeros()), |best, next| if next.0 > best.0 { next } else { best });
+        let (gap, toward) = piece.sides.iter().map(|s| (side_gap(s.normal, s.offset), -s.normal)).fold(
+            (self.rear + LENGTH_TOLERANCE, Vector::zeros()),
+            |best, next| if next.0 > best.0 { next } else { best },
+        );
         if toward == Vector::zeros() {
             return None;
         }
@@ -81,7 +80,7 @@ impl Bar {
         }
         let mut extremes = Extremes { first: perpendicular(toward), last: -perpendicular(toward) };
         let (mut touched, mut blocks_front, mut all_inside) = (false, false, true);
-        let reach = self.reach2.sqrt() + BLUR;
+        let reach = self.reach2.sqrt() + LENGTH_TOLERANCE;
         for corner in &piece.corners {
             let at = corner.at - pivot;
             let distance2 = at.norm_squared();
@@ -177,7 +176,7 @@ mod tests {
 
     /// Rounding moves the touching corner further inside the bar's side than the distance along its normal says.
     #[test]
-    fn what_touches_is_not_apart() {
+    fn touching_shapes_have_no_gap() {
         let part = bar(0.8, 0.14258016639302604, 0.01648044041409189, -1.856738282955592);
         let corner = |k: u32| {
             let angle = 6.086385869499533 + TAU * f64::from(k) / 4.0;

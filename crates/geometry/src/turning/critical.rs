@@ -8,7 +8,7 @@ use std::f64::consts::{PI, TAU};
 
 /// Critical angles closer than this count as one, radians. A turn by it moves no point of a 100 m arm by more than a
 /// tenth of [`ROUNDING`].
-const SAME_ANGLE: f64 = 1e-12;
+const ANGLE_TOLERANCE: f64 = 1e-12;
 
 /// `cos` may exceed 1 by this much and still count as grazing, so that a contact lost to rounding is examined.
 const GRAZING_COSINE: f64 = 1e-7;
@@ -22,7 +22,7 @@ pub(super) fn critical_arcs(placement: &Placement<'_>, out: &mut Vec<[f64; 2]>) 
     let zero_angle = zero.y.atan2(zero.x);
     angles.iter_mut().for_each(|angle| *angle = wrap(*angle - zero_angle));
     angles.sort_unstable_by(f64::total_cmp);
-    angles.dedup_by(|b, a| *b - *a <= SAME_ANGLE);
+    angles.dedup_by(|b, a| *b - *a <= ANGLE_TOLERANCE);
 
     let allowed = radius - part.shape().radius() - piece.shape().radius() + ROUNDING / 2.0;
     let meets = |angle: f64| {
@@ -110,7 +110,7 @@ mod tests {
 
     /// In general position no comparison is in doubt, and both methods give the same arcs.
     #[test]
-    fn the_local_test_and_the_exhaustive_way_agree() {
+    fn the_local_and_the_exhaustive_test_agree() {
         let bar = [(0.0, -0.05), (0.8, -0.05), (0.8, 0.05), (0.0, 0.05)].map(|(x, y)| Point::new(x, y)).to_vec();
         let parts =
             [Convex::trusted(bar.clone(), 0.0), Convex::trusted(bar, 0.02), regular(2, 0.5, 0.1), regular(5, 0.4, 0.0)];

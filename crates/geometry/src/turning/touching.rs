@@ -6,24 +6,24 @@ use std::f64::consts::{PI, TAU};
 
 /// Lengths closer than this, metres, are not compared because of rounding. Nor are ends closer than this, radians.
 /// Coordinates up to about 100 m lose about 1e-11 m, except where a corner's circle grazes a line.
-const DOUBT: f64 = 1e-9;
+const COMPARISON_TOLERANCE: f64 = 1e-9;
 
 /// Relative excess of a corner's squared distance below which its circle grazes a line: the square root has then lost
-/// too many digits (half of them at 1e-16) for [`DOUBT`].
-const GRAZING: f64 = 1e-8;
+/// too many digits (half of them at 1e-16) for [`COMPARISON_TOLERANCE`].
+const LINE_GRAZING_TOLERANCE: f64 = 1e-8;
 
 /// Directions between corners `r` apart lose digits as `r` shrinks. Their doubt grows by this, in square metres,
 /// divided by `r`.
-const DOUBT_OF_DIRECTIONS: f64 = 1e-13;
+const DIRECTION_TOLERANCE: f64 = 1e-13;
 
 /// Two circles graze each other if the gap between their radii is closer than this fraction to the contact distance.
-const GRAZING_CIRCLES: f64 = 1e-6;
+const CIRCLE_GRAZING_TOLERANCE: f64 = 1e-6;
 
 /// Largest number of arcs of one pair of convex shapes. With more, which is rare, the exhaustive method takes over.
-const MOST_ARCS: usize = 8;
+const MAX_ARCS: usize = 8;
 
 /// A comparison was too close for rounding.
-pub(super) struct Doubtful;
+pub(super) struct UndecidedComparison;
 
 /// Two shapes and their positions.
 #[derive(Clone, Copy)]
@@ -45,8 +45,8 @@ pub(super) struct Placement<'a> {
 /// Starts and ends of the forbidden arcs; angles in `[-pi, pi)`.
 #[derive(Default)]
 pub(super) struct Ends {
-    starts: [f64; MOST_ARCS],
-    ends: [f64; MOST_ARCS],
+    starts: [f64; MAX_ARCS],
+    ends: [f64; MAX_ARCS],
     count: [usize; 2],
 }
 
@@ -57,20 +57,20 @@ impl Ends {
     }
 
     /// Records a start (or an end) at the angle of `direction`.
-    fn push(&mut self, start: bool, direction: Vector) -> Result<(), Doubtful> {
+    fn push(&mut self, start: bool, direction: Vector) -> Result<(), UndecidedComparison> {
         let angle = direction.y.atan2(direction.x);
         let (list, count) =
             if start { (&mut self.starts, &mut self.count[0]) } else { (&mut self.ends, &mut self.count[1]) };
-        *list.get_mut(*count).ok_or(Doubtful)? = if angle >= PI { -PI } else { angle };
+        *list.get_mut(*count).ok_or(UndecidedComparison)? = if angle >= PI { -PI } else { angle };
         *count += 1;
         Ok(())
     }
 
     /// Joins each start with the next end. If in doubt, appends nothing.
-    pub(super) fn arcs(mut self, out: &mut Vec<[f64; 2]>) -> Result<(), Doubtful> {
+    pub(super) fn arcs(mut self, out: &mut Vec<[f64; 2]>) -> Result<(), UndecidedComparison> {
         let n = self.count[0];
         if n != self.count[1] {
-            return Err(Doubtful);
+            return Err(UndecidedComparison);
         }
         let (starts, ends) = (&mut self.starts[..n], &mut self.ends[..n]);
         if n > 1 {
@@ -82,8 +82,10 @@ impl Ends {
             ends[n - 1] += TAU;
         }
         let next_start = |i: usize| if i + 1 < n { starts[i + 1] } else { starts[0] + TAU };
-        if (0..n).any(|i| ends[i] - starts[i] <= DOUBT || next_start(i) - ends[i] <= DOUBT) {
-            return Err(Doubtful);
+        if (0..n)
+            .any(|i| ends[i] - starts[i] <= COMPARISON_TOLERANCE || next_start(i) - ends[i] <= COMPARISON_TOLERANCE)
+        {
+            return Err(UndecidedComparison);
         }
         out.extend((0..n).map(|i| [starts[i], ends[i]]));
         Ok(())
@@ -92,7 +94,7 @@ impl Ends {
 
 impl Placement<'_> {
     /// Finds all true contacts.
-    pub(super) fn ends(&self) -> Result<Ends, Doubtful> {
+    pub(super) fn ends(&self) -> Result<Ends, UndecidedComparison> {
         let mut ends = Ends::default();
         self.corners_on_fixed_sides(&mut ends)?;
         for corner in &self.piece.corners {
@@ -116,7 +118,7 @@ impl Placement<'_> {
     }
 
     /// Finds contacts of corners of the part with sides of the piece.
-    fn corners_on_fixed_sides(&self, ends: &mut Ends) -> Result<(), Doubtful> {
+    fn corners_on_fixed_sides(&self, ends: &mut Ends) -> Result<(), UndecidedComparison> {
         for side in &self.piece.sides {
             // The side moved outwards by the radius, seen from the pivot.
             let along = side.offset - side.normal.dot(&self.pivot) + self.radius;
@@ -127,7 +129,7 @@ impl Placement<'_> {
                     let position = Vector::new(along, across);
                     // Both neighbours of the corner must lie beyond the side, too.
                     let margin = corner.polar().iter().map(|&w| product(position, w).x).fold(f64::INFINITY, f64::min);
-                    if is_positive(margin.min(foot_margin(across, from, to)), DOUBT)? {
+                    if is_positive(margin.min(foot_margin(across, from, to)), COMPARISON_TOLERANCE)? {
                         ends.push(start, quotient(quotient(product(position, side.normal), corner.at), self.zero))?;
                     }
                 }
@@ -144,14 +146,15 @@ impl Placement<'_> {
         at: Vector,
         distance2: f64,
         ends: &mut Ends,
-    ) -> Result<(), Doubtful> {
+    ) -> Result<(), UndecidedComparison> {
         for side in &self.part.sides {
             let along = side.offset + self.radius;
             for (across, start) in crossings(distance2, along, side.from, side.to, [false, true])? {
                 let position = Vector::new(along, across);
                 let neighbors = corner.to_neighbors().iter();
                 let margin = neighbors.map(|&v| product(position, quotient(v, at)).x).fold(f64::INFINITY, f64::min);
-                if is_positive((margin / distance2).min(foot_margin(across, side.from, side.to)), DOUBT)? {
+                if is_positive((margin / distance2).min(foot_margin(across, side.from, side.to)), COMPARISON_TOLERANCE)?
+                {
                     ends.push(start, quotient(quotient(quotient(at, self.zero), position), side.normal))?;
                 }
             }
@@ -161,19 +164,25 @@ impl Placement<'_> {
 
     /// Finds corners of the part at the contact distance from a corner of the piece, `at` and `distance` from the
     /// pivot.
-    fn corners_apart(&self, fixed: &Corner, at: Vector, distance: f64, ends: &mut Ends) -> Result<(), Doubtful> {
+    fn corners_apart(
+        &self,
+        fixed: &Corner,
+        at: Vector,
+        distance: f64,
+        ends: &mut Ends,
+    ) -> Result<(), UndecidedComparison> {
         let radius = self.radius;
-        let doubt = DOUBT + DOUBT_OF_DIRECTIONS / radius;
+        let doubt = COMPARISON_TOLERANCE + DIRECTION_TOLERANCE / radius;
         let toward = at / distance;
         for corner in self.corners_in_reach() {
             let (excess, sum) = (corner.distance - distance, corner.distance + distance);
             let gap = radius - excess.abs();
             // The corner's circle is outside the one around the fixed corner, or inside it.
-            if gap < -GRAZING_CIRCLES * radius || sum - radius < -DOUBT {
+            if gap < -CIRCLE_GRAZING_TOLERANCE * radius || sum - radius < -COMPARISON_TOLERANCE {
                 continue;
             }
-            if gap < GRAZING_CIRCLES * radius || sum - radius < DOUBT {
-                return Err(Doubtful);
+            if gap < CIRCLE_GRAZING_TOLERANCE * radius || sum - radius < COMPARISON_TOLERANCE {
+                return Err(UndecidedComparison);
             }
             // Along the direction from the pivot to the fixed corner, the turned corner is at `beyond` from that
             // corner; across it, at `across`. Products of sums and differences keep the digits of a small radius.
@@ -207,19 +216,19 @@ fn crossings(
     from: f64,
     to: f64,
     start: [bool; 2],
-) -> Result<impl Iterator<Item = (f64, bool)>, Doubtful> {
+) -> Result<impl Iterator<Item = (f64, bool)>, UndecidedComparison> {
     let across2 = distance2 - along * along;
-    let grazes = GRAZING * distance2;
+    let grazes = LINE_GRAZING_TOLERANCE * distance2;
     let root = if across2 >= grazes {
         across2.sqrt()
     } else {
-        let blur = 2.0 * grazes.sqrt() + DOUBT;
+        let blur = 2.0 * grazes.sqrt() + COMPARISON_TOLERANCE;
         if across2 > -grazes && from <= blur && to >= -blur {
-            return Err(Doubtful);
+            return Err(UndecidedComparison);
         }
         f64::NAN
     };
-    let on_side = move |across: f64| foot_margin(across, from, to) >= -DOUBT;
+    let on_side = move |across: f64| foot_margin(across, from, to) >= -COMPARISON_TOLERANCE;
     Ok([(root, start[0]), (-root, start[1])].into_iter().filter(move |&(across, _)| on_side(across)))
 }
 
@@ -229,6 +238,6 @@ fn foot_margin(across: f64, from: f64, to: f64) -> f64 {
 }
 
 /// Returns true if a length is positive. Doubtful if it is too small to decide.
-fn is_positive(margin: f64, doubt: f64) -> Result<bool, Doubtful> {
-    if margin.abs() <= doubt { Err(Doubtful) } else { Ok(margin > 0.0) }
+fn is_positive(margin: f64, doubt: f64) -> Result<bool, UndecidedComparison> {
+    if margin.abs() <= doubt { Err(UndecidedComparison) } else { Ok(margin > 0.0) }
 }

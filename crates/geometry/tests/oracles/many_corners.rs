@@ -2,7 +2,7 @@
 //! reported sides of an invalid polygon are compared with a test of all pairs.
 
 use crate::lattice::{Corner, cross, meet, points};
-use cplan_geometry::{Convex, MOST_CORNERS, Point, PolygonError, SimplePolygon, decompose};
+use cplan_geometry::{Convex, MAX_CORNERS, Point, PolygonError, SimplePolygon, decompose};
 use proptest::prelude::*;
 
 /// Returns a ring around the origin on the lattice, with one corner in each of `count` directions; `radius` of each.
@@ -51,7 +51,7 @@ fn is_cut_up_exactly(ring: &[Corner]) {
     let pieces: Vec<Vec<Corner>> = decompose(&polygon).iter().map(in_integers).collect();
     for piece in &pieces {
         let n = piece.len();
-        assert!((3..=MOST_CORNERS).contains(&n));
+        assert!((3..=MAX_CORNERS).contains(&n));
         assert!((0..n).all(|i| cross(piece[i], piece[(i + 1) % n], piece[(i + 2) % n]) > 0), "strictly convex");
     }
     assert_eq!(pieces.iter().map(|piece| twice_area(piece)).sum::<i128>(), twice_area(ring).abs());

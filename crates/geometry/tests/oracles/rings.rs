@@ -209,7 +209,7 @@ fn random_rings_are_refused_or_covered() {
 }
 
 #[test]
-fn what_cannot_be_meant_is_named() {
+fn impossible_rings_are_reported() {
     let square = |x: i64, y: i64, size: i64| vec![(x, y), (x + size, y), (x + size, y + size), (x, y + size)];
     // A hole that touches a corner of the outer ring from inside is allowed.
     for (dx, dy) in [(0, 0), (9, 0), (9, 9), (0, 9)] {

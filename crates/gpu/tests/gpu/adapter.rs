@@ -25,7 +25,7 @@ fn an_adapter_is_found_where_drivers_are() {
 #[test]
 #[cfg(target_os = "linux")]
 #[ignore = "needs a Vulkan loader: .ci/gpu"]
-fn without_drivers_the_cure_is_told() {
+fn missing_drivers_give_a_hint() {
     let mut again = Command::new(std::env::current_exe().unwrap());
     again.args(["--include-ignored", "--exact", "adapter::an_adapter_is_found_where_drivers_are"]);
     // The older name of the variable goes first where a loader knows both.

@@ -50,7 +50,7 @@ fn cycles_do_not_grow_with_the_grid() {
 
 #[test]
 #[ignore = "needs a Vulkan driver: .ci/gpu"]
-fn what_does_not_converge_is_said_to() {
+fn divergence_is_reported() {
     // Mirrors all round and nothing given but the start: any constant is a solution, and there is drift that fights it.
     let n = 24;
     let weights = vec![[0.25 - 2.0, 0.25 + 2.0, 0.25, 0.25]; n * n];
@@ -61,7 +61,7 @@ fn what_does_not_converge_is_said_to() {
 
 #[test]
 #[ignore = "needs a Vulkan driver: .ci/gpu"]
-fn what_is_not_linear_is_refused() {
+fn nonlinear_equations_are_refused() {
     let case = Case { stencil: Stencil::Altered(vec![0.1; 64]), ..bars(8) };
     assert!(matches!(gpu().solve(&case.problem(), &Multigrid::default()), Err(GpuError::Refused(_))));
 }

@@ -98,7 +98,7 @@ fn rules_end_where_they_end_one_by_one() {
 
 #[test]
 #[ignore = "needs a Vulkan driver: .ci/gpu"]
-fn what_single_precision_cannot_reach_is_said() {
+fn the_floor_of_single_precision_is_reported() {
     let case = square(33);
     let exact = case.solved().unwrap();
     let mut floors = 0;
@@ -118,7 +118,7 @@ fn what_single_precision_cannot_reach_is_said() {
 
 #[test]
 #[ignore = "needs a Vulkan driver: .ci/gpu"]
-fn divergence_is_said_with_its_cell() {
+fn divergence_is_reported_with_its_cell() {
     let settings = Settings { factor: 2.5, max_sweeps: 100_000, ..Settings::default() };
     let error = gpu().relax(&square(20).problem(), &settings).expect_err("factors above 2 diverge");
     let GpuError::Diverged { cell, value, sweeps } = error else { panic!("{error}") };
@@ -140,7 +140,7 @@ fn the_same_comes_out_each_time() {
 
 #[test]
 #[ignore = "needs a Vulkan driver: .ci/gpu"]
-fn nothing_to_do_is_done_at_once() {
+fn problems_without_unknowns_return_at_once() {
     let mut case = square(5);
     case.unknown = vec![false; 25];
     let done = gpu().relax(&case.problem(), &Settings::default()).unwrap();

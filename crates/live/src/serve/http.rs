@@ -17,17 +17,17 @@ use tokio::net::TcpListener;
 use tokio::sync::Semaphore;
 
 /// Greatest number of simultaneous connections. A browser opens some six.
-const MOST_CONNECTIONS: usize = 32;
+const MAX_CONNECTIONS: usize = 32;
 
 /// Time that a client has to send the head of a request.
 const HEAD_TIME: Duration = Duration::from_secs(10);
 
 /// Time limit of a connection, except for WebSockets, which have their own. A browser opens another one. Without it,
 /// clients that send requests and never read would block all others.
-const LIFE: Duration = Duration::from_secs(10);
+const CONNECTION_TIME: Duration = Duration::from_secs(10);
 
 /// Greatest size of the head of a request, bytes.
-const LARGEST_HEAD: usize = 16 << 10;
+const MAX_HEAD_BYTES: usize = 16 << 10;
 
 /// Headers of every response. The page is one file, the same for every world (its data comes by the WebSocket, and is
 /// never treated as HTML), so its scripts and styles may be inline; nothing is loaded from elsewhere.
@@ -52,7 +52,7 @@ pub async fn serve(listener: TcpListener, server: Arc<Server>) {
         .route("/live", get(upgrade))
         .layer(middleware::from_fn_with_state(Arc::clone(&server), guarded))
         .with_state(server);
-    let room = Arc::new(Semaphore::new(MOST_CONNECTIONS));
+    let room = Arc::new(Semaphore::new(MAX_CONNECTIONS));
     loop {
         // The permit is always granted in the end, because the semaphore is never closed.
         let Ok(permit) = Arc::clone(&room).acquire_owned().await else { return };
@@ -69,10 +69,13 @@ pub async fn serve(listener: TcpListener, server: Arc<Server>) {
         let service = TowerToHyperService::new(router.clone());
         tokio::spawn(async move {
             let mut http = hyper::server::conn::http1::Builder::new();
-            http.timer(TokioTimer::new()).header_read_timeout(HEAD_TIME).max_buf_size(LARGEST_HEAD);
+            http.timer(TokioTimer::new()).header_read_timeout(HEAD_TIME).max_buf_size(MAX_HEAD_BYTES);
             // Errors of the client are ignored.
-            let _ =
-                tokio::time::timeout(LIFE, http.serve_connection(TokioIo::new(stream), service).with_upgrades()).await;
+            let _ = tokio::time::timeout(
+                CONNECTION_TIME,
+                http.serve_connection(TokioIo::new(stream), service).with_upgrades(),
+            )
+            .await;
             drop(permit);
         });
     }
@@ -132,8 +135,8 @@ async fn upgrade(State(server): State<Arc<Server>>, headers: HeaderMap, upgrade:
         return (StatusCode::SERVICE_UNAVAILABLE, "too many pages are open\n").into_response();
     };
     upgrade
-        .max_message_size(socket::LARGEST_MESSAGE)
-        .max_frame_size(socket::LARGEST_MESSAGE)
+        .max_message_size(socket::MAX_MESSAGE_BYTES)
+        .max_frame_size(socket::MAX_MESSAGE_BYTES)
         .on_upgrade(move |socket| socket::session(socket, Arc::clone(&server.host), permit))
 }
 

@@ -6,17 +6,17 @@ use std::collections::VecDeque;
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 
 /// Greatest number of waiting requests; of plans only the latest waits.
-const MOST_WAITING: usize = 8;
+const MAX_WAITING: usize = 8;
 
 /// A mailbox between the connection that adds requests and the worker that takes them.
 #[derive(Default)]
 pub struct Mailbox {
-    inside: Mutex<Inside>,
+    inside: Mutex<MailboxState>,
     bell: Condvar,
 }
 
 #[derive(Default)]
-struct Inside {
+struct MailboxState {
     waiting: VecDeque<Request>,
     /// Interrupt of the request in progress.
     running: Option<Interrupt>,
@@ -24,7 +24,7 @@ struct Inside {
 }
 
 impl Mailbox {
-    fn inside(&self) -> MutexGuard<'_, Inside> {
+    fn inside(&self) -> MutexGuard<'_, MailboxState> {
         // A panic while the lock is held leaves the state consistent.
         self.inside.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -36,7 +36,7 @@ impl Mailbox {
         if matches!(request, Request::Plan(_)) {
             inside.waiting.retain(|waiting| !matches!(waiting, Request::Plan(_)));
         }
-        if inside.waiting.len() >= MOST_WAITING {
+        if inside.waiting.len() >= MAX_WAITING {
             return false;
         }
         inside.waiting.push_back(request);
@@ -82,10 +82,10 @@ impl Mailbox {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Ask;
+    use crate::PlanRequest;
 
-    fn ask(id: u64) -> Ask {
-        Ask { id, base: 1, is_final: false, state: None, options: "visibility".into(), think: false }
+    fn ask(id: u64) -> PlanRequest {
+        PlanRequest { id, base: 1, is_final: false, state: None, options: "visibility".into(), think: false }
     }
 
     fn load(id: u64) -> Request {
@@ -114,7 +114,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_but_plans_is_dropped_and_room_is_limited() {
+    fn only_plans_are_dropped_and_the_queue_is_bounded() {
         let mailbox = Mailbox::default();
         mailbox.post(Request::Plan(ask(1)));
         mailbox.post(load(2));

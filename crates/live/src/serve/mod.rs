@@ -19,7 +19,7 @@ use std::sync::Arc;
 use tokio::sync::Semaphore;
 
 /// Pages that may be open at a time: each has a thread that plans.
-const MOST_PAGES: usize = 8;
+const MAX_PAGES: usize = 8;
 
 /// The state that all connections share.
 struct Server {
@@ -36,7 +36,7 @@ struct Server {
 /// If the machine cannot wait for connections.
 pub fn run(listener: TcpListener, host: Host) -> std::io::Result<()> {
     let address = listener.local_addr()?;
-    let server = Server { address, sessions: Arc::new(Semaphore::new(MOST_PAGES)), host: Arc::new(host) };
+    let server = Server { address, sessions: Arc::new(Semaphore::new(MAX_PAGES)), host: Arc::new(host) };
     listener.set_nonblocking(true)?;
     let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
     let served = runtime.block_on(async {

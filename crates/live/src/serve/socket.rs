@@ -1,7 +1,7 @@
 //! One open page: its WebSocket, and the worker that plans for it.
 
 use super::mailbox::Mailbox;
-use crate::{Desk, Host, Reply, Request, Spent};
+use crate::{Host, LiveSession, Reply, Request, TimeSpent};
 use axum::body::Bytes;
 use axum::extract::ws::{Message, Utf8Bytes, WebSocket};
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -12,30 +12,30 @@ use tokio::sync::{OwnedSemaphorePermit, mpsc};
 use tokio::time::{Instant, MissedTickBehavior, interval, timeout};
 
 /// Bytes of the largest message that a page may send: a world of a megabyte.
-pub const LARGEST_MESSAGE: usize = 1 << 20;
+pub const MAX_MESSAGE_BYTES: usize = 1 << 20;
 
 /// Messages to the page that may wait before the worker does.
-const WAITING: usize = 4;
+const MAX_QUEUED_MESSAGES: usize = 4;
 
 /// Time that the page has to take a message.
 const SEND_TIME: Duration = Duration::from_secs(20);
 
 /// Interval of checks whether a page is still connected.
-const PING: Duration = Duration::from_secs(20);
+const PING_INTERVAL: Duration = Duration::from_secs(20);
 
 /// Time without any message after which a page counts as gone.
-const SILENCE: Duration = Duration::from_secs(70);
+const MAX_SILENCE: Duration = Duration::from_secs(70);
 
 /// Stack of a worker: as much as the main thread has.
-const STACK: usize = 8 << 20;
+const WORKER_STACK_BYTES: usize = 8 << 20;
 
 /// Serves one page until it is closed. The permit counts it among the open pages.
 pub async fn session(mut socket: WebSocket, host: Arc<Host>, permit: OwnedSemaphorePermit) {
     let mailbox = Arc::new(Mailbox::default());
-    let (send, mut replies) = mpsc::channel(WAITING);
+    let (send, mut replies) = mpsc::channel(MAX_QUEUED_MESSAGES);
     let worker = {
         let mailbox = Arc::clone(&mailbox);
-        thread::Builder::new().name("planner".into()).stack_size(STACK).spawn(move || {
+        thread::Builder::new().name("planner".into()).stack_size(WORKER_STACK_BYTES).spawn(move || {
             work(&mailbox, host, &send);
             // A new page may open when the work is finished, not when the connection is closed.
             drop(permit);
@@ -44,7 +44,7 @@ pub async fn session(mut socket: WebSocket, host: Arc<Host>, permit: OwnedSemaph
     if worker.is_err() {
         return;
     }
-    let mut ping = interval(PING);
+    let mut ping = interval(PING_INTERVAL);
     ping.set_missed_tick_behavior(MissedTickBehavior::Delay);
     let mut heard = Instant::now();
     loop {
@@ -60,18 +60,18 @@ pub async fn session(mut socket: WebSocket, host: Arc<Host>, permit: OwnedSemaph
                     Ok(request) => (!mailbox.post(request)).then(|| "too many requests wait".to_owned()),
                     Err(error) => Some(format!("no request: {error}")),
                 };
-                if let Some(error) = wrong && !tell(&mut socket, failed(0, error)).await {
+                if let Some(error) = wrong && !send_message(&mut socket, failed(0, error)).await {
                     break;
                 }
             }
             reply = replies.recv() => {
                 let Some(message) = reply else { break };
-                if !tell(&mut socket, message).await {
+                if !send_message(&mut socket, message).await {
                     break;
                 }
             }
             _ = ping.tick() => {
-                if heard.elapsed() > SILENCE || !tell(&mut socket, Message::Ping(Bytes::new())).await {
+                if heard.elapsed() > MAX_SILENCE || !send_message(&mut socket, Message::Ping(Bytes::new())).await {
                     break;
                 }
             }
@@ -81,7 +81,7 @@ pub async fn session(mut socket: WebSocket, host: Arc<Host>, permit: OwnedSemaph
 }
 
 /// Sends a message. Returns true if the page received it.
-async fn tell(socket: &mut WebSocket, message: Message) -> bool {
+async fn send_message(socket: &mut WebSocket, message: Message) -> bool {
     matches!(timeout(SEND_TIME, socket.send(message)).await, Ok(Ok(())))
 }
 
@@ -100,12 +100,13 @@ fn failed(id: u64, error: String) -> Message {
 /// Handles the page's requests in sequence until its mailbox is closed.
 fn work(mailbox: &Mailbox, host: Arc<Host>, send: &mpsc::Sender<Message>) {
     // The mailbox is also closed when the page is gone.
-    let tell = |message: Message| drop(send.blocking_send(message));
-    let mut desk = Desk::new(host);
+    let send_message = |message: Message| drop(send.blocking_send(message));
+    let mut desk = LiveSession::new(host);
     while let Some((request, interrupt)) = mailbox.take() {
-        let work = || desk.take(&request, &interrupt, Spent::Nothing, &mut |message| tell(carried(message)));
+        let work =
+            || desk.take(&request, &interrupt, TimeSpent::Nothing, &mut |message| send_message(carried(message)));
         if let Some(message) = guarded(request.id(), work) {
-            tell(message);
+            send_message(message);
         }
     }
 }
@@ -122,9 +123,9 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_panic_is_told_and_ends_nothing() {
-        let told = guarded(7, || std::panic::resume_unwind(Box::new("as a panic does")));
-        assert!(matches!(told, Some(Message::Text(text)) if text.starts_with(r#"{"kind":"failed","id":7,"#)));
+    fn a_panic_is_reported_and_the_session_continues() {
+        let reply = guarded(7, || std::panic::resume_unwind(Box::new("as a panic does")));
+        assert!(matches!(reply, Some(Message::Text(text)) if text.starts_with(r#"{"kind":"failed","id":7,"#)));
         assert!(guarded(8, || ()).is_none());
     }
 }

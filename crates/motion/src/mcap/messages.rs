@@ -1,7 +1,7 @@
 //! The ROS 2 messages for motions and their display: definitions and bytes.
 
 use super::super::JointMotion;
-use super::super::clock::{PER_SECOND, nanoseconds};
+use super::super::clock::{NANOSECONDS_PER_SECOND, nanoseconds};
 use super::cdr::Cdr;
 use super::scene::{Body, Place, Stage};
 
@@ -26,7 +26,7 @@ const POINT: Part = (
 );
 
 const VECTOR: Part = ("geometry_msgs/Vector3", "float64 x\nfloat64 y\nfloat64 z\n");
-const PLACE: Part = ("geometry_msgs/Point", "float64 x\nfloat64 y\nfloat64 z\n");
+const POINT3: Part = ("geometry_msgs/Point", "float64 x\nfloat64 y\nfloat64 z\n");
 const QUATERNION: Part = ("geometry_msgs/Quaternion", "float64 x\nfloat64 y\nfloat64 z\nfloat64 w\n");
 const TRANSFORM: Part =
     ("geometry_msgs/Transform", "geometry_msgs/Vector3 translation\ngeometry_msgs/Quaternion rotation\n");
@@ -74,7 +74,7 @@ pub const TRANSFORMS: Type = Type {
 pub const MARKERS: Type = Type {
     name: "visualization_msgs/msg/MarkerArray",
     fields: "visualization_msgs/Marker[] markers\n",
-    parts: &[MARKER, HEADER, TIME, DURATION, POSE, PLACE, QUATERNION, VECTOR, COLOR, IMAGE, UV, MESH],
+    parts: &[MARKER, HEADER, TIME, DURATION, POSE, POINT3, QUATERNION, VECTOR, COLOR, IMAGE, UV, MESH],
 };
 
 /// Points.
@@ -126,7 +126,7 @@ pub fn joint_trajectory(motion: &JointMotion) -> Vec<u8> {
 }
 
 /// The frame of all others: that of the robot's root.
-const WORLD: &str = "world";
+const WORLD_FRAME: &str = "world";
 
 /// Returns the bytes of [`TRANSFORMS`]: names of frames, and their poses from a time on.
 #[must_use]
@@ -135,7 +135,7 @@ pub fn transforms(time: u64, frames: &[(&str, (Place, [f64; 4]))]) -> Vec<u8> {
     cdr.length(frames.len());
     for (name, (at, orientation)) in frames {
         since(&mut cdr, time);
-        cdr.string(WORLD);
+        cdr.string(WORLD_FRAME);
         cdr.string(name);
         at.iter().chain(orientation).for_each(|&value| cdr.f64(value));
     }
@@ -146,7 +146,7 @@ pub fn transforms(time: u64, frames: &[(&str, (Place, [f64; 4]))]) -> Vec<u8> {
 #[must_use]
 pub fn markers(stage: &Stage) -> Vec<u8> {
     /// `TRIANGLE_LIST`.
-    const TRIANGLES: i32 = 11;
+    const TRIANGLE_LIST: i32 = 11;
     let mut cdr = Cdr::new();
     cdr.length(stage.bodies.iter().map(|body| body.solids.len()).sum());
     let solids = stage.bodies.iter().flat_map(|body| body.solids.iter().map(move |solid| (body, solid)));
@@ -155,7 +155,7 @@ pub fn markers(stage: &Stage) -> Vec<u8> {
         cdr.string(&body.name);
         cdr.string(&solid.name);
         cdr.i32(number);
-        cdr.i32(TRIANGLES);
+        cdr.i32(TRIANGLE_LIST);
         // Action "add".
         cdr.i32(0);
         [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0].iter().chain(&[1.0; 3]).for_each(|&value| cdr.f64(value));
@@ -187,9 +187,9 @@ pub fn markers(stage: &Stage) -> Vec<u8> {
 #[must_use]
 pub fn points(stage: &Stage, body: &Body) -> Vec<u8> {
     /// `FLOAT32`, and its bytes.
-    const NUMBER: (u8, u32) = (7, 4);
+    const FLOAT32_FIELD: (u8, u32) = (7, 4);
     let points = stage.rims(body);
-    let step = 3 * NUMBER.1;
+    let step = 3 * FLOAT32_FIELD.1;
     let count = u32::try_from(points.len()).expect("fewer than 2^32 points");
     let mut cdr = Cdr::new();
     since(&mut cdr, 0);
@@ -199,8 +199,8 @@ pub fn points(stage: &Stage, body: &Body) -> Vec<u8> {
     cdr.length(3);
     for (name, place) in ["x", "y", "z"].into_iter().zip(0..) {
         cdr.string(name);
-        cdr.u32(place * NUMBER.1);
-        cdr.u8(NUMBER.0);
+        cdr.u32(place * FLOAT32_FIELD.1);
+        cdr.u8(FLOAT32_FIELD.0);
         cdr.u32(1);
     }
     cdr.u8(0);
@@ -221,8 +221,8 @@ fn header(cdr: &mut Cdr, time: u64) {
 /// Writes a `Time` or a `Duration`.
 fn since(cdr: &mut Cdr, nanoseconds: u64) {
     // The types end after 68 years; motions after eleven days.
-    cdr.i32(i32::try_from(nanoseconds / PER_SECOND).unwrap_or(i32::MAX));
-    cdr.u32((nanoseconds % PER_SECOND) as u32);
+    cdr.i32(i32::try_from(nanoseconds / NANOSECONDS_PER_SECOND).unwrap_or(i32::MAX));
+    cdr.u32((nanoseconds % NANOSECONDS_PER_SECOND) as u32);
 }
 
 #[cfg(test)]

@@ -44,13 +44,13 @@ pub struct Solid {
 pub type Place = [f64; 3];
 
 /// Number of chords round a full circle: each chord is shorter than 2 % of the radius from the arc.
-const ROUND: f64 = 16.0;
+const CHORDS_PER_CIRCLE: f64 = 16.0;
 
 /// Height of bodies with infinite extent, if no body has a finite one, as a share of the size.
-const THIN: f64 = 0.02;
+const THIN_BODY_HEIGHT: f64 = 0.02;
 
 /// Distance between points of outlines, as a share of the size.
-const SPACING: f64 = 0.01;
+const OUTLINE_SPACING: f64 = 0.01;
 
 impl Stage {
     /// Returns the extent shown for infinite heights: the extent of all finite ones.
@@ -58,7 +58,11 @@ impl Stage {
         let pieces = self.bodies.iter().flat_map(|body| &body.solids).flat_map(|solid| &solid.pieces);
         let ends = pieces.flat_map(|(_, heights)| [heights.lower, heights.upper]).filter(|end| end.is_finite());
         let (lower, upper) = ends.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, u), end| (l.min(end), u.max(end)));
-        if lower < upper { Heights { lower, upper } } else { Heights { lower: 0.0, upper: THIN * self.size } }
+        if lower < upper {
+            Heights { lower, upper }
+        } else {
+            Heights { lower: 0.0, upper: THIN_BODY_HEIGHT * self.size }
+        }
     }
 
     /// Returns the plane's axes in space as a rotation, whose third axis is the normal or its opposite.
@@ -117,7 +121,7 @@ impl Stage {
             let (ring, ends) = (ring(piece), self.ends(*heights));
             for k in 0..ring.len() {
                 let (a, b) = (ring[k], ring[(k + 1) % ring.len()]);
-                let count = ((b - a).norm() / (SPACING * self.size)).ceil().max(1.0) as usize;
+                let count = ((b - a).norm() / (OUTLINE_SPACING * self.size)).ceil().max(1.0) as usize;
                 for i in 0..count {
                     let p = a + (b - a) * (i as f64 / count as f64);
                     points.extend(ends.map(|height| [p.x, p.y, height]));
@@ -156,7 +160,7 @@ fn ring(piece: &Convex) -> Vec<Point> {
                 (from, (outward(k) - from).rem_euclid(TAU))
             }
         };
-        let steps = (turn / TAU * ROUND).ceil().max(1.0);
+        let steps = (turn / TAU * CHORDS_PER_CIRCLE).ceil().max(1.0);
         let last = if n == 1 { steps as usize - 1 } else { steps as usize };
         ring.extend((0..=last).map(|i| {
             let angle = from + turn * i as f64 / steps;

@@ -2,7 +2,7 @@
 
 use super::tool::ToolMotion;
 use crate::{Place, Span};
-use cplan_core::check::{Bounded, Deviation, Drift, Posture};
+use cplan_core::check::{Deviation, Drift, Posture, SeparationBound};
 use cplan_core::model::{Contact, Pair};
 use cplan_core::space::Configuration;
 use cplan_geometry::Separation;
@@ -18,17 +18,17 @@ const MAX_EVALUATIONS: usize = 20_000_000;
 
 /// Number of further checks after some span stays undecided. Then the motion cannot be proven free any more, and only a
 /// contact can still decide. A motion that slides along an obstacle would leave an endless number of spans undecided.
-const MORE_EVALUATIONS: usize = 200_000;
+const EVALUATIONS_AFTER_UNDECIDED: usize = 200_000;
 
 /// Number of configurations sampled in advance, evenly over the pieces. They show how close the motion comes, and so
 /// which resolution is useful.
-const LOOKS: usize = 1024;
+const INITIAL_SAMPLES: usize = 1024;
 
 /// One of this many samples is taken first.
-const COARSE: usize = 32;
+const COARSE_STRIDE: usize = 32;
 
 /// A single configuration.
-const STILL: Deviation = Deviation::Box([0.0; 2]);
+const NO_DEVIATION: Deviation = Deviation::Box([0.0; 2]);
 
 /// A moment of a recorded motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -86,7 +86,7 @@ pub enum CollisionCheck {
 }
 
 /// Checks the whole motion against every pair that can meet, in order of time: the distance must be positive and at
-/// least `clearance` metres. Joint limits are checked by [`super::limits_kept`].
+/// least `clearance` metres. Joint limits are checked by [`super::limit_violations`].
 ///
 /// A span of one piece is a tube around its chord: a curve deviates from its chord by at most an eighth of its greatest
 /// second derivative times the squared width, for each joint. A span of several pieces is the box of their control
@@ -137,7 +137,7 @@ pub fn certify_in_time(scene: TimedScene, recording: &Recording, clearance: f64)
 
 /// Returns the first moving obstacle that a recording approaches too closely, or that cannot be decided; `None` if it
 /// is free. Does not compute the clearance, which makes it much faster.
-pub fn met_in_time(scene: TimedScene, recording: &Recording, clearance: f64) -> Option<Encounter> {
+pub fn first_moving_contact(scene: TimedScene, recording: &Recording, clearance: f64) -> Option<Encounter> {
     let pieces = recording.pieces();
     let mut search = Search::new(scene, scene.moving_pairs(), &pieces, clearance);
     search.tightness = 0.0;
@@ -201,11 +201,11 @@ impl<'a> Search<'a> {
     /// an earlier one.
     fn look_around(&mut self) {
         let count = self.pieces.len();
-        let (stride, shares) = (count.div_ceil(LOOKS), LOOKS.div_ceil(count));
+        let (stride, shares) = (count.div_ceil(INITIAL_SAMPLES), INITIAL_SAMPLES.div_ceil(count));
         let place = |look: usize| (look / shares * stride, (look % shares) as f64 / shares as f64);
         let looks = count.div_ceil(stride) * shares;
         // Take some samples first: short distances found early make most others irrelevant.
-        for look in (0..looks).step_by(COARSE) {
+        for look in (0..looks).step_by(COARSE_STRIDE) {
             self.look(place(look), self.pairs);
         }
         let mut open = vec![(0, looks, self.pairs.to_vec())];
@@ -237,11 +237,11 @@ impl<'a> Search<'a> {
     fn look(&mut self, place: Place, pairs: &[Pair]) {
         let posture = Posture::new(self.scene.scene, self.pieces[place.0].at(place.1));
         for &pair in pairs {
-            if !self.is_there(pair, place) {
+            if !self.certainly_meets(pair, place) {
                 continue;
             }
             let drift = self.drift(pair, place, place);
-            if self.is_of_interest(apart(&posture, pair, STILL, drift.as_ref())) {
+            if self.is_of_interest(apart(&posture, pair, NO_DEVIATION, drift.as_ref())) {
                 self.see(place, Contact { pair, separation: here(&posture, pair, drift.as_ref()) });
             }
         }
@@ -261,8 +261,8 @@ impl<'a> Search<'a> {
     }
 
     /// Returns true if at a place the shapes of a pair are exact, and can meet there.
-    fn is_there(&self, pair: Pair, place: Place) -> bool {
-        self.tool.is_none_or(|tool| tool.is_there(pair, place))
+    fn certainly_meets(&self, pair: Pair, place: Place) -> bool {
+        self.tool.is_none_or(|tool| tool.certainly_meets(pair, place))
     }
 
     /// Returns the least sampled distance.
@@ -326,9 +326,9 @@ impl<'a> Search<'a> {
         let posture = Posture::new(self.scene.scene, middle);
         let [from, to] = span.ends();
         pairs.retain(|&pair| {
-            let is_there = self.is_there(pair, span.middle());
+            let certainly_meets = self.certainly_meets(pair, span.middle());
             // The least sampled distance does not apply to shapes that are not really there.
-            let suffices = |search: &Self, bound: f64| match is_there {
+            let suffices = |search: &Self, bound: f64| match certainly_meets {
                 true => search.suffices(bound),
                 false => bound > 0.0 && bound >= search.required,
             };
@@ -343,7 +343,7 @@ impl<'a> Search<'a> {
             }
             let bounded = bound(&posture, pair, deviation, drift.as_ref(), |_| f64::INFINITY);
             if let Span::Part(index, from, to) = span
-                && is_there
+                && certainly_meets
             {
                 self.see((index, (from + to) / 2.0), Contact { pair, separation: bounded.here });
             }
@@ -365,7 +365,7 @@ impl<'a> Search<'a> {
                 let drift = self.drift(pair, place, place);
                 let separation = here(&posture, pair, drift.as_ref());
                 let contact = Contact { pair, separation };
-                if self.is_there(pair, place) {
+                if self.certainly_meets(pair, place) {
                     self.see(place, contact);
                 }
                 if nearest.is_none_or(|n| separation.distance < n.contact.separation.distance) {
@@ -375,7 +375,7 @@ impl<'a> Search<'a> {
         }
         if let (None, Some(nearest)) = (&self.open, nearest) {
             self.open = Some((span.start(), nearest));
-            self.budget = self.budget.min(self.evaluations + MORE_EVALUATIONS);
+            self.budget = self.budget.min(self.evaluations + EVALUATIONS_AFTER_UNDECIDED);
         }
     }
 
@@ -400,7 +400,7 @@ fn bound(
     deviation: Deviation,
     drift: Option<&Drift>,
     enough: impl Fn(f64) -> f64,
-) -> Bounded {
+) -> SeparationBound {
     match drift {
         Some(drift) => posture.bound_drifting(pair, deviation, drift, enough),
         None => posture.bound_up_to(pair, deviation, enough),
@@ -409,13 +409,13 @@ fn bound(
 
 /// Returns the distance of a pair at a moment.
 fn here(posture: &Posture, pair: Pair, drift: Option<&Drift>) -> Separation {
-    bound(posture, pair, STILL, drift, |_| f64::NEG_INFINITY).here
+    bound(posture, pair, NO_DEVIATION, drift, |_| f64::NEG_INFINITY).here
 }
 
 /// Does the same by discs around both shapes.
 fn apart(posture: &Posture, pair: Pair, deviation: Deviation, drift: Option<&Drift>) -> f64 {
     match drift {
         Some(drift) => posture.apart_drifting(pair, deviation, drift),
-        None => posture.apart(pair, deviation),
+        None => posture.disc_bound(pair, deviation),
     }
 }

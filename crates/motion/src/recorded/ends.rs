@@ -7,11 +7,11 @@ use thiserror::Error;
 
 /// Largest distance of a motion from its start or goal, radians or metres: the effect of six printed decimals on a tip
 /// several metres from its joints, and below the repeatability of any arm.
-pub const ENDS_WITHIN: f64 = 1e-5;
+pub const END_TOLERANCE: f64 = 1e-5;
 
 /// A difference from the required start or goal.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
-pub enum Miss {
+pub enum EndpointError {
     /// The motion begins elsewhere.
     #[error("the motion begins at ({}, {}), not at the start ({}, {})", is[0], is[1], start[0], start[1])]
     Start {
@@ -42,25 +42,25 @@ pub enum Miss {
     },
 }
 
-/// Returns the differences from the start and from all goals that exceed [`ENDS_WITHIN`], up to whole turns of joints
+/// Returns the differences from the start and from all goals that exceed [`END_TOLERANCE`], up to whole turns of joints
 /// on circles. With several goals, the difference from the first one is reported.
 #[must_use]
-pub fn ends_kept(arm: &Arm, recording: &Recording, start: Option<Goal>, goals: &[Goal]) -> Vec<Miss> {
+pub fn endpoint_errors(arm: &Arm, recording: &Recording, start: Option<Goal>, goals: &[Goal]) -> Vec<EndpointError> {
     let positions = recording.positions();
     let (first, last) = (positions[0], positions[positions.len() - 1]);
-    let misses = |a: Configuration, b: Configuration| arm.topology().displacement(a, b).amax() > ENDS_WITHIN;
+    let misses = |a: Configuration, b: Configuration| arm.topology().displacement(a, b).amax() > END_TOLERANCE;
     let tip_off = |q: Configuration, goal: Goal| {
         let is = arm.tip_at(q);
-        Some((is - goal.nearest_tip(is)?).norm()).filter(|off| *off > ENDS_WITHIN)
+        Some((is - goal.nearest_tip(is)?).norm()).filter(|off| *off > END_TOLERANCE)
     };
     let start = start.and_then(|start| match start {
-        Goal::Joints(start) => misses(first, start).then_some(Miss::Start { is: first, start }),
-        place => tip_off(first, place).map(|off| Miss::TipAtStart { off }),
+        Goal::Joints(start) => misses(first, start).then_some(EndpointError::Start { is: first, start }),
+        place => tip_off(first, place).map(|off| EndpointError::TipAtStart { off }),
     });
     let missed = |goal: &Goal| match goal.of_arm(arm) {
-        Goal::Joints(goal) => misses(last, goal).then_some(Miss::Goal { is: last, goal }),
-        place => tip_off(last, place).map(|off| Miss::Tip { off }),
+        Goal::Joints(goal) => misses(last, goal).then_some(EndpointError::Goal { is: last, goal }),
+        place => tip_off(last, place).map(|off| EndpointError::Tip { off }),
     };
-    let all: Option<Vec<Miss>> = goals.iter().map(missed).collect();
+    let all: Option<Vec<EndpointError>> = goals.iter().map(missed).collect();
     start.into_iter().chain(all.and_then(|misses| misses.first().copied())).collect()
 }

@@ -1,7 +1,7 @@
 //! The check of joint limits of a recorded motion, also between its samples.
 
 use super::collision::Moment;
-use super::torque::torque_looks;
+use super::torque::torque_samples;
 use cplan_core::model::{Joint, Scene};
 use cplan_core::space::{Configuration, JointRange};
 use cplan_dynamics::Torques;
@@ -9,14 +9,14 @@ use cplan_handling::{Derivative, Piece, Recording};
 
 /// Relative excess of a limit that is tolerated: programs that plan up to a limit exceed it by rounding and by six
 /// printed digits, which no drive can distinguish.
-const TOLERANCE: f64 = 1e-6;
+const LIMIT_TOLERANCE: f64 = 1e-6;
 
 /// Numbers with at least this many decimals count as rounded in the last one.
-const ROUNDED_FROM: i32 = 6;
+const MIN_ROUNDED_DECIMALS: i32 = 6;
 
 /// Numbers with fewer are as they were meant (`0.5` is a half, a time of `0.004` is the fourth millisecond), exact to
 /// this many decimals: the nanosecond in which ROS counts.
-const MEANT_TO: i32 = 9;
+const EXACT_DECIMALS: i32 = 9;
 
 /// Rounding error of doubles in units in the last place: the cost of computing a sample and the piece through it.
 const ULPS: f64 = 4.0;
@@ -24,7 +24,7 @@ const ULPS: f64 = 4.0;
 /// Largest share of a speed limit that the rounding of positions and times may explain between samples. Six decimals at
 /// a kilohertz explain a thousandth of a radian per second. Coarser numbers for their spacing define another motion,
 /// and that is the one a controller plays.
-const COARSE: f64 = 0.01;
+const MAX_ROUNDING_SHARE: f64 = 0.01;
 
 /// A limit of a joint.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -49,7 +49,7 @@ pub enum Limit {
 
 /// A violated limit.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Excess {
+pub struct LimitViolation {
     /// 0 or 1.
     pub joint: usize,
     /// The violated limit.
@@ -84,7 +84,7 @@ pub struct Excess {
 /// jerk between samples. Other motions differ from their cubics, which jump at the samples by as much as the square of
 /// the spacing, so they must be sampled at the ends of their phases.
 #[must_use]
-pub fn limits_kept(joints: &[Joint; 2], recording: &Recording) -> Vec<Excess> {
+pub fn limit_violations(joints: &[Joint; 2], recording: &Recording) -> Vec<LimitViolation> {
     let precision = Precision::of(recording);
     let pieces = recording.pieces();
     let mut found = Vec::new();
@@ -115,7 +115,7 @@ pub fn limits_kept(joints: &[Joint; 2], recording: &Recording) -> Vec<Excess> {
 }
 
 /// Greatest relative change of a torque between two samples, as a share of the effort.
-const FINE: f64 = 1e-4;
+const TORQUE_TOLERANCE: f64 = 1e-4;
 
 /// Returns the places at which the motion needs more torque than the joints' efforts, if motions of the scene's arm
 /// must keep within them: for each joint the place of the greatest excess.
@@ -124,7 +124,7 @@ const FINE: f64 = 1e-4;
 /// Between the examined moments a torque may be greater by a ten-thousandth of the effort. For a single sample it is
 /// the torque that holds the arm there.
 #[must_use]
-pub fn torques_kept(scene: &Scene, recording: &Recording) -> Vec<Excess> {
+pub fn torque_violations(scene: &Scene, recording: &Recording) -> Vec<LimitViolation> {
     let Some(torques) = Torques::limited(scene).filter(|_| recording.velocities().is_some()) else {
         return Vec::new();
     };
@@ -138,7 +138,7 @@ pub fn torques_kept(scene: &Scene, recording: &Recording) -> Vec<Excess> {
         let holding = torques.at(*q).holding();
         for judge in &mut judges {
             let (value, allowed) = (holding[judge.k], torques.dynamics.effort[judge.k]);
-            if value.abs() > allowed * (1.0 + TOLERANCE) {
+            if value.abs() > allowed * (1.0 + LIMIT_TOLERANCE) {
                 judge.note(value.abs() - allowed, Limit::Torque, allowed, value, judge.sample(0));
             }
         }
@@ -146,10 +146,10 @@ pub fn torques_kept(scene: &Scene, recording: &Recording) -> Vec<Excess> {
     for (index, piece) in pieces.iter().enumerate().filter(|(_, piece)| piece.to > piece.from) {
         let explained =
             judges.each_ref().map(|judge| judge.explained(piece, &Sensitivity::of(piece, Derivative::Acceleration)));
-        for look in torque_looks(&torques, piece, FINE) {
+        for look in torque_samples(&torques, piece, TORQUE_TOLERANCE) {
             for judge in &mut judges {
                 let (k, value, allowed) = (judge.k, look.torque[judge.k], torques.dynamics.effort[judge.k]);
-                let may = inertia[k][0] * explained[0] + inertia[k][1] * explained[1] + TOLERANCE * allowed;
+                let may = inertia[k][0] * explained[0] + inertia[k][1] * explained[1] + LIMIT_TOLERANCE * allowed;
                 if value.abs() - allowed > may {
                     judge.note(value.abs() - allowed, Limit::Torque, allowed, value, judge.moment(index, look.u));
                 }
@@ -166,13 +166,13 @@ struct Judge<'a> {
     pieces: &'a [Piece],
     precision: JointPrecision,
     /// Greatest excess of each kind.
-    worst: Vec<(f64, Excess)>,
+    worst: Vec<(f64, LimitViolation)>,
 }
 
 impl<'a> Judge<'a> {
     /// Records a value that exceeds its limit by `over` more than allowed.
     fn note(&mut self, over: f64, limit: Limit, allowed: f64, value: f64, moment: Moment) {
-        let excess = Excess { joint: self.k, limit, allowed, value, moment };
+        let excess = LimitViolation { joint: self.k, limit, allowed, value, moment };
         match self.worst.iter_mut().find(|(_, known)| known.limit == limit) {
             Some((worst, _)) if *worst >= over => {}
             Some(known) => *known = (over, excess),
@@ -203,7 +203,7 @@ impl<'a> Judge<'a> {
             for u in piece.critical(Derivative::Position, self.k) {
                 let value = piece.at(u)[self.k];
                 for (over, allowed) in [(lower - value, lower), (value - upper, upper)] {
-                    if over > may + TOLERANCE * allowed.abs() {
+                    if over > may + LIMIT_TOLERANCE * allowed.abs() {
                         self.note(over, Limit::Position, allowed, value, self.moment(index, u));
                     }
                 }
@@ -219,7 +219,7 @@ impl<'a> Judge<'a> {
         };
         for (index, value) in values.iter().enumerate() {
             let over = value.abs() - allowed;
-            if over > may + TOLERANCE * allowed {
+            if over > may + LIMIT_TOLERANCE * allowed {
                 self.note(over, limit, allowed, *value, self.sample(index));
             }
         }
@@ -229,7 +229,7 @@ impl<'a> Judge<'a> {
         let allowed = self.joint.velocity;
         for (index, piece) in self.lasting() {
             let of_data = Sensitivity::of(piece, Derivative::Velocity);
-            let explained = self.explained(piece, &of_data).min(COARSE * allowed);
+            let explained = self.explained(piece, &of_data).min(MAX_ROUNDING_SHARE * allowed);
             self.extremes(Limit::Velocity, allowed, explained, index);
         }
         self.stretches(Limit::Velocity, allowed, self.precision.position, positions, times);
@@ -257,7 +257,7 @@ impl<'a> Judge<'a> {
         for u in piece.critical(of, self.k) {
             let value = piece.derivative(of, u)[self.k];
             let over = value.abs() - allowed;
-            if over > explained + TOLERANCE * allowed {
+            if over > explained + LIMIT_TOLERANCE * allowed {
                 self.note(over, limit, allowed, value, self.moment(index, u));
             }
         }
@@ -266,7 +266,7 @@ impl<'a> Judge<'a> {
     /// Judges the mean rate of change between any two samples, of values with the rounding error `rounded`. Let `s` be
     /// the value minus the allowed change until then. The rate is too large where `s` exceeds the least earlier `s`.
     fn stretches(&mut self, limit: Limit, allowed: f64, rounded: f64, values: &[f64], times: &[f64]) {
-        let most = allowed * (1.0 + TOLERANCE);
+        let most = allowed * (1.0 + LIMIT_TOLERANCE);
         let may = 2.0 * rounded + most * 2.0 * self.precision.time;
         for sign in [1.0, -1.0] {
             let beyond = |k: usize| sign * values[k] - most * (times[k] - times[0]);
@@ -308,13 +308,13 @@ impl<'a> Judge<'a> {
     /// Judges a jump between two accelerations, each with its error.
     fn jump(&mut self, before: (f64, f64), after: (f64, f64), moment: Moment) {
         let value = after.0 - before.0;
-        if value.abs() > before.1 + after.1 + TOLERANCE * self.joint.acceleration {
+        if value.abs() > before.1 + after.1 + LIMIT_TOLERANCE * self.joint.acceleration {
             self.note(value.abs(), Limit::AccelerationJump, 0.0, value, moment);
         }
     }
 
     fn rest(&mut self, limit: Limit, value: f64, sample: usize) {
-        if value.abs() > TOLERANCE * self.joint.velocity + self.precision.velocity {
+        if value.abs() > LIMIT_TOLERANCE * self.joint.velocity + self.precision.velocity {
             self.note(value.abs(), limit, 0.0, value, self.sample(sample));
         }
     }
@@ -336,7 +336,7 @@ impl<'a> Judge<'a> {
         let duration = piece.to - piece.from;
         let mean = if duration > 0.0 { (piece.at(1.0) - piece.at(0.0))[self.k] / duration } else { 0.0 };
         let at = |u: f64| piece.derivative(Derivative::Velocity, u)[self.k].abs();
-        mean.abs().max(at(0.0)).max(at(1.0)).min(self.joint.velocity * (1.0 + TOLERANCE))
+        mean.abs().max(at(0.0)).max(at(1.0)).min(self.joint.velocity * (1.0 + LIMIT_TOLERANCE))
     }
 }
 
@@ -421,7 +421,7 @@ fn rounding(values: impl Iterator<Item = f64>) -> f64 {
             most = most.max(decimals(value));
         }
     }
-    let digits = if most < ROUNDED_FROM { MEANT_TO } else { most };
+    let digits = if most < MIN_ROUNDED_DECIMALS { EXACT_DECIMALS } else { most };
     0.5 * 10f64.powi(-digits) + ULPS * f64::EPSILON * largest
 }
 

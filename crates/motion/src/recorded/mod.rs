@@ -1,10 +1,10 @@
 //! Judges recorded motions of any origin, also between their samples.
 //!
-//! - [`check_collision`] judges a recorded motion, also among moving obstacles ([`certify_in_time`]); [`limits_kept`]
-//!   judges its limits; [`ends_kept`] its start and goal.
+//! - [`check_collision`] judges a recorded motion, also among moving obstacles ([`certify_in_time`]); [`limit_violations`]
+//!   judges its limits; [`endpoint_errors`] its start and goal.
 //! - [`replay()`] repeats a recorded task: it matches the recorded steps with the task's (`order`), tracks the objects
 //!   and the load from the recorded configurations (`state`), and judges each motion in the scene of its moment.
-//! - [`claims_kept`] judges the claims of a result. The samples are the motion, and all other members are claims about
+//! - [`false_claims`] judges the claims of a result. The samples are the motion, and all other members are claims about
 //!   it.
 //! - [`wrist_turn`] judges turns of a wrist by the contact angles of the payload about the tip.
 
@@ -17,11 +17,11 @@ mod tool;
 mod torque;
 mod wrist;
 
-pub use claims::{FalseClaim, claims_kept, step_claims_kept, task_claims_kept};
-pub use collision::met_in_time;
+pub use claims::{FalseClaim, false_claims, false_step_claims, false_task_claims};
+pub use collision::first_moving_contact;
 pub use collision::{CollisionCheck, Encounter, Moment, certify_in_time, check_collision, check_collision_with};
-pub use ends::{ENDS_WITHIN, Miss, ends_kept};
-pub use limits::{Excess, Limit, limits_kept, torques_kept};
-pub use replay::{Departure, Fault, Happening, Replay, ReplayedStep, ReplayedTurn, replay};
-pub use torque::torque_looks;
-pub use wrist::{TurnContact, WristTurn, given_turn, wrist_turn};
+pub use ends::{END_TOLERANCE, EndpointError, endpoint_errors};
+pub use limits::{Limit, LimitViolation, limit_violations, torque_violations};
+pub use replay::{Fault, GripperEvent, OrderDeviation, Replay, ReplayedStep, ReplayedTurn, replay};
+pub use torque::torque_samples;
+pub use wrist::{TurnContact, WristTurn, judge_given_turn, wrist_turn};

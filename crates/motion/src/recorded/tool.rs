@@ -11,7 +11,7 @@ use cplan_geometry::{Convex, Point};
 use cplan_handling::{HeldEffect, HeldMotion, Piece};
 
 /// Greatest distance of a round part from its axis of rotation, metres: rounding, the same as for heights.
-const ON_AXIS: f64 = 1e-9;
+const AXIS_TOLERANCE: f64 = 1e-9;
 
 /// A joint that lifts some bodies.
 struct Lift<'a> {
@@ -116,16 +116,16 @@ impl<'a> ToolMotion<'a> {
     }
 
     /// Returns true if at a moment the heights of a pair certainly meet, and its part is exact.
-    pub fn is_there(&self, pair: Pair, (piece, share): Place) -> bool {
+    pub fn certainly_meets(&self, pair: Pair, (piece, share): Place) -> bool {
         let is_cover = self.covers[pair.link.min(1)].get(pair.part).is_some_and(|is_cover| *is_cover);
         let [part, obstacle] = self.heights(pair, &self.extents(Span::Part(piece, share, share)));
-        !is_cover && part.surely_meet(obstacle)
+        !is_cover && part.definitely_meet(obstacle)
     }
 }
 
 /// Returns true if a shape is a disc about an axis, unchanged by rotation.
 fn is_round(shape: &Convex, axis: Point) -> bool {
-    shape.core().iter().all(|corner| (corner - axis).norm() <= ON_AXIS)
+    shape.core().iter().all(|corner| (corner - axis).norm() <= AXIS_TOLERANCE)
 }
 
 /// Returns the disc about an axis that a shape sweeps.

@@ -5,11 +5,11 @@ use cplan_dynamics::{Rates, Torques};
 use cplan_handling::{Derivative, Piece};
 
 /// Greatest number of samples of a piece.
-const MOST_LOOKS: f64 = 4096.0;
+const MAX_SAMPLES_PER_PIECE: f64 = 4096.0;
 
 /// A sample of the torques.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct TorqueLook {
+pub struct TorqueSample {
     /// Share of the piece's time.
     pub u: f64,
     /// Torques of both joints, N m or N.
@@ -22,7 +22,11 @@ pub struct TorqueLook {
 
 /// Samples the torques along a piece, so densely that they change between two samples by at most a share of the
 /// efforts. The number of samples is limited to some thousands.
-pub fn torque_looks<'a>(torques: &Torques<'a>, piece: &Piece, fine: f64) -> impl Iterator<Item = TorqueLook> + use<'a> {
+pub fn torque_samples<'a>(
+    torques: &Torques<'a>,
+    piece: &Piece,
+    fine: f64,
+) -> impl Iterator<Item = TorqueSample> + use<'a> {
     let duration = piece.to - piece.from;
     let greatest = |of: Derivative| {
         [0, 1].map(|k| piece.critical(of, k).map(|u| piece.derivative(of, u)[k].abs()).fold(0.0, f64::max))
@@ -34,7 +38,7 @@ pub fn torque_looks<'a>(torques: &Torques<'a>, piece: &Piece, fine: f64) -> impl
     };
     let rate = torques.change(piece.at(0.5), duration / 2.0, &rates);
     let share = |k: usize| rate[k] * duration / (2.0 * fine * torques.dynamics.effort[k]);
-    let count = share(0).max(share(1)).ceil().clamp(1.0, MOST_LOOKS);
+    let count = share(0).max(share(1)).ceil().clamp(1.0, MAX_SAMPLES_PER_PIECE);
     let off = rate.map(|rate| rate * duration / (2.0 * count));
     let (torques, piece) = (*torques, *piece);
     (0..count as u32).map(move |i| {
@@ -45,6 +49,6 @@ pub fn torque_looks<'a>(torques: &Torques<'a>, piece: &Piece, fine: f64) -> impl
         let here = torques.at(q);
         let holding = here.holding();
         let torque = here.inertial(acceleration) + here.centrifugal(velocity) + holding;
-        TorqueLook { u, torque, holding, off }
+        TorqueSample { u, torque, holding, off }
     })
 }

@@ -28,15 +28,15 @@ pub struct TurnContact {
 }
 
 /// Number of halvings in the search for the clearance of a turn.
-const HALVINGS: usize = 16;
+const CLEARANCE_HALVINGS: usize = 16;
 
 /// Returns the resolution, metres, of the clearance of a free turn, if the clearance is below the arm's reach.
 pub(super) fn turn_resolution(arm: &Arm, clearance: f64) -> f64 {
-    (clearance + arm.reach()) / f64::from(1u32 << (HALVINGS - 1))
+    (clearance + arm.reach()) / f64::from(1u32 << (CLEARANCE_HALVINGS - 1))
 }
 
 /// Returns a free turn about the tip from one orientation to another while the arm rests at `q`: the shorter direction
-/// if it is free, otherwise the longer; `None` if neither is. See [`given_turn`].
+/// if it is free, otherwise the longer; `None` if neither is. See [`judge_given_turn`].
 #[must_use]
 pub fn wrist_turn(
     task: &Task,
@@ -46,14 +46,14 @@ pub fn wrist_turn(
     q: Configuration,
     [from, to]: [f64; 2],
 ) -> Option<WristTurn> {
-    let way = JointRange::Circle.displacement(from, to);
-    let ahead = if way < 0.0 { way + TAU } else { way };
-    let mut ways = [from + ahead, from + ahead - TAU];
+    let displacement = JointRange::Circle.displacement(from, to);
+    let ahead = if displacement < 0.0 { displacement + TAU } else { displacement };
+    let mut ends = [from + ahead, from + ahead - TAU];
     if ahead > TAU / 2.0 {
-        ways.reverse();
+        ends.reverse();
     }
     let turning = Turning::new(task, workspace, payload, point, q);
-    ways.into_iter().find_map(|end| turning.judge([from, end]).ok())
+    ends.into_iter().find_map(|end| turning.judge([from, end]).ok())
 }
 
 /// Judges the turn about the tip from one orientation to another, in the direction from the first to the second, while
@@ -62,7 +62,7 @@ pub fn wrist_turn(
 ///
 /// # Errors
 /// The first place where it touches an obstacle, or comes closer than the workspace's clearance.
-pub fn given_turn(
+pub fn judge_given_turn(
     task: &Task,
     workspace: &TimedWorkspace,
     payload: &Payload,
@@ -90,7 +90,7 @@ impl Turning {
         let features: Vec<_> = attachment.parts.iter().map(|part| Features::new(&part.shape.at(&about))).collect();
         let mut pairs = Vec::new();
         for (number, obstacle) in workspace.obstacles.iter().enumerate() {
-            if !attachment.heights.object_meets(obstacle.heights) {
+            if !attachment.heights.object_may_meet(obstacle.heights) {
                 continue;
             }
             for (attached, part) in attachment.parts.iter().zip(&features) {
@@ -125,7 +125,7 @@ impl Turning {
             return Ok(WristTurn { from, to, clearance: f64::INFINITY });
         }
         let (mut kept, mut refused) = (self.clearance + ROUNDING, self.clearance + self.reach);
-        for _ in 0..HALVINGS {
+        for _ in 0..CLEARANCE_HALVINGS {
             let between = (kept + refused) / 2.0;
             if self.contacts(turn, between).next().is_none() { kept = between } else { refused = between }
         }
@@ -170,19 +170,19 @@ mod tests {
         /// Compares with 4000 sampled angles of the turn, which are in the arc or not.
         #[test]
         fn a_turn_meets_an_arc_where_it_first_is_in_it(
-            start in -9.0..9.0_f64, width in 0.01..6.2_f64, from in -9.0..9.0_f64, way in -6.2..6.2_f64,
+            start in -9.0..9.0_f64, width in 0.01..6.2_f64, from in -9.0..9.0_f64, displacement in -6.2..6.2_f64,
         ) {
             let is_in = |angle: f64| (angle - start).rem_euclid(TAU) <= width;
-            let at = |i: u32| from + way * f64::from(i) / 4000.0;
+            let at = |i: u32| from + displacement * f64::from(i) / 4000.0;
             let seen = (0..=4000).map(at).find(|angle| is_in(*angle));
-            let step = way.abs() / 4000.0 + 1e-9;
-            match (entry([start, start + width], [from, from + way]), seen) {
+            let step = displacement.abs() / 4000.0 + 1e-9;
+            match (entry([start, start + width], [from, from + displacement]), seen) {
                 (Some(found), Some(seen)) => prop_assert!((found - seen).abs() <= step, "{found} {seen}"),
                 // At the very end, or within an arc that lies between two looks.
                 (Some(found), None) => {
-                    prop_assert!(width <= step || (found - from - way).abs() <= step, "{found}");
+                    prop_assert!(width <= step || (found - from - displacement).abs() <= step, "{found}");
                 }
-                (None, seen) => prop_assert!(seen.is_none_or(|seen| (seen - from - way).abs() <= step), "{seen:?}"),
+                (None, seen) => prop_assert!(seen.is_none_or(|seen| (seen - from - displacement).abs() <= step), "{seen:?}"),
             }
         }
     }

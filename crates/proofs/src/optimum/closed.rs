@@ -1,8 +1,8 @@
 //! Closed configurations, in which shapes are too near: values of joint 1, values of joint 2 at one value of joint 1,
 //! and straight motions.
 
-use crate::slab::{Eroded, OUTWARD};
-use cplan_core::check::{Deviation, Posture, STUCK_ROUNDING};
+use crate::slab::{CLOSED_FORM_ERROR, ErodedShape};
+use cplan_core::check::{COLLISION_ROUNDING, Deviation, Posture};
 use cplan_core::model::{Contacts, Pair, Scene, on_axis};
 use cplan_core::space::Configuration;
 use cplan_geometry::{Convex, Hits, Point, Pose, Vector, common, merge_in_place, perpendicular, separation};
@@ -12,7 +12,7 @@ use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
 /// Number of times that a motion is halved before it counts as not proven.
-const HALVINGS: usize = 4;
+const MAX_MOTION_HALVINGS: usize = 4;
 
 /// Values of joint 2 at which a pair is too near. For a joint with limits they lie within the domain. On a circle they
 /// are an arc that may end beyond the domain, by at most a turn.
@@ -27,34 +27,34 @@ pub(super) struct Wall {
 /// Maximum number of pairs of link 2. With fewer pairs, less is closed, so the bound stays valid. It hardly gets lower:
 /// with this many pairs, the pieces are smaller than the link, which still collides with others near those that are
 /// left out.
-pub(super) const MOST_PAIRS: usize = 4096;
+pub(super) const MAX_PAIRS: usize = 4096;
 
 /// Maximum number of slices times pairs. This many take some seconds.
-const MOST_LOOKS: usize = 4_000_000;
+const MAX_SLICE_TESTS: usize = 4_000_000;
 
 /// A pair of link 2.
-struct Prepared {
+struct PreparedPair {
     /// Number among all pairs.
     index: usize,
     /// `None` if the shapes are too thin to overlap by more than the rounding error.
-    eroded: Option<Eroded>,
+    eroded: Option<ErodedShape>,
     /// Half-planes of the piece's core.
     sides: Vec<(Vector, f64)>,
 }
 
 /// Everything that link 2 can collide with.
-pub(super) struct Closed<'a> {
+pub(super) struct SecondLinkWalls<'a> {
     contacts: Contacts<'a>,
     clearance: f64,
     /// Half-planes of the cores of link 2's parts.
     sides: Vec<Vec<(Vector, f64)>>,
-    pairs: Vec<Prepared>,
+    pairs: Vec<PreparedPair>,
     /// Position of each pair in `pairs`.
     numbers: BTreeMap<Pair, usize>,
     scratch: Vec<[f64; 2]>,
 }
 
-impl<'a> Closed<'a> {
+impl<'a> SecondLinkWalls<'a> {
     pub fn new(scene: &'a Scene, clearance: f64) -> Self {
         let contacts = Contacts::new(scene);
         let sides = scene.arm().links[1].parts.iter().map(|part| half_planes(part.shape.core())).collect();
@@ -78,23 +78,23 @@ impl<'a> Closed<'a> {
     fn add_numbers(&mut self, indices: &[usize]) {
         for &index in indices {
             checkpoint();
-            let (moving, piece) = (self.contacts.moving(index), self.contacts.standing(index).shape());
-            let eroded = Eroded::new(moving, piece, OUTWARD, self.clearance);
+            let (moving, piece) = (self.contacts.moving(index), self.contacts.static_shape(index).shape());
+            let eroded = ErodedShape::new(moving, piece, CLOSED_FORM_ERROR, self.clearance);
             self.numbers.insert(self.scene().pairs()[index], self.pairs.len());
-            self.pairs.push(Prepared { index, eroded, sides: half_planes(piece.core()) });
+            self.pairs.push(PreparedPair { index, eroded, sides: half_planes(piece.core()) });
         }
     }
 
     /// Returns the pairs in use, in order: those of link 1, unless they are too many, and those of link 2.
     pub fn pairs(&self) -> Vec<Pair> {
         let first = self.contacts.second_link_pairs().start;
-        let few = first <= MOST_PAIRS;
+        let few = first <= MAX_PAIRS;
         self.scene().pairs()[..first].iter().filter(|_| few).chain(self.numbers.keys()).copied().collect()
     }
 
     /// Returns the maximum number of slices worth examining.
     pub fn most_slices(&self) -> usize {
-        MOST_LOOKS / self.pairs.len().max(1)
+        MAX_SLICE_TESTS / self.pairs.len().max(1)
     }
 
     /// Returns the values of joint 1 at which link 1 is too near: disjoint intervals, ascending.
@@ -103,8 +103,10 @@ impl<'a> Closed<'a> {
         let joint = &arm.joints[0];
         let (mut bands, mut arcs) = (Vec::new(), Vec::new());
         for index in 0..self.contacts.second_link_pairs().start {
-            let (part, piece) = (self.contacts.moving(index), self.contacts.standing(index));
-            let Some(eroded) = Eroded::new(part, piece.shape(), OUTWARD, self.clearance) else { continue };
+            let (part, piece) = (self.contacts.moving(index), self.contacts.static_shape(index));
+            let Some(eroded) = ErodedShape::new(part, piece.shape(), CLOSED_FORM_ERROR, self.clearance) else {
+                continue;
+            };
             arcs.clear();
             let hits = eroded.hits(part, piece, arm.base, Vector::x(), &mut arcs);
             on_axis(joint, hits, &arcs, |band| bands.push(band));
@@ -149,7 +151,7 @@ impl<'a> Closed<'a> {
         let Some(eroded) = &pair.eroded else { return };
         let joint = &self.contacts.scene().arm().joints[1];
         self.scratch.clear();
-        let (part, piece) = (self.contacts.moving(pair.index), self.contacts.standing(pair.index));
+        let (part, piece) = (self.contacts.moving(pair.index), self.contacts.static_shape(pair.index));
         let (elbow, heading) = self.contacts.frame(pair.index, (elbow, heading));
         let hits = eroded.hits(part, piece, elbow, heading, &mut self.scratch);
         let mut add = |[lower, upper]: [f64; 2]| {
@@ -167,10 +169,10 @@ impl<'a> Closed<'a> {
     /// Returns true if a pair is proven too near all along the straight motion between two configurations. False means
     /// that this is unknown.
     pub fn all_along(&self, pair: usize, from: Configuration, to: Configuration) -> bool {
-        self.halved(&self.pairs[pair], [from, to], HALVINGS)
+        self.halved(&self.pairs[pair], [from, to], MAX_MOTION_HALVINGS)
     }
 
-    fn halved(&self, pair: &Prepared, ends: [Configuration; 2], halvings: usize) -> bool {
+    fn halved(&self, pair: &PreparedPair, ends: [Configuration; 2], halvings: usize) -> bool {
         let middle = (ends[0] + ends[1]) / 2.0;
         let posture = Posture::new(self.scene(), middle);
         if self.follows(pair, &posture, ends) {
@@ -185,13 +187,13 @@ impl<'a> Closed<'a> {
     }
 
     /// Returns the link of a pair, as in [`Pair::link`].
-    fn link(&self, pair: &Prepared) -> usize {
+    fn link(&self, pair: &PreparedPair) -> usize {
         self.scene().pairs()[pair.index].link
     }
 
     /// Returns the part and the piece of a pair.
-    fn shapes(&self, pair: &Prepared) -> (&Convex, &Convex) {
-        (self.contacts.moving(pair.index).shape(), self.contacts.standing(pair.index).shape())
+    fn shapes(&self, pair: &PreparedPair) -> (&Convex, &Convex) {
+        (self.contacts.moving(pair.index).shape(), self.contacts.static_shape(pair.index).shape())
     }
 
     /// Returns true if one point, fixed in one of the shapes, stays in both shapes all along the motion.
@@ -201,14 +203,14 @@ impl<'a> Closed<'a> {
     /// So the point's distance from the piece is nowhere greater than at the farther end, plus that half. The same
     /// holds for a point of the piece as seen from the link. If the point's distances from both cores add up to at most
     /// `radius`, the distance of the cores is at most `radius`.
-    fn follows(&self, pair: &Prepared, posture: &Posture, ends: [Configuration; 2]) -> bool {
+    fn follows(&self, pair: &PreparedPair, posture: &Posture, ends: [Configuration; 2]) -> bool {
         let (part, piece) = self.shapes(pair);
         let of_part = &self.sides[self.scene().pairs()[pair.index].part];
         let of_piece = &pair.sides;
         let link = self.link(pair);
         let poses = ends.map(|q| self.scene().arm().pose(link, q));
         let deviation = Deviation::Along((ends[1] - ends[0]) / 2.0);
-        let slack = STUCK_ROUNDING * posture.scale(part.at(&poses[0]).core(), part.radius(), piece);
+        let slack = COLLISION_ROUNDING * posture.scale(part.at(&poses[0]).core(), part.radius(), piece);
         let radius = part.radius() + piece.radius() + self.clearance - slack;
         let (in_link, in_plane) =
             (posture.curvature_in_link(link, deviation), posture.curvature_in_plane(link, deviation));
@@ -239,23 +241,23 @@ fn chosen(contacts: &Contacts, clearance: f64) -> Vec<usize> {
     let in_reach = |index: &usize| {
         // A prismatic joint can take link 2 anywhere along its axis.
         !arm.joints[0].joint_type.is_revolute()
-            || least_distance(contacts.standing(*index).shape(), arm.base) <= contacts.reach(*index) + clearance
+            || least_distance(contacts.static_shape(*index).shape(), arm.base) <= contacts.reach(*index) + clearance
     };
     let mut pairs: Vec<usize> = contacts.second_link_pairs().filter(in_reach).collect();
-    if pairs.len() > MOST_PAIRS {
+    if pairs.len() > MAX_PAIRS {
         let bits = usize::BITS - pairs.len().leading_zeros();
         let mut ranked: Vec<(Reverse<i32>, usize, usize)> = pairs
             .into_iter()
             .enumerate()
             .map(|(number, index)| {
-                let core = contacts.standing(index).shape().core();
+                let core = contacts.static_shape(index).shape().core();
                 let size = core.iter().map(|p| (p - core[0]).norm()).fold(f64::MIN_POSITIVE, f64::max);
                 // Numbers with reversed bits spread evenly over the list.
                 (Reverse(size.log2().floor() as i32), number.reverse_bits() >> (usize::BITS - bits), index)
             })
             .collect();
         ranked.sort_unstable();
-        pairs = ranked.into_iter().take(MOST_PAIRS).map(|(.., index)| index).collect();
+        pairs = ranked.into_iter().take(MAX_PAIRS).map(|(.., index)| index).collect();
         pairs.sort_unstable();
     }
     pairs

@@ -2,14 +2,14 @@
 //! improve the bound more than slices where walls change smoothly.
 
 use super::closed::Wall;
-use super::strips::{ABOUT, NARROWEST, Strips};
+use super::strips::{MIN_STRIP_WIDTH, PORTAL_TOLERANCE, Strips};
 use cplan_core::model::Pair;
 use cplan_geometry::Point;
 use std::f64::consts::TAU;
 
 /// A wall jumps in one half of a strip if this share of its change is in that half. It is more than the share of a
 /// smooth tip.
-const JUMP: f64 = 0.85;
+const MIN_JUMP_SHARE: f64 = 0.85;
 
 /// Returns the change of the walls' ends from one place to another; infinite if the numbers of walls differ.
 fn change(there: &[[f64; 2]], beyond: &[[f64; 2]]) -> f64 {
@@ -28,12 +28,12 @@ impl Strips<'_> {
         let (mut with, mut without) = (closed, until);
         let (mut there, mut beyond) = (vec![wall], self.walls_about(number, until, wall));
         let mut cuts = Vec::new();
-        while (without - with).abs() > width.max(NARROWEST) {
+        while (without - with).abs() > width.max(MIN_STRIP_WIDTH) {
             let middle = f64::midpoint(with, without);
             let between = self.walls_about(number, middle, wall);
             let (near, far) = (change(&there, &between), change(&between, &beyond));
             let greater = f64::max(near, far);
-            if greater.is_finite() && greater <= JUMP * (near + far) {
+            if greater.is_finite() && greater <= MIN_JUMP_SHARE * (near + far) {
                 // There is no jump, or it is already so near that the rest is smooth.
                 break;
             }
@@ -75,7 +75,7 @@ impl Strips<'_> {
         let round = self.topology().ranges[1].is_circle();
         let ends_here = |end: f64| {
             let off = if round { (end - q2) - ((end - q2) / TAU).round() * TAU } else { end - q2 };
-            off.abs() <= ABOUT
+            off.abs() <= PORTAL_TOLERANCE
         };
         let walls = self.closed.walls(with);
         let ending = walls.iter().find(|wall| ends_here(wall.lower) || ends_here(wall.upper));

@@ -1,7 +1,7 @@
 //! A proven lower bound on the length of motions.
 
 mod closed;
-mod evident;
+mod slice_evidence;
 mod portals;
 mod jumps;
 mod refine;
@@ -10,13 +10,13 @@ mod sleeve;
 mod strips;
 
 use crate::evidence::BoundEvidence;
-use closed::MOST_PAIRS;
+use closed::MAX_PAIRS;
 use cplan_core::check::{CertifiedPath, Rejection, Vicinity};
 use cplan_core::model::{Pair, Scene};
 use cplan_core::space::{Configuration, GoalSet, Measure, Metric, Path, Segment, Topology, funnel_path};
-use cplan_geometry::{Ordered, Point};
-use refine::{Allowed, Fine, passed};
-use search::{Search, Way};
+use cplan_geometry::{OrderedF64, Point};
+use refine::{PathTolerance, RefinedPieces, passed};
+use search::{Search, SearchResult};
 use std::f64::consts::TAU;
 use strips::Strips;
 
@@ -25,53 +25,53 @@ const ROUNDING: f64 = 1e-9;
 
 /// Rounding error of the ends of a path, as a share of their coordinates. Far from zero, doubles lie far apart, and a
 /// short path has fewer correct digits.
-const COORDINATES: f64 = 1024.0 * f64::EPSILON;
+const COORDINATE_ROUNDING: f64 = 1024.0 * f64::EPSILON;
 
 /// Maximum number of refinements of the strips.
-const ROUNDS: usize = 64;
+const MAX_REFINEMENTS: usize = 64;
 
 /// Number of first paths that are always searched: among wide strips they often lead through passages that do not
 /// exist.
-const SEARCHED: usize = 2;
+const MIN_SEARCHED_PATHS: usize = 2;
 
 /// Maximum number of paths, searched or pulled taut. Most of them follow the refusal of a certificate.
-const TRIES: usize = 128;
+const MAX_PATHS: usize = 128;
 
 /// Maximum number of pairs times searches: about a second.
-const MOST_TRIED: usize = 80_000;
+const MAX_SEARCH_WORK: usize = 80_000;
 
 /// A path is certified only if its length has grown by at most this share since the path before.
-const SETTLED: f64 = 1e-6;
+const SETTLED_GROWTH: f64 = 1e-6;
 
 /// Maximum number of pairs times refused certificates: some seconds.
-const MOST_REFUSED: usize = 500_000;
+const MAX_REFUSAL_WORK: usize = 500_000;
 
 /// Number of pairs that are added around a place where a path collides with a pair that is not in use.
-const NEAREST: usize = 256;
+const PAIRS_PER_COLLISION: usize = 256;
 
 /// Number of consecutive rounds with hardly any improvement after which the search ends.
-const MOST_IDLE_ROUNDS: usize = 3;
+const MAX_IDLE_ROUNDS: usize = 3;
 
 /// Share of the extra clearance `kept` that strips may use up. The rest is enough for a certificate, and a greater
 /// share needs fewer slices.
-const DEEPEST: f64 = 0.9;
+const STRIP_CLEARANCE_SHARE: f64 = 0.9;
 
-/// Number of pairs up to which [`DEEPEST`] applies. Among more pairs a path passes many small things, and certificates
+/// Number of pairs up to which [`STRIP_CLEARANCE_SHARE`] applies. Among more pairs a path passes many small things, and certificates
 /// need more space.
 const FEW_PAIRS: usize = 1000;
 
 /// The same share for more pairs.
-const DEEPEST_AMONG_MANY: f64 = 0.5;
+const STRIP_CLEARANCE_SHARE_OF_MANY: f64 = 0.5;
 
 /// Share of the requested gap that a single strip may leave open without being halved.
-const WORTH: f64 = 1e-3;
+const MAX_STRIP_GAP_SHARE: f64 = 1e-3;
 
 /// Least share of the limit below which paths are searched initially.
-const LEAST_SHARE: f64 = 1.0 / 64.0;
+const MIN_LIMIT_SHARE: f64 = 1.0 / 64.0;
 
 /// The requested motions, and the metric of their lengths.
 #[derive(Debug, Clone, Copy)]
-pub struct Motions<'a> {
+pub struct MotionQuery<'a> {
     /// The arm and the obstacles.
     pub scene: &'a Scene,
     /// Start configuration.
@@ -99,36 +99,39 @@ pub struct Motions<'a> {
 /// Walls are made of slightly eroded shapes, so every passage is some nanometres wider than in reality. Pairs of two
 /// shapes without area make no walls, which lowers the bound.
 #[must_use]
-pub fn least_length(motions: &Motions, limit: f64, gap: f64, slices: &[f64]) -> f64 {
-    bounded(&Motions { scene: &motions.scene.inner(), ..*motions }, limit, gap, slices).0
+pub fn least_length(motions: &MotionQuery, limit: f64, gap: f64, slices: &[f64]) -> f64 {
+    bounded(&MotionQuery { scene: &motions.scene.inner(), ..*motions }, limit, gap, slices).0
 }
 
 /// Returns evidence for a checker: the walls and barriers that close all paths shorter than [`least_length`] without
 /// given slices.
 #[must_use]
-pub fn bound_evidence(motions: &Motions, limit: f64, gap: f64) -> BoundEvidence {
+pub fn bound_evidence(motions: &MotionQuery, limit: f64, gap: f64) -> BoundEvidence {
     let scene = &*motions.scene.inner();
-    let (_, ways) = bounded(&Motions { scene, ..*motions }, limit, gap, &[]);
-    BoundEvidence { slices: ways.strips.evident(scene) }
+    let (_, search) = bounded(&MotionQuery { scene, ..*motions }, limit, gap, &[]);
+    BoundEvidence { slices: search.strips.evident(scene) }
 }
 
-fn bounded<'a>(motions: &Motions<'a>, limit: f64, gap: f64, slices: &[f64]) -> (f64, Ways<'a>) {
-    let mut ways = Ways::new(*motions, limit, slices);
+fn bounded<'a>(motions: &MotionQuery<'a>, limit: f64, gap: f64, slices: &[f64]) -> (f64, ShortestPathSearch<'a>) {
+    let mut search = ShortestPathSearch::new(*motions, limit, slices);
     let enough = limit / (1.0 + gap);
     let (mut best, mut idle) = (0.0, 0);
-    for _ in 0..ROUNDS {
-        let (length, corners) = ways.shortest();
+    for _ in 0..MAX_REFINEMENTS {
+        let (length, corners) = search.shortest();
         idle = if length - best > gap / 8.0 * limit { 0 } else { idle + 1 };
         best = f64::max(best, length);
-        if best >= enough || idle >= MOST_IDLE_ROUNDS || !ways.refine(&corners, Allowed::Detour(gap * limit * WORTH)) {
+        if best >= enough
+            || idle >= MAX_IDLE_ROUNDS
+            || !search.refine(&corners, PathTolerance::Detour(gap * limit * MAX_STRIP_GAP_SHARE))
+        {
             break;
         }
     }
-    (ways.rounded(best.min(limit)), ways)
+    (search.rounded(best.min(limit)), search)
 }
 
 /// Finds a motion that is about the shortest of the `motions`, and shorter than `limit`. `judge` certifies it: it takes
-/// a [`Proposed`] path, and may certify a path derived from it. The motion keeps the clearance, plus most of the extra
+/// a [`ProposedPath`] path, and may certify a path derived from it. The motion keeps the clearance, plus most of the extra
 /// `kept` metres: strips use up the rest. It is longer than the shortest motion by the cost of this extra clearance.
 ///
 /// The path is the shortest path of [`least_length`] among obstacles grown by `kept`. Strips are cut where the path
@@ -138,49 +141,49 @@ fn bounded<'a>(motions: &Motions<'a>, limit: f64, gap: f64, slices: &[f64]) -> (
 /// is too narrow for `kept`.
 #[must_use]
 pub fn short_motion(
-    motions: &Motions,
+    motions: &MotionQuery,
     kept: f64,
     limit: f64,
-    mut judge: impl FnMut(Proposed) -> Result<CertifiedPath, Refused>,
-) -> Option<ShortMotion> {
-    let Motions { scene, start, clearance, .. } = *motions;
-    let mut ways = Ways::new(Motions { clearance: clearance + kept, ..*motions }, limit, &[]);
+    mut judge: impl FnMut(ProposedPath) -> Result<CertifiedPath, RefusalReason>,
+) -> Option<NearShortestMotion> {
+    let MotionQuery { scene, start, clearance, .. } = *motions;
+    let mut search = ShortestPathSearch::new(MotionQuery { clearance: clearance + kept, ..*motions }, limit, &[]);
     let (mut before, mut refused, mut last, mut is_pulled) = (0.0, 0, Vec::new(), true);
-    let deepest = if scene.pairs().len() <= FEW_PAIRS { DEEPEST } else { DEEPEST_AMONG_MANY };
-    let allowed = Allowed::Depth(deepest * kept);
-    let (most, mut searched) = (MOST_TRIED / ways.strips.pairs().len().max(1), 0);
-    for _ in 0..TRIES {
-        let taut = (is_pulled && searched >= SEARCHED).then(|| ways.taut(&last)).flatten();
+    let deepest = if scene.pairs().len() <= FEW_PAIRS { STRIP_CLEARANCE_SHARE } else { STRIP_CLEARANCE_SHARE_OF_MANY };
+    let allowed = PathTolerance::Depth(deepest * kept);
+    let (most, mut searched) = (MAX_SEARCH_WORK / search.strips.pairs().len().max(1), 0);
+    for _ in 0..MAX_PATHS {
+        let taut = (is_pulled && searched >= MIN_SEARCHED_PATHS).then(|| search.taut(&last)).flatten();
         let is_shortest = taut.is_none();
         if is_shortest && searched == most {
             return None;
         }
         searched += usize::from(is_shortest);
-        let (length, corners) = taut.unwrap_or_else(|| ways.shortest());
+        let (length, corners) = taut.unwrap_or_else(|| search.shortest());
         if corners.is_empty() {
             return None;
         }
         // Among thousands of adjacent pieces there is always one more to go around, without any gain.
-        let is_settled = length - before <= SETTLED * length;
+        let is_settled = length - before <= SETTLED_GROWTH * length;
         before = length;
-        if !is_settled && ways.refine(&corners, allowed) {
+        if !is_settled && search.refine(&corners, allowed) {
             last = corners;
             continue;
         }
-        let proposed = Proposed { path: ways.path(start, &corners), slices: ways.strips.slices(), is_shortest };
+        let proposed = ProposedPath { path: search.path(start, &corners), slices: search.strips.slices(), is_shortest };
         let nearest = match judge(proposed) {
-            Ok(path) => return Some(ShortMotion { path, free: ways.passed(start, &corners) }),
-            Err(Refused::TooLong) => {
+            Ok(path) => return Some(NearShortestMotion { path, free: search.passed(start, &corners) }),
+            Err(RefusalReason::TooLong) => {
                 (before, is_pulled) = (0.0, false);
                 continue;
             }
-            Err(Refused::By(Rejection::TooClose(nearest) | Rejection::Undecided(nearest))) => nearest.at,
-            Err(Refused::By(Rejection::OutOfLimits { .. })) => return None,
+            Err(RefusalReason::By(Rejection::TooClose(nearest) | Rejection::Undecided(nearest))) => nearest.at,
+            Err(RefusalReason::By(Rejection::OutOfLimits { .. })) => return None,
         };
         refused += 1;
         let is_finer =
-            ways.look_about(nearest) || is_settled && ways.refine(&corners, allowed) || ways.halve_at(nearest[0]);
-        if !is_finer || refused * scene.pairs().len() > MOST_REFUSED {
+            search.look_about(nearest) || is_settled && search.refine(&corners, allowed) || search.halve_at(nearest[0]);
+        if !is_finer || refused * scene.pairs().len() > MAX_REFUSAL_WORK {
             return None;
         }
         // Finer strips do not reveal the obstacle on the path, so the next path is searched.
@@ -192,7 +195,7 @@ pub fn short_motion(
 
 /// A path proposed for certification.
 #[derive(Debug, Clone)]
-pub struct Proposed {
+pub struct ProposedPath {
     /// The path.
     pub path: Path,
     /// Values of joint 1 at all slices. They are dense where the path passes something.
@@ -203,7 +206,7 @@ pub struct Proposed {
 
 /// Reason why a proposed path is refused.
 #[derive(Debug, Clone)]
-pub enum Refused {
+pub enum RefusalReason {
     /// It has no certificate.
     By(Rejection),
     /// There may be a shorter path. Not a valid reason if the path is already the shortest.
@@ -212,7 +215,7 @@ pub enum Refused {
 
 /// A motion that is about the shortest.
 #[derive(Debug, Clone)]
-pub struct ShortMotion {
+pub struct NearShortestMotion {
     /// The certified path of the motion.
     pub path: CertifiedPath,
     /// The free stretches of the slices that it passes, in order. Each consists of its ends at the least and the
@@ -221,8 +224,8 @@ pub struct ShortMotion {
 }
 
 /// The search for the shortest path around walls and barriers, with finer and finer strips.
-struct Ways<'a> {
-    motions: Motions<'a>,
+struct ShortestPathSearch<'a> {
+    motions: MotionQuery<'a>,
     vicinity: Vicinity<'a>,
     strips: Strips<'a>,
     measure: Measure,
@@ -235,12 +238,12 @@ struct Ways<'a> {
     /// Greatest coordinate of start and goals.
     largest: f64,
     /// The pieces of paths that need no refinement. All refinements must use the same allowance.
-    fine: Fine,
+    fine: RefinedPieces,
 }
 
-impl<'a> Ways<'a> {
-    fn new(motions: Motions<'a>, limit: f64, slices: &[f64]) -> Self {
-        let Motions { scene, start, goals, clearance, metric } = motions;
+impl<'a> ShortestPathSearch<'a> {
+    fn new(motions: MotionQuery<'a>, limit: f64, slices: &[f64]) -> Self {
+        let MotionQuery { scene, start, goals, clearance, metric } = motions;
         let mut strips = Strips::new(scene, clearance, slices);
         // Doubles are densest near zero, and all turns are equivalent.
         let start = strips.topology().wrap(start);
@@ -253,9 +256,9 @@ impl<'a> Ways<'a> {
         goals.retain(|copy| straight(copy) < limit);
         let nearest = goals.iter().map(straight).fold(limit, f64::min);
         // A caller that knows the slices also knows about the shortest length.
-        let near = if slices.is_empty() { f64::max(1.5 * nearest, limit * LEAST_SHARE).min(limit) } else { limit };
+        let near = if slices.is_empty() { f64::max(1.5 * nearest, limit * MIN_LIMIT_SHARE).min(limit) } else { limit };
         let vicinity = Vicinity::of(scene, strips.pairs().into());
-        Self { motions, vicinity, strips, measure, start, goals, limit, near, largest, fine: Fine::default() }
+        Self { motions, vicinity, strips, measure, start, goals, limit, near, largest, fine: RefinedPieces::default() }
     }
 
     /// Returns the length and the corners of the shortest path around the known walls and barriers. Without corners, no
@@ -269,9 +272,11 @@ impl<'a> Ways<'a> {
         loop {
             let near: Vec<Segment> = self.goals.iter().copied().filter(|goal| straight(goal) < self.near).collect();
             match Search::new(&mut self.strips, self.measure, &near, self.near).run(self.start) {
-                Way::Shortest(length, corners) => return (length, corners),
-                Way::NoneBelow(length) if length < self.near || self.near >= self.limit => return (length, Vec::new()),
-                Way::NoneBelow(_) => self.near = (2.0 * self.near).min(self.limit),
+                SearchResult::Shortest(length, corners) => return (length, corners),
+                SearchResult::NoneBelow(length) if length < self.near || self.near >= self.limit => {
+                    return (length, Vec::new());
+                }
+                SearchResult::NoneBelow(_) => self.near = (2.0 * self.near).min(self.limit),
             }
         }
     }
@@ -288,7 +293,7 @@ impl<'a> Ways<'a> {
     }
 
     /// Cuts the strips in which a path enters closed regions by more than allowed. Returns true if any strip was cut.
-    fn refine(&mut self, corners: &[Point], allowed: Allowed) -> bool {
+    fn refine(&mut self, corners: &[Point], allowed: PathTolerance) -> bool {
         if self.strips.count() == 0 || self.strips.are_too_many() {
             return false;
         }
@@ -299,16 +304,16 @@ impl<'a> Ways<'a> {
     /// If not all pairs are in use, adds those that are near in a configuration. Returns true if there were any.
     fn look_about(&mut self, q: Configuration) -> bool {
         let scene = self.motions.scene;
-        if scene.pairs().len() <= MOST_PAIRS {
+        if scene.pairs().len() <= MAX_PAIRS {
             return false;
         }
-        let mut near: Vec<(Ordered, Pair)> = scene
+        let mut near: Vec<(OrderedF64, Pair)> = scene
             .separations(q)
             .filter(|contact| contact.pair.link > 0)
-            .map(|contact| (Ordered(contact.separation.distance), contact.pair))
+            .map(|contact| (OrderedF64(contact.separation.distance), contact.pair))
             .collect();
         near.sort_unstable();
-        let is_new = self.strips.add(near.into_iter().take(NEAREST).map(|(_, pair)| pair).collect());
+        let is_new = self.strips.add(near.into_iter().take(PAIRS_PER_COLLISION).map(|(_, pair)| pair).collect());
         if is_new {
             self.vicinity = Vicinity::of(scene, self.strips.pairs().into());
             self.fine.clear();
@@ -328,7 +333,7 @@ impl<'a> Ways<'a> {
 
     /// Returns a length, reduced by the rounding error.
     fn rounded(&self, length: f64) -> f64 {
-        (length - f64::max(length * ROUNDING, self.largest * COORDINATES)).max(0.0)
+        (length - f64::max(length * ROUNDING, self.largest * COORDINATE_ROUNDING)).max(0.0)
     }
 
     /// Returns the path with these corners, on the start's own turns.
@@ -350,7 +355,7 @@ impl<'a> Ways<'a> {
                 let q1 = self.strips.q1(slice);
                 let q2 = from.y + (to.y - from.y) * ((q1 - from.x) / (to.x - from.x));
                 passed.extend(
-                    self.strips.free_about(slice, q2).map(|free| free.map(|q2| Configuration::new(q1, q2) + lift)),
+                    self.strips.free_around(slice, q2).map(|free| free.map(|q2| Configuration::new(q1, q2) + lift)),
                 );
             }
         }

@@ -28,7 +28,7 @@ pub(super) fn within_domain(axis: JointRange, lower: f64, upper: f64) -> impl It
 }
 
 /// Returns the portals that closed intervals leave. The intervals must be within the domain, disjoint and ascending.
-pub(super) fn left_by(closed: &[[f64; 2]], axis: JointRange) -> Vec<Portal> {
+pub(super) fn free_portals(closed: &[[f64; 2]], axis: JointRange) -> Vec<Portal> {
     let (bottom, top) = axis.domain();
     let round = axis.is_circle();
     let (Some(first), Some(last)) = (closed.first(), closed.last()) else {

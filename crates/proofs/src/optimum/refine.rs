@@ -1,9 +1,9 @@
 //! Strips that are too wide, because a shortest path enters a closed region within them.
 
-use super::Motions;
-use super::search::Mixed;
+use super::MotionQuery;
+use super::search::MixingHasher;
 use super::strips::Strips;
-use crate::slab::OUTWARD;
+use crate::slab::CLOSED_FORM_ERROR;
 use cplan_core::check::Vicinity;
 use cplan_core::check::{Deviation, Posture};
 use cplan_core::model::{Pair, Scene};
@@ -14,25 +14,25 @@ use std::convert::Infallible;
 use std::hash::BuildHasherDefault;
 
 /// Distance of the configurations, radians or metres, at which paths are tested for things thinner than a strip.
-const STEP: f64 = 0.01;
+const TEST_STEP: f64 = 0.01;
 
 /// Ratio of consecutive distances of tested configurations from an end.
-const NEARER: f64 = 0.1;
+const TEST_STEP_RATIO: f64 = 0.1;
 
 /// Distance from a tip down to which strips are cut at once, as a multiple of the detour that a strip may leave open. A
 /// path around the tip is longer by at most twice this distance.
-const DETOUR: f64 = 16.0;
+const CUT_DISTANCE_RATIO: f64 = 16.0;
 
 /// Number of cuts towards a jump below which a strip is also cut evenly: so near, the path may go around many small
 /// things side by side.
-const FEW: usize = 4;
+const FEW_CUTS: usize = 4;
 
 /// Resolution of positions along a piece of a path: doubles resolve shares of it no more finely.
-const FINEST_SHARE: f64 = 1e-15;
+const POSITION_RESOLUTION: f64 = 1e-15;
 
 /// The allowed error of paths that lead through closed regions.
 #[derive(Debug, Clone, Copy)]
-pub(super) enum Allowed {
+pub(super) enum PathTolerance {
     /// As long as a path around the region would be longer by no more than this.
     Detour(f64),
     /// Up to this depth, metres.
@@ -107,25 +107,25 @@ fn around_tip(strips: &mut Strips, ends: &[Point], finest: f64) -> Vec<(usize, V
 
 /// Straight pieces of paths within a strip that are known to need no refinement: their ends, and the strip's. Most of a
 /// path is the same as before.
-pub(super) type Fine = HashSet<[u64; 6], BuildHasherDefault<Mixed>>;
+pub(super) type RefinedPieces = HashSet<[u64; 6], BuildHasherDefault<MixingHasher>>;
 
 /// Returns the strips, by number, in which a path enters a closed region by more than allowed, and where to cut them.
 /// An overlooked strip never makes a bound wrong, only lower. Pieces in `fine` are skipped.
 pub(super) fn passed(
-    motions: &Motions,
+    motions: &MotionQuery,
     vicinity: &Vicinity,
     strips: &mut Strips,
     corners: &[Point],
-    allowed: Allowed,
-    fine: &mut Fine,
+    allowed: PathTolerance,
+    fine: &mut RefinedPieces,
 ) -> Vec<(usize, Vec<f64>)> {
-    let Motions { scene, clearance, metric, .. } = *motions;
+    let MotionQuery { scene, clearance, metric, .. } = *motions;
     let measure = Measure::from(metric);
     // The surroundings of a path along a slice are not known well enough.
     let mut passed = BTreeMap::new();
     let finest = match allowed {
-        Allowed::Detour(worth) => worth * DETOUR,
-        Allowed::Depth(depth) => depth / scene.arm().reach().max(1.0),
+        PathTolerance::Detour(worth) => worth * CUT_DISTANCE_RATIO,
+        PathTolerance::Depth(depth) => depth / scene.arm().reach().max(1.0),
     };
     let crossings = crossings(strips, corners, finest, &mut passed);
     for crossing in &crossings {
@@ -141,20 +141,20 @@ pub(super) fn passed(
         };
         // A collision that the tested places miss may show halfway through the strip, where the next slice would be.
         let is_barred_halfway = |strips: &mut Strips, worth: f64| {
-            let way_out = middle.and_then(|middle| strips.way_out_of_middle(index, middle.y));
+            let way_out = middle.and_then(|middle| strips.distances_out_of_middle(index, middle.y));
             way_out.is_some_and(|ways| ways.map(detour).into_iter().all(|detour| detour > worth))
         };
-        if let Some(Deepest { by, share, pair }) = deepest(scene, vicinity, clearance, [left, right], allowed) {
+        if let Some(DeepestPlace { by, share, pair }) = deepest(scene, vicinity, clearance, [left, right], allowed) {
             let at = left + (right - left) * share - Vector::new(turns, 0.0);
             let mut cuts = strips.towards_jumps(index, pair, at, finest);
-            if cuts.len() < FEW {
+            if cuts.len() < FEW_CUTS {
                 let n = pieces(by, allowed);
                 cuts.extend((1..n).map(|k| left.x - turns + (right.x - left.x) * (k as f64 / n as f64)));
             }
             cuts.push(at.x);
             cuts.sort_unstable_by(f64::total_cmp);
             passed.entry(index).or_insert(cuts);
-        } else if matches!(allowed, Allowed::Detour(worth) if is_barred_halfway(strips, worth)) {
+        } else if matches!(allowed, PathTolerance::Detour(worth) if is_barred_halfway(strips, worth)) {
             passed.entry(index).or_default();
         } else {
             fine.insert(known);
@@ -164,7 +164,7 @@ pub(super) fn passed(
 }
 
 /// The place where a straight motion is deepest in a closed region.
-struct Deepest {
+struct DeepestPlace {
     /// Depth beyond the allowed depth, metres.
     by: f64,
     /// Position as a share of the motion.
@@ -176,33 +176,39 @@ struct Deepest {
 /// Finds where a straight motion comes nearest to an obstacle, as a share of it, if it comes too near. It tests sample
 /// places: at regular distances, and ever closer towards the ends, where a path may turn at a closed region. Ignores
 /// places where a detour of the allowed length would be enough to keep away.
-fn deepest(scene: &Scene, vicinity: &Vicinity, clearance: f64, ends: [Point; 2], allowed: Allowed) -> Option<Deepest> {
-    let (way, middle) = (ends[1] - ends[0], (ends[0] + ends[1]) * 0.5);
-    let length = way.norm();
-    let steps = (length / STEP).ceil().max(1.0);
+fn deepest(
+    scene: &Scene,
+    vicinity: &Vicinity,
+    clearance: f64,
+    ends: [Point; 2],
+    allowed: PathTolerance,
+) -> Option<DeepestPlace> {
+    let (displacement, middle) = (ends[1] - ends[0], (ends[0] + ends[1]) * 0.5);
+    let length = displacement.norm();
+    let steps = (length / TEST_STEP).ceil().max(1.0);
     let regular = (0..steps as usize).map(|i| (i as f64 + 0.5) / steps);
-    let (Allowed::Detour(finest) | Allowed::Depth(finest)) = allowed;
-    let near = std::iter::successors(Some(NEARER), |share| Some(share * NEARER));
+    let (PathTolerance::Detour(finest) | PathTolerance::Depth(finest)) = allowed;
+    let near = std::iter::successors(Some(TEST_STEP_RATIO), |share| Some(share * TEST_STEP_RATIO));
     let towards_ends = near.take_while(|share| share * length > finest).flat_map(|share| [share, 1.0 - share]);
     let mut shares: Vec<f64> = regular.chain(towards_ends).collect();
     // The shares are nearly sorted already.
     shares.sort_by(f64::total_cmp);
 
     // Walls are made of shapes that are smaller by this.
-    let least = clearance - 2.0 * OUTWARD;
+    let least = clearance - 2.0 * CLOSED_FORM_ERROR;
     let posture = Posture::new(scene, middle);
-    let along = Deviation::Along(way / 2.0);
-    let may_meet = |pair: Pair| posture.apart(pair, along) < least && posture.bound(pair, along).least < least;
-    let pose = |pair: Pair, share: f64| scene.arm().pose(pair.link, ends[0] + way * share);
+    let along = Deviation::Along(displacement / 2.0);
+    let may_meet = |pair: Pair| posture.disc_bound(pair, along) < least && posture.bound(pair, along).least < least;
+    let pose = |pair: Pair, share: f64| scene.arm().pose(pair.link, ends[0] + displacement * share);
     let here = |pair: Pair, pose: &Pose| separation(&scene.part(pair).at(pose), scene.piece(pair));
     let depth = |share: f64| match allowed {
-        Allowed::Detour(worth) => scene.arm().reach() * (worth * length * share.min(1.0 - share)).sqrt(),
-        Allowed::Depth(depth) => depth,
+        PathTolerance::Detour(worth) => scene.arm().reach() * (worth * length * share.min(1.0 - share)).sqrt(),
+        PathTolerance::Depth(depth) => depth,
     };
     // Depth beyond the allowed depth.
     let beyond = |pair: Pair, share: f64| least - here(pair, &pose(pair, share)).distance - depth(share);
     let mut deepest: Option<(f64, Pair, usize)> = None;
-    let looked_at: Result<(), Infallible> = vicinity.near(&posture, along, least.max(0.0), |pair| {
+    let examined_paths: Result<(), Infallible> = vicinity.near(&posture, along, least.max(0.0), |pair| {
         if may_meet(pair) {
             // Skip places up to which nothing moves far enough to be too near.
             let speed = 2.0 * posture.farthest_motion(pair, along);
@@ -229,25 +235,25 @@ fn deepest(scene: &Scene, vicinity: &Vicinity, clearance: f64, ends: [Point; 2],
         }
         Ok(())
     });
-    looked_at.unwrap_or_else(|never| match never {});
+    examined_paths.unwrap_or_else(|never| match never {});
     let (_, pair, k) = deepest?;
     // Near there, the depth has a single maximum.
     let mut from = k.checked_sub(1).map_or(0.0, |before| shares[before]);
     let mut to = shares.get(k + 1).copied().unwrap_or(1.0);
-    let finest = (finest / length).max(FINEST_SHARE);
+    let finest = (finest / length).max(POSITION_RESOLUTION);
     while to - from > finest {
         let [a, b] = [from + (to - from) / 3.0, to - (to - from) / 3.0];
         if beyond(pair, a) >= beyond(pair, b) { to = b } else { from = a }
     }
     let share = f64::midpoint(from, to);
-    Some(Deepest { by: beyond(pair, share), share, pair })
+    Some(DeepestPlace { by: beyond(pair, share), share, pair })
 }
 
 /// Returns the number of parts into which to cut a strip in which a path is deeper in a closed region than allowed. The
 /// error along a smooth boundary falls with the square of the width.
-fn pieces(by: f64, allowed: Allowed) -> usize {
+fn pieces(by: f64, allowed: PathTolerance) -> usize {
     match allowed {
-        Allowed::Depth(depth) => (1.1 * ((by.max(0.0) + depth) / depth).sqrt()).ceil().min(16.0) as usize,
-        Allowed::Detour(_) => 1,
+        PathTolerance::Depth(depth) => (1.1 * ((by.max(0.0) + depth) / depth).sqrt()).ceil().min(16.0) as usize,
+        PathTolerance::Detour(_) => 1,
     }
 }

@@ -14,21 +14,21 @@ use std::hash::{BuildHasherDefault, Hasher};
 
 /// Maximum number of entries taken from the open list: a thousand times the usual number, or half a second. Then the
 /// search ends with the bound so far. Along an arc, entries grow with the square of the slices.
-const MOST_ENTRIES: usize = 1_000_000;
+const MAX_ENTRIES: usize = 1_000_000;
 
 /// Initial capacity for entries.
 const USUAL_ENTRIES: usize = 1024;
 
 /// Relative difference of costs that rounding alone can cause.
-const TIED: f64 = 1e-12;
+const COST_TOLERANCE: f64 = 1e-12;
 
 /// Margin by which sight extends past an obstruction, as a share of the coordinates. It is greater than rounding.
 /// Without it, the end of a portal that is in line with two others, as on a straight side, could lie in the gap between
 /// two cones.
-const HAIR: f64 = 4.0 * f64::EPSILON;
+const SIGHT_MARGIN: f64 = 4.0 * f64::EPSILON;
 
 /// Result of the search.
-pub(super) enum Way {
+pub(super) enum SearchResult {
     /// The shortest path: its length and corners.
     Shortest(f64, Vec<Point>),
     /// No path is shorter than this.
@@ -37,9 +37,9 @@ pub(super) enum Way {
 
 /// A hasher that mixes a few numbers in a few operations. The hashed numbers come from the search itself.
 #[derive(Default)]
-pub(super) struct Mixed(u64);
+pub(super) struct MixingHasher(u64);
 
-impl Hasher for Mixed {
+impl Hasher for MixingHasher {
     fn finish(&self) -> u64 {
         self.0 ^ (self.0 >> 32)
     }
@@ -121,7 +121,7 @@ pub(super) struct Search<'s, 'a> {
     roots: Vec<Root>,
     /// Least cost so far of each end of a portal. The key is the slice, the value of joint 2, and whether joint 1 grows
     /// from there.
-    least: HashMap<(i64, u64), f64, BuildHasherDefault<Mixed>>,
+    least: HashMap<(i64, u64), f64, BuildHasherDefault<MixingHasher>>,
     open: OpenList<usize>,
     entries: Vec<Entry>,
     /// Unused lists of portals, for reuse.
@@ -147,7 +147,7 @@ impl<'s, 'a> Search<'s, 'a> {
     }
 
     /// Finds the shortest path from `start` to one of the goals.
-    pub fn run(mut self, start: Point) -> Way {
+    pub fn run(mut self, start: Point) -> SearchResult {
         let far = self.limit / self.measure.norm(Point::new(0.0, 1.0));
         self.range = [start.y - far, start.y + far];
         self.roots.push(Root { at: start, cost: 0.0, before: None });
@@ -158,16 +158,16 @@ impl<'s, 'a> Search<'s, 'a> {
         while let Some((bound, number)) = self.open.pop() {
             checkpoint();
             taken += 1;
-            if taken > MOST_ENTRIES {
-                return Way::NoneBelow(bound);
+            if taken > MAX_ENTRIES {
+                return SearchResult::NoneBelow(bound);
             }
             match self.entries[number] {
-                Entry::Goal(root, goal) => return Way::Shortest(bound, self.corners(root, goal)),
+                Entry::Goal(root, goal) => return SearchResult::Shortest(bound, self.corners(root, goal)),
                 Entry::Cone(cone) => self.expand(&cone, bound),
                 Entry::Root(root, strip) => self.spread(root, strip, bound),
             }
         }
-        Way::NoneBelow(self.limit)
+        SearchResult::NoneBelow(self.limit)
     }
 
     fn corners(&self, root: u32, goal: Point) -> Vec<Point> {
@@ -223,7 +223,7 @@ impl<'s, 'a> Search<'s, 'a> {
         let cost = cost + self.measure.norm(at - before);
         let key = |ahead: bool| (2 * slice + i64::from(ahead), at.y.to_bits());
         let least = |ahead: bool| self.least.get(&key(ahead)).copied().unwrap_or(f64::INFINITY);
-        if cost >= least(ahead) * (1.0 - TIED) || cost > least(!ahead) * (1.0 + TIED) {
+        if cost >= least(ahead) * (1.0 - COST_TOLERANCE) || cost > least(!ahead) * (1.0 + COST_TOLERANCE) {
             return None;
         }
         self.least.insert(key(ahead), cost);
@@ -327,8 +327,8 @@ impl<'s, 'a> Search<'s, 'a> {
             };
             if let Some(root) = self.turn(root, slice, Point::new(at.x, end), !ahead) {
                 let Root { at, cost, .. } = self.roots[root as usize];
-                let ways = self.goals.iter().map(|goal| goal.distance(self.measure, at));
-                let nearest = ways.fold(f64::INFINITY, f64::min);
+                let distances = self.goals.iter().map(|goal| goal.distance(self.measure, at));
+                let nearest = distances.fold(f64::INFINITY, f64::min);
                 self.push((cost + nearest).max(parent), Entry::Root(root, if ahead { slice - 1 } else { slice }));
             }
         }
@@ -343,7 +343,7 @@ impl<'s, 'a> Search<'s, 'a> {
         let Some(cell) = self.strips.cell(cone.strip(), near, f64::midpoint(seen.lower, seen.upper)) else { return };
         let below = if seen.tips[0] { self.turn(root, slice, Point::new(x, seen.lower), ahead) } else { None };
         let above = if seen.tips[1] { self.turn(root, slice, Point::new(x, seen.upper), ahead) } else { None };
-        let hair = [seen.lower, seen.upper].map(|y| HAIR * (1.0 + from.y.abs() + y.abs()));
+        let hair = [seen.lower, seen.upper].map(|y| SIGHT_MARGIN * (1.0 + from.y.abs() + y.abs()));
         for goals in self.goals(cone.strip(), cell) {
             // Distance above the line from the root through a value on the slice.
             let above_line = |goals: &Segment, at: f64| {

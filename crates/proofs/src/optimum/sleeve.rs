@@ -54,7 +54,7 @@ impl Strips<'_> {
     fn around_end(&mut self, from: Point, to: Point, ahead: bool, sleeve: &mut Vec<Portal>) -> Option<Point> {
         let slice = self.around(to.x).last().copied().filter(|slice| self.q1(*slice) == to.x && from.x == to.x)?;
         let mut sides = [from, to];
-        let mut back = vec![portal(to.x, self.free_about(slice, to.y)?, !ahead)];
+        let mut back = vec![portal(to.x, self.free_around(slice, to.y)?, !ahead)];
         while let [Some(there), Some(beside)] = sides.map(|side| self.next(side, ahead)) {
             let (slice, x) = (there.0, self.q1(there.0));
             let [Some(first), Some(second)] = [(sides[0], there.1), (sides[1], beside.1)]

@@ -1,7 +1,7 @@
 //! The strips of joint 1's domain: walls on the slices between them, and barriers across them.
 
-use super::closed::{Closed, Wall};
-use super::portals::{Portal, left_by, within_domain};
+use super::closed::{SecondLinkWalls, Wall};
+use super::portals::{Portal, free_portals, within_domain};
 use cplan_core::model::{Pair, Scene};
 use cplan_core::space::{Configuration, JointRange, Segment, Topology};
 use cplan_geometry::merge_in_place;
@@ -9,23 +9,23 @@ use std::f64::consts::{PI, TAU};
 
 /// Number of initial strips over the domain; those beside values that link 1 closes are narrower. At least three, so
 /// that across a seam no strip is its own neighbour.
-const FIRST: usize = 64;
+const INITIAL_STRIPS: usize = 64;
 
 /// Maximum number of strips.
-const MOST_STRIPS: usize = 100_000;
+const MAX_STRIPS: usize = 100_000;
 
 /// Maximum number of barriers tried in a strip.
-const MOST_BARRIERS: usize = 512;
+const MAX_BARRIERS: usize = 512;
 
 /// Narrowest strips that are halved, in the unit of joint 1: about the rounding error.
-pub(super) const NARROWEST: f64 = 1e-9;
+pub(super) const MIN_STRIP_WIDTH: f64 = 1e-9;
 
 /// Tolerance for a path that passes a portal: paths turn at the ends of portals.
-pub(super) const ABOUT: f64 = 1e-9;
+pub(super) const PORTAL_TOLERANCE: f64 = 1e-9;
 
 /// Least distance of slices, so that they also differ on other turns. It is less than the erosion of closed shapes for
 /// reaches up to a kilometre.
-const APART: f64 = 1e-12;
+const MIN_SLICE_DISTANCE: f64 = 1e-12;
 
 /// A straight closed line across a strip: its values of joint 2 on the slice before and the slice after.
 type Barrier = [f64; 2];
@@ -85,7 +85,7 @@ impl Strip {
 /// Strip `k` lies between slices `k` and `k + 1`.
 pub(super) struct Strips<'a> {
     topology: Topology,
-    pub(super) closed: Closed<'a>,
+    pub(super) closed: SecondLinkWalls<'a>,
     pub(super) strips: Vec<Strip>,
     /// Walls at the end of the domain, if joint 1 has limits.
     pub(super) last: Vec<Wall>,
@@ -96,13 +96,16 @@ impl<'a> Strips<'a> {
     pub fn new(scene: &'a Scene, clearance: f64, slices: &[f64]) -> Self {
         let topology = scene.arm().topology();
         let (lower, upper) = topology.ranges[0].domain();
-        let mut closed = Closed::new(scene, clearance);
+        let mut closed = SecondLinkWalls::new(scene, clearance);
         let bands = apart(closed.bands(), [lower, upper]);
-        let mut cuts: Vec<f64> = (0..=FIRST).map(|i| lower + (upper - lower) * i as f64 / FIRST as f64).collect();
-        cuts.extend(slices.iter().copied().filter(|slice| lower + NARROWEST < *slice && *slice < upper - NARROWEST));
+        let mut cuts: Vec<f64> =
+            (0..=INITIAL_STRIPS).map(|i| lower + (upper - lower) * i as f64 / INITIAL_STRIPS as f64).collect();
+        cuts.extend(
+            slices.iter().copied().filter(|slice| lower + MIN_STRIP_WIDTH < *slice && *slice < upper - MIN_STRIP_WIDTH),
+        );
         cuts.sort_unstable_by(f64::total_cmp);
-        cuts.dedup_by(|next, kept| *next - *kept < NARROWEST / 4.0);
-        cuts.retain(|cut| bands.iter().flatten().all(|end| (cut - end).abs() > APART));
+        cuts.dedup_by(|next, kept| *next - *kept < MIN_STRIP_WIDTH / 4.0);
+        cuts.retain(|cut| bands.iter().flatten().all(|end| (cut - end).abs() > MIN_SLICE_DISTANCE));
         cuts.extend(bands.iter().flatten().copied().chain([lower, upper]));
         cuts.sort_unstable_by(f64::total_cmp);
         cuts.dedup();
@@ -145,7 +148,7 @@ impl<'a> Strips<'a> {
 
     /// Returns true if more strips would cost more than they gain.
     pub fn are_too_many(&self) -> bool {
-        self.strips.len() > MOST_STRIPS.min(self.closed.most_slices())
+        self.strips.len() > MAX_STRIPS.min(self.closed.most_slices())
     }
 
     fn place(&self, number: i64) -> (usize, f64) {
@@ -257,14 +260,16 @@ impl<'a> Strips<'a> {
             }
             merge_in_place(&mut closed);
             let is_closed = self.strips[before].closed || self.strips[after].closed;
-            self.strips[after].portals = Some(if is_closed { Vec::new() } else { left_by(&closed, axis) });
+            self.strips[after].portals = Some(if is_closed { Vec::new() } else { free_portals(&closed, axis) });
         }
         self.strips[after].portals.as_deref().unwrap_or(&[])
     }
 
     /// Returns the free interval around a value of joint 2 on a slice, within the domain or half a turn to either side.
-    pub fn free_about(&mut self, slice: i64, q2: f64) -> Option<[f64; 2]> {
-        self.nearest_free(slice, q2, |portal| portal.lower - ABOUT <= q2 && q2 <= portal.upper + ABOUT)
+    pub fn free_around(&mut self, slice: i64, q2: f64) -> Option<[f64; 2]> {
+        self.nearest_free(slice, q2, |portal| {
+            portal.lower - PORTAL_TOLERANCE <= q2 && q2 <= portal.upper + PORTAL_TOLERANCE
+        })
     }
 
     /// Returns the free interval nearest to the value among those that satisfy a condition.
@@ -372,7 +377,7 @@ impl<'a> Strips<'a> {
 
     /// Returns the distances of `q2`, downwards and upwards, from the ends of the wall that contains it at the middle
     /// of a strip. Returns `None` if no wall does.
-    pub fn way_out_of_middle(&mut self, index: usize, q2: f64) -> Option<[f64; 2]> {
+    pub fn distances_out_of_middle(&mut self, index: usize, q2: f64) -> Option<[f64; 2]> {
         let strip = &mut self.strips[index];
         let walls = strip.middle.get_or_insert_with(|| self.closed.walls(f64::midpoint(strip.from, strip.to)));
         let axis = self.topology.ranges[1];
@@ -399,7 +404,8 @@ impl<'a> Strips<'a> {
         let mut which = which.iter().peekable();
         let mut is_beside = false;
         for (index, mut strip) in before.into_iter().enumerate() {
-            let chosen = which.next_if(|(chosen, _)| *chosen == index).filter(|_| strip.to - strip.from > NARROWEST);
+            let chosen =
+                which.next_if(|(chosen, _)| *chosen == index).filter(|_| strip.to - strip.from > MIN_STRIP_WIDTH);
             if std::mem::replace(&mut is_beside, chosen.is_some()) {
                 strip.portals = None;
             }
@@ -408,9 +414,9 @@ impl<'a> Strips<'a> {
                 continue;
             };
             let middle = [f64::midpoint(strip.from, strip.to)];
-            let apart = |cut: &f64| cut - strip.from > NARROWEST / 4.0 && strip.to - cut > NARROWEST / 4.0;
+            let apart = |cut: &f64| cut - strip.from > MIN_STRIP_WIDTH / 4.0 && strip.to - cut > MIN_STRIP_WIDTH / 4.0;
             let mut cuts: Vec<f64> = cuts.iter().copied().filter(apart).collect();
-            cuts.dedup_by(|next, kept| *next - *kept < NARROWEST / 4.0);
+            cuts.dedup_by(|next, kept| *next - *kept < MIN_STRIP_WIDTH / 4.0);
             if cuts.is_empty() {
                 cuts.extend(middle);
             }
@@ -450,32 +456,32 @@ fn of_the_same_pairs<'w>(before: &'w [Wall], after: &'w [Wall]) -> Vec<(&'w Wall
 /// Returns all candidates. If there are too many, returns a selection spread over the list, ordered by the middles of
 /// the first walls.
 fn some<'w>(mut candidates: Vec<(&'w Wall, &'w Wall)>) -> Vec<(&'w Wall, &'w Wall)> {
-    if candidates.len() > MOST_BARRIERS {
+    if candidates.len() > MAX_BARRIERS {
         candidates.sort_by(|a, b| (a.0.lower + a.0.upper).total_cmp(&(b.0.lower + b.0.upper)));
         let count = candidates.len();
-        candidates = (0..MOST_BARRIERS).map(|k| candidates[k * count / MOST_BARRIERS]).collect();
+        candidates = (0..MAX_BARRIERS).map(|k| candidates[k * count / MAX_BARRIERS]).collect();
     }
     candidates
 }
 
-/// Returns bands, ascending, adjusted so that they are neither narrower than [`APART`] nor nearer than that to each
+/// Returns bands, ascending, adjusted so that they are neither narrower than [`MIN_SLICE_DISTANCE`] nor nearer than that to each
 /// other or to an end of the domain.
 fn apart(bands: Vec<[f64; 2]>, [lower, upper]: [f64; 2]) -> Vec<[f64; 2]> {
     let mut bands: Vec<[f64; 2]> = bands
         .into_iter()
         .map(|band| {
-            let from = if band[0] - lower <= APART { lower } else { band[0] };
-            let to = if upper - band[1] <= APART { upper } else { band[1] };
+            let from = if band[0] - lower <= MIN_SLICE_DISTANCE { lower } else { band[0] };
+            let to = if upper - band[1] <= MIN_SLICE_DISTANCE { upper } else { band[1] };
             [from, to]
         })
         .collect();
     bands.dedup_by(|next, kept| {
-        let touch = next[0] - kept[1] <= APART;
+        let touch = next[0] - kept[1] <= MIN_SLICE_DISTANCE;
         if touch {
             kept[1] = kept[1].max(next[1]);
         }
         touch
     });
-    bands.retain(|band| band[1] - band[0] > APART);
+    bands.retain(|band| band[1] - band[0] > MIN_SLICE_DISTANCE);
     bands
 }

@@ -1,9 +1,9 @@
 //! Boxes that prove that slabs leave no connection.
 
-use super::{ALIKE, Slab, Slabs, Span, half_of_level, index};
+use super::{LEVEL_TOLERANCE, Slab, Slabs, Span, half_of_level, index};
 use crate::chain::{Mosaic, ends};
-use crate::tiles::{Stuck, lay};
-use cplan_core::check::{Disconnection, StuckBox};
+use crate::tiles::{SlabCollision, lay};
+use cplan_core::check::{CollisionBox, Disconnection};
 use cplan_core::space::{Configuration, GoalSet, Segment};
 use cplan_geometry::merge_in_place;
 use cplan_interrupt::checkpoint;
@@ -44,11 +44,11 @@ impl Slabs<'_> {
 
     /// Returns the collision boxes beside the region reachable from the places, and those that contain places
     /// themselves. Returns `None` if boxes cannot confirm them, or if there are more than `most`.
-    fn around(&mut self, places: &GoalSet, most: usize) -> Option<Vec<StuckBox>> {
+    fn around(&mut self, places: &GoalSet, most: usize) -> Option<Vec<CollisionBox>> {
         let reached = self.reached(places);
         let places: Vec<Segment> = places.wrapped(&self.topology).collect();
         let mut boxes = Vec::new();
-        let mut stuck: Vec<Stuck> = Vec::new();
+        let mut stuck: Vec<SlabCollision> = Vec::new();
         let scene = self.second.contacts().scene();
         let (bottom, top) = self.topology.ranges[1].domain();
         for number in 0..index(self.slabs.len()) {
@@ -86,9 +86,9 @@ impl Slabs<'_> {
             let needed = |[lower, upper]: [f64; 2]| merged.iter().any(|m| m[0] <= lower && upper <= m[1]);
             let by = self.verdicts.inner.iter().filter(|(_, interval)| needed(*interval));
             let by = by.map(|&(pair, interval)| (scene.pairs()[pair], interval)).collect();
-            stuck.push(Stuck { from: slab.from, to: slab.to, by });
+            stuck.push(SlabCollision { from: slab.from, to: slab.to, by });
         }
-        let side_by_side = |a: &Stuck, b: &Stuck| a.to == b.from;
+        let side_by_side = |a: &SlabCollision, b: &SlabCollision| a.to == b.from;
         let mut runs = stuck.chunk_by(side_by_side);
         runs.all(|run| lay(scene, self.second.clearance(), run, [bottom, top], most, &mut boxes)).then_some(boxes)
     }
@@ -96,7 +96,7 @@ impl Slabs<'_> {
     /// Computes the verdicts on a slab again.
     fn judge_again(&mut self, number: u32) {
         let Slab { from, to, level, .. } = self.slabs[number as usize];
-        let half = half_of_level(&self.topology, level) * (1.0 + 2.0 * ALIKE);
+        let half = half_of_level(&self.topology, level) * (1.0 + 2.0 * LEVEL_TOLERANCE);
         self.second.judge(from, to, level, half, &mut self.verdicts);
     }
 }

@@ -1,11 +1,11 @@
 //! Bisectors, as functions of the parameter of a site's rays.
 
-use super::site::{Site, TOUCH};
+use super::site::{CONTACT_DISTANCE, Site};
 use cplan_geometry::cross;
 use std::f64::consts::PI;
 
 /// Sides whose directions differ by less are one after the other: they have no bisector.
-const PARALLEL: f64 = 1e-9;
+const PARALLEL_SINE: f64 = 1e-9;
 
 /// The height on the rays of a site at which another site is equally near.
 ///
@@ -95,14 +95,14 @@ fn side_and_point(site: &Site, point: &Site) -> Option<Part> {
     let there = point.at - site.at;
     let (x, y) = (there.dot(&site.along), there.dot(&site.normal()));
     let parabola = || ([(x * x + y * y) / (2.0 * y), -x / y, 1.0 / (2.0 * y)], f64::NEG_INFINITY, f64::INFINITY);
-    (y > TOUCH).then(parabola)
+    (y > CONTACT_DISTANCE).then(parabola)
 }
 
 fn side_and_side(site: &Site, side: &Site) -> Option<Part> {
     // The height is the distance of the foot from the other side by how much slower the height over that one changes.
     let turned = site.normal() - side.normal();
     let apart = turned.norm_squared() / 2.0;
-    if turned.norm() < PARALLEL {
+    if turned.norm() < PARALLEL_SINE {
         return None;
     }
     let there = site.at - side.at;
@@ -130,13 +130,13 @@ fn point_and_point(site: &Site, point: &Site) -> Option<Part> {
         let wave = [0.0, rate * there.dot(&site.along), rate * there.dot(&site.normal())];
         (of_wave(wave), f64::NEG_INFINITY, f64::INFINITY)
     };
-    (square > TOUCH * TOUCH).then(wave)
+    (square > CONTACT_DISTANCE * CONTACT_DISTANCE).then(wave)
 }
 
 fn point_and_side(site: &Site, side: &Site) -> [Option<Part>; 3] {
     let there = site.at - side.at;
     let away = there.dot(&side.normal());
-    if away <= TOUCH {
+    if away <= CONTACT_DISTANCE {
         return [None; 3];
     }
     let wave = [-1.0 / away, side.normal().dot(&site.along) / away, side.normal().dot(&site.normal()) / away];

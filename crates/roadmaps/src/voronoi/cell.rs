@@ -5,13 +5,13 @@ use super::site::Site;
 use cplan_interrupt::checkpoint;
 
 /// Parameters that differ by less are the same: rounding of where bisectors meet.
-const SAME: f64 = 1e-11;
+const PARAMETER_TOLERANCE: f64 = 1e-11;
 
 /// Values that differ by less, relative to them, are the same where a bisector is chosen.
-const EVEN: f64 = 1e-10;
+const VALUE_TOLERANCE: f64 = 1e-10;
 
 /// Halvings of a parameter's range, down to the last bits.
-const HALVINGS: usize = 60;
+const PARAMETER_HALVINGS: usize = 60;
 
 /// A piece of a cell's border.
 #[derive(Debug, Clone, Copy)]
@@ -34,7 +34,7 @@ impl Arc {
 pub(super) fn border(site: &Site, others: &[Site], bisectors: &[Bisector]) -> Vec<Arc> {
     checkpoint();
     let [first, last] = site.range;
-    let slack = SAME * (last - first).min(1.0);
+    let slack = PARAMETER_TOLERANCE * (last - first).min(1.0);
     let envelope = Envelope { others, bisectors, slack };
     let mut arcs = Vec::new();
     let mut at = first;
@@ -76,7 +76,7 @@ impl<'a> Envelope<'a> {
     fn lowest(&self, at: f64) -> Option<&'a Bisector> {
         let here = || self.bisectors.iter().filter(|b| self.is_after(b, at));
         let least = here().map(|b| b.value(at)).fold(f64::INFINITY, f64::min);
-        let even = here().filter(|b| b.value(at) <= least + EVEN * (1.0 + least.abs()));
+        let even = here().filter(|b| b.value(at) <= least + VALUE_TOLERANCE * (1.0 + least.abs()));
         even.min_by(|a, b| a.slope(at).total_cmp(&b.slope(at)))
     }
 
@@ -131,7 +131,7 @@ impl<'a> Envelope<'a> {
             Some(b.from)
         } else {
             let falls = b.falls_below(now).filter(|t| *t >= b.from.max(at - self.slack) && *t <= b.to);
-            falls.filter(|t| *t > at + self.slack || b.slope(*t) < now.slope(*t) - EVEN).map(|t| t.max(at))
+            falls.filter(|t| *t > at + self.slack || b.slope(*t) < now.slope(*t) - VALUE_TOLERANCE).map(|t| t.max(at))
         };
         event.filter(|t| *t < end)
     }
@@ -142,14 +142,14 @@ impl<'a> Envelope<'a> {
             b.from <= t
                 && b.to >= t
                 && !self.touching(b, now)
-                && b.value(t) < now.value(t) - EVEN * (1.0 + now.value(t).abs())
+                && b.value(t) < now.value(t) - VALUE_TOLERANCE * (1.0 + now.value(t).abs())
         };
         if end - at <= 4.0 * self.slack {
             return None;
         }
         let (mut low, mut high) = (at, 0.5 * (at + end));
         let hidden = self.bisectors.iter().find(|b| is_below(b, high))?;
-        for _ in 0..HALVINGS {
+        for _ in 0..PARAMETER_HALVINGS {
             let half = 0.5 * (low + high);
             (low, high) = if is_below(hidden, half) { (low, half) } else { (half, high) };
         }

@@ -2,8 +2,8 @@
 
 use super::bisector::Bisector;
 use super::cell::{Arc, border};
-use super::site::{Site, TOUCH};
-use super::ways::NARROW;
+use super::chord_graph::MIN_CHORD_CLEARANCE;
+use super::site::{CONTACT_DISTANCE, Site};
 use cplan_core::cspace::Regions;
 use cplan_core::planner::mesh::Mesh;
 use cplan_core::space::{Configuration, JointRange, Segment};
@@ -12,10 +12,10 @@ use cplan_interrupt::checkpoint;
 use std::f64::consts::{PI, TAU};
 
 /// Chords of a parabola are nearer to it than this, radians or metres, ...
-const SAG: f64 = 1e-3;
+const MAX_SAG: f64 = 1e-3;
 
 /// ... and than this share of its distance from the boundary, so that they keep that.
-const SHARE: f64 = 0.01;
+const MAX_SAG_SHARE: f64 = 0.01;
 
 /// A straight piece of the diagram, or a chord of a parabola.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -133,10 +133,10 @@ impl Diagram {
         let distance = |site: &Site| (home - site.nearest(home)).norm();
         let nearest = self.sites.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
         let from = nearest.nearest(home);
-        let way = home - from;
+        let displacement = home - from;
         // On the boundary itself any of the site's rays will do.
-        let ray = if way.norm() > TOUCH {
-            (from, way.normalize())
+        let ray = if displacement.norm() > CONTACT_DISTANCE {
+            (from, displacement.normalize())
         } else {
             (home, nearest.ray(0.5 * (nearest.range[0] + nearest.range[1])).1)
         };
@@ -206,7 +206,7 @@ fn chord(site: &Site, other: &Site, arc: &Arc, [from, to]: [f64; 2], chords: &mu
         return;
     }
     // A narrower passage is not usable: where a corner almost touches a side, heights are dominated by rounding.
-    if arc.bisector.sag(to - from) > SAG.min(SHARE * heights[0].min(heights[1])).max(NARROW) {
+    if arc.bisector.sag(to - from) > MAX_SAG.min(MAX_SAG_SHARE * heights[0].min(heights[1])).max(MIN_CHORD_CLEARANCE) {
         checkpoint();
         let middle = 0.5 * (from + to);
         if from < middle && middle < to {
@@ -216,7 +216,7 @@ fn chord(site: &Site, other: &Site, arc: &Arc, [from, to]: [f64; 2], chords: &mu
     }
     let place = |t: f64, height: f64| match site.end(t) {
         // Corners of free space stay exact, because rounded ones may lie outside.
-        Some(corner) if height < TOUCH => corner,
+        Some(corner) if height < CONTACT_DISTANCE => corner,
         _ => {
             let (at, direction) = site.ray(t);
             at + direction * height

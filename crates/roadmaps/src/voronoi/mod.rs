@@ -8,9 +8,10 @@ mod bisector;
 mod cell;
 mod diagram;
 mod site;
-mod ways;
+mod chord_graph;
 
 use crate::prm::along;
+use chord_graph::ChordGraph;
 use cplan_core::cspace::Regions;
 use cplan_core::planner::mesh::Mesh;
 use cplan_core::planner::roadmap::{self, RoadmapSearch};
@@ -18,7 +19,6 @@ use cplan_core::planner::terminals::Terminals;
 use cplan_core::planner::{GraphKind, PathKind, Planner, Proposal, Query, Run};
 use cplan_geometry::planar::Boundary;
 use diagram::Diagram;
-use ways::Ways;
 
 /// The *generalised Voronoi diagram* of C-obstacles and joint limits, or medial axis of free space: a path that keeps
 /// the greatest distance from them, in joint space.
@@ -52,7 +52,7 @@ impl Default for Voronoi {
 pub struct VoronoiMap {
     mesh: Mesh,
     diagram: Diagram,
-    ways: Ways,
+    graph: ChordGraph,
 }
 
 impl Planner for Voronoi {
@@ -63,8 +63,8 @@ impl Planner for Voronoi {
     fn build(&self, space: &Regions) -> VoronoiMap {
         let mesh = Mesh::new(Boundary::new(&space.contours()));
         let diagram = Diagram::new(space, &mesh);
-        let ways = Ways::new(&mesh, diagram.repeated(space.window));
-        VoronoiMap { mesh, diagram, ways }
+        let graph = ChordGraph::new(&mesh, diagram.repeated(space.window));
+        VoronoiMap { mesh, diagram, graph }
     }
 
     fn query(&self, space: &Regions, map: &VoronoiMap, query: &Query) -> Run {
@@ -72,13 +72,13 @@ impl Planner for Voronoi {
             Ok(terminals) => terminals,
             Err(reason) => return roadmap::run(GraphKind::Roadmap, Proposal::GaveUp(reason), None, Vec::new()),
         };
-        let asked = map.ways.asked(&map.mesh, &map.diagram, &terminals);
-        let Some(widest) = asked.widest(ways::NARROW) else {
-            return roadmap::run(GraphKind::Roadmap, Proposal::NoPath, Some(&asked), Vec::new());
+        let query_graph = map.graph.query_graph(&map.mesh, &map.diagram, &terminals);
+        let Some(widest) = query_graph.widest(chord_graph::MIN_CHORD_CLEARANCE) else {
+            return roadmap::run(GraphKind::Roadmap, Proposal::NoPath, Some(&query_graph), Vec::new());
         };
-        let (way, expanded) = widest.search(self.search, &terminals);
-        let own = |way: Vec<_>| way.into_iter().map(|node| widest.at(node)).collect();
-        let outcome = way.map_or(Proposal::NoPath, |way| along(&map.mesh, own(way), self.path));
-        roadmap::run(GraphKind::Roadmap, outcome, Some(&asked), expanded)
+        let (route, expanded) = widest.search(self.search, &terminals);
+        let own = |route: Vec<_>| route.into_iter().map(|node| widest.at(node)).collect();
+        let outcome = route.map_or(Proposal::NoPath, |route| along(&map.mesh, own(route), self.path));
+        roadmap::run(GraphKind::Roadmap, outcome, Some(&query_graph), expanded)
     }
 }

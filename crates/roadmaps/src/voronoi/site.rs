@@ -5,7 +5,7 @@ use cplan_core::space::Segment;
 use cplan_geometry::{Point, Vector, cross, perpendicular};
 
 /// Nearer than this is contact: rounding of coordinates, radians or metres.
-pub(super) const TOUCH: f64 = 1e-12;
+pub(super) const CONTACT_DISTANCE: f64 = 1e-12;
 
 /// A side of the boundary without its ends, or a convex corner of an obstacle.
 ///
@@ -76,7 +76,7 @@ impl Site {
     /// Returns the end of a side at which a parameter lies up to rounding.
     pub fn end(&self, parameter: f64) -> Option<Point> {
         let ends = [(self.range[0], self.at), (self.range[1], self.to)];
-        ends.into_iter().find(|(end, _)| self.is_side && (parameter - end).abs() < TOUCH).map(|(_, p)| p)
+        ends.into_iter().find(|(end, _)| self.is_side && (parameter - end).abs() < CONTACT_DISTANCE).map(|(_, p)| p)
     }
 
     /// Returns the point of the site that is nearest to `p`.
@@ -90,17 +90,19 @@ impl Site {
 
     /// Returns the distance of a segment that does not cross the site.
     pub fn distance(&self, a: Point, b: Point) -> f64 {
-        let way = b - a;
-        let share = |p: Point| ((p - a).dot(&way) / way.norm_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+        let displacement = b - a;
+        let share = |p: Point| {
+            ((p - a).dot(&displacement) / displacement.norm_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0)
+        };
         let of_ends = [a, b].map(|p| (p - self.nearest(p)).norm());
-        let of_site = [self.at, self.to].map(|p| (p - (a + way * share(p))).norm());
+        let of_site = [self.at, self.to].map(|p| (p - (a + displacement * share(p))).norm());
         of_ends.into_iter().chain(of_site).fold(f64::INFINITY, f64::min)
     }
 
     /// Returns the distance up to which points of a ray are nearer to its start than to this site. It is infinite if
     /// there is no such limit, or if the ray starts on this site.
     pub fn limit(&self, (from, direction): Ray) -> f64 {
-        if (from - self.nearest(from)).norm() < TOUCH {
+        if (from - self.nearest(from)).norm() < CONTACT_DISTANCE {
             return f64::INFINITY;
         }
         let there = from - self.at;
@@ -111,7 +113,8 @@ impl Site {
         let apart = (direction - self.normal()).norm_squared() / 2.0;
         let height = there.dot(&self.normal()) / apart;
         let foot = there.dot(&self.along) + height * direction.dot(&self.along);
-        let is_met = height > 0.0 && height.is_finite() && foot >= -TOUCH && foot <= self.range[1] + TOUCH;
+        let is_met =
+            height > 0.0 && height.is_finite() && foot >= -CONTACT_DISTANCE && foot <= self.range[1] + CONTACT_DISTANCE;
         if is_met { height } else { f64::INFINITY }
     }
 }

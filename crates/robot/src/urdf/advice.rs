@@ -8,20 +8,20 @@ use cplan_geometry::Point;
 use cplan_text::{counted, short};
 
 /// Implausible top speed of a revolute joint, rad/s: the fastest axes of robots turn at 45 rad/s.
-const FASTEST_TURN: f64 = 60.0;
+const MAX_PLAUSIBLE_TURN_SPEED: f64 = 60.0;
 
 /// Fastest plausible prismatic joint, m/s.
-const FASTEST_SLIDE: f64 = 20.0;
+const MAX_PLAUSIBLE_SLIDE_SPEED: f64 = 20.0;
 
 /// Greatest plausible length of arms, slides and shapes, metres: only cranes are longer.
-const LONGEST: f64 = 50.0;
+const MAX_PLAUSIBLE_LENGTH: f64 = 50.0;
 
 /// Greatest plausible reach of an arm's shapes, as a multiple of its length.
-const MOST_OUTREACH: f64 = 20.0;
+const MAX_PLAUSIBLE_OUTREACH: f64 = 20.0;
 
 /// Shapes that reach less than this, metres, are not compared with the arm's length, because joints may be almost at
 /// the same place.
-const USUAL_OUTREACH: f64 = 5.0;
+const MIN_COMPARED_OUTREACH: f64 = 5.0;
 
 /// Returns hints about an arm, each in a line.
 pub(super) fn warnings(reduction: &Reduction, arm: &Arm) -> Vec<String> {
@@ -54,7 +54,8 @@ fn speed(reduction: &Reduction, index: usize, joint: &Joint) -> Option<String> {
     }
     let velocity = document.robot.joints[index].limit.velocity;
     let turns = joint.joint_type.is_revolute();
-    let (fastest, unit, example) = if turns { (FASTEST_TURN, "rad", "2.0") } else { (FASTEST_SLIDE, "m", "0.5") };
+    let (fastest, unit, example) =
+        if turns { (MAX_PLAUSIBLE_TURN_SPEED, "rad", "2.0") } else { (MAX_PLAUSIBLE_SLIDE_SPEED, "m", "0.5") };
     let given = format!("joint \"{name}\": velocity=\"{velocity}\" in the URDF");
     let help = format!("[robot] velocity = {{ {} = {example} }} in the world file gives its top speed", key(name));
     if velocity == 0.0 {
@@ -68,7 +69,7 @@ fn speed(reduction: &Reduction, index: usize, joint: &Joint) -> Option<String> {
 /// Returns the warning about a prismatic joint whose limits seem to be in millimetres.
 fn slide(joint: &Joint) -> Option<String> {
     let JointRange::Interval { lower, upper } = joint.range else { return None };
-    (!joint.joint_type.is_revolute() && upper - lower > 2.0 * LONGEST).then(|| {
+    (!joint.joint_type.is_revolute() && upper - lower > 2.0 * MAX_PLAUSIBLE_LENGTH).then(|| {
         format!("joint \"{}\" slides from {lower} to {upper} m: divide limits in millimetres by 1000", joint.name)
     })
 }
@@ -76,7 +77,7 @@ fn slide(joint: &Joint) -> Option<String> {
 /// Returns the warning about an arm whose lengths seem to be in millimetres.
 fn length(arm: &Arm) -> Option<String> {
     let [first, second] = lengths(arm);
-    (first + second > LONGEST).then(|| {
+    (first + second > MAX_PLAUSIBLE_LENGTH).then(|| {
         format!(
             "the arm is {} m and {} m long, joint to joint and joint to tip: URDF has lengths in metres, those in millimetres are to be \
              divided by 1000",
@@ -88,7 +89,7 @@ fn length(arm: &Arm) -> Option<String> {
 
 /// Returns the warning about shapes that reach far beyond the arm's joints.
 fn outreach(arm: &Arm) -> Option<String> {
-    let usual = (MOST_OUTREACH * lengths(arm).iter().sum::<f64>()).max(USUAL_OUTREACH);
+    let usual = (MAX_PLAUSIBLE_OUTREACH * lengths(arm).iter().sum::<f64>()).max(MIN_COMPARED_OUTREACH);
     let reach = |part: &cplan_core::model::Part| part.shape.reach_from(Point::zeros());
     let parts: Vec<_> = arm.links.iter().flat_map(|link| &link.parts).filter(|part| reach(part) > usual).collect();
     let first = parts.first()?;

@@ -2,13 +2,13 @@
 
 use super::document::{escaped, tag};
 use crate::error::Diagnostic;
-use crate::quantity::LARGEST;
+use crate::quantity::MAX_LENGTH;
 use crate::source::Source;
 use nalgebra::{Quaternion, Rotation3, UnitQuaternion, Vector3};
 use roxmltree::Node;
 
-/// Numeric attributes of any element of a link or joint; those in [`UNLIMITED`] are numeric, too.
-const NUMERIC: [&str; 22] = [
+/// Numeric attributes of any element of a link or joint; those in [`UNLIMITED_ATTRIBUTES`] are numeric, too.
+const NUMERIC_ATTRIBUTES: [&str; 22] = [
     "xyz",
     "rpy",
     "quat_xyzw",
@@ -34,7 +34,7 @@ const NUMERIC: [&str; 22] = [
 ];
 
 /// Numeric attributes in which an infinity means that there is no limit.
-const UNLIMITED: [&str; 9] = [
+const UNLIMITED_ATTRIBUTES: [&str; 9] = [
     "lower",
     "upper",
     "effort",
@@ -91,8 +91,8 @@ impl Attributes<'_> {
     pub fn finite_everywhere(&mut self, node: Node) {
         for element in node.descendants().filter(Node::is_element) {
             for attribute in element.attributes() {
-                let may_be_infinite = UNLIMITED.contains(&attribute.name());
-                if !may_be_infinite && !NUMERIC.contains(&attribute.name()) {
+                let may_be_infinite = UNLIMITED_ATTRIBUTES.contains(&attribute.name());
+                if !may_be_infinite && !NUMERIC_ATTRIBUTES.contains(&attribute.name()) {
                     continue;
                 }
                 let bad =
@@ -137,10 +137,10 @@ impl Attributes<'_> {
         match values {
             Ok(values) if values.len() == count => {
                 let is_length = ["xyz", "size", "radius", "length"].contains(&name);
-                if let Some(value) = values.iter().find(|x| is_length && x.is_finite() && x.abs() > LARGEST) {
-                    let message = format!("{value:e} in {name}=\"{text}\" is too large (at most {LARGEST:e})");
+                if let Some(value) = values.iter().find(|x| is_length && x.is_finite() && x.abs() > MAX_LENGTH) {
+                    let message = format!("{value:e} in {name}=\"{text}\" is too large (at most {MAX_LENGTH:e})");
                     let help = format!(
-                        "lengths are in metres, from -{LARGEST:e} to {LARGEST:e}: divide those in millimetres by 1000"
+                        "lengths are in metres, from -{MAX_LENGTH:e} to {MAX_LENGTH:e}: divide those in millimetres by 1000"
                     );
                     self.diagnostic(node, Some(name), message, &help);
                     return None;

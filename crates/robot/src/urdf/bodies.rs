@@ -4,7 +4,7 @@ use super::chain::Chain;
 use super::document::Document;
 use super::plane::project;
 use super::self_collision::{Group, SelfCollision, group};
-use super::shapes::{Gathered, PlacedShape};
+use super::shapes::{GatheredShapes, PlacedShape};
 use super::solid::capsule;
 use super::tree::Tree;
 use crate::error::{Diagnostic, InputError, quoted};
@@ -16,7 +16,7 @@ use nalgebra::Isometry3;
 use std::collections::BTreeSet;
 
 /// Largest number of corners of an outline that stays one shape. The time of queries grows with them.
-const MOST_CORNERS: usize = 1024;
+const MAX_CORNERS: usize = 1024;
 
 /// The data for the outlines.
 pub(super) struct Bodies<'a> {
@@ -32,18 +32,18 @@ pub(super) struct Bodies<'a> {
 /// Returns the region that a shape may cover in any orientation about a point, and the region that it covers in all
 /// orientations, if any. `certain` is a shape within the shape.
 fn all_round(axis: Point, shape: &Convex, certain: &Convex) -> Option<(Convex, Option<Convex>)> {
-    let is_disc = |convex: &Convex| convex.core().len() == 1 && (convex.core()[0] - axis).norm() <= OFF_AXIS;
+    let is_disc = |convex: &Convex| convex.core().len() == 1 && (convex.core()[0] - axis).norm() <= AXIS_TOLERANCE;
     if is_disc(shape) && is_disc(certain) {
         return Some((shape.clone(), (certain != shape).then(|| certain.clone())));
     }
-    let within = -separation(&Convex::point(axis), certain).distance * (1.0 - OFF_AXIS);
+    let within = -separation(&Convex::point(axis), certain).distance * (1.0 - AXIS_TOLERANCE);
     let disc = |radius: f64| Convex::trusted(vec![axis], radius);
     (within > 0.0).then(|| (disc(shape.reach_from(axis)), Some(disc(within))))
 }
 
 /// Largest distance of a disc's centre from an axis that it counts as centred on, metres; and a relative tolerance for
 /// other shapes.
-const OFF_AXIS: f64 = 1e-9;
+const AXIS_TOLERANCE: f64 = 1e-9;
 
 /// Both links with their self obstacles and the notes for the user.
 pub(super) struct Outlines {
@@ -147,13 +147,13 @@ impl Bodies<'_> {
         &self,
         index: usize,
         mut parts: Vec<Part>,
-        gathered: Gathered,
+        gathered: GatheredShapes,
         bar: Option<f64>,
         notes: &mut Vec<String>,
         warnings: &mut Vec<String>,
     ) -> Result<Link, InputError> {
         let name = self.name(index).to_owned();
-        let Gathered { mut unread, unseen, .. } = gathered;
+        let GatheredShapes { mut unread, unseen, .. } = gathered;
         let has_collision = parts.iter().any(|part| !part.is_visual);
         if has_collision {
             warnings.extend(unseen.iter().map(left_out));
@@ -250,7 +250,7 @@ impl Bodies<'_> {
             let layers = solid.layers(pose, self.plane, cuts).into_iter();
             let layers = layers.map(|(outline, heights)| (outline.at(&to_link), heights));
             let in_pieces = |(outline, heights): (Convex, Heights)| {
-                let pieces = if outline.core().len() > MOST_CORNERS { outline.cut_up() } else { vec![outline] };
+                let pieces = if outline.core().len() > MAX_CORNERS { outline.cut_up() } else { vec![outline] };
                 pieces.into_iter().map(move |piece| (piece, heights))
             };
             return Ok(layers

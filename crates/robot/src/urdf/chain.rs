@@ -1,8 +1,8 @@
 //! The choice of the two planned joints, the values of the other joints, and the tip link.
 
 use super::document::Document;
-use super::held::Held;
-use super::pairing::{self, Evident};
+use super::held::HeldValues;
+use super::pairing::{self, ImpliedPair};
 use super::tree::Tree;
 use crate::error::{Diagnostic, InputError, quoted};
 use crate::settings::RobotSettings;
@@ -31,7 +31,7 @@ pub(super) struct Chain {
 pub(super) fn choose(document: &Document, tree: &Tree, settings: RobotSettings) -> Result<Chain, InputError> {
     let chooser = Chooser { document, tree, settings };
     chooser.names_exist()?;
-    let Evident { joints, reason } = chooser.joints()?;
+    let ImpliedPair { joints, reason } = chooser.joints()?;
     let mut chain = with_joints(document, tree, settings, joints)?;
     if !reason.is_empty() {
         let [first, second] = joints.map(|j| document.robot.joints[j].name.as_str());
@@ -54,7 +54,7 @@ pub(super) fn with_joints(
     let chooser = Chooser { document, tree, settings };
     chooser.independent(joints)?;
     let tip = chooser.tip(joints)?;
-    let Held { values, held, notes } = chooser.values(joints)?;
+    let HeldValues { values, held, notes } = chooser.values(joints)?;
     Ok(Chain { joints, tip, values, held, notes })
 }
 
@@ -139,11 +139,11 @@ impl Chooser<'_> {
     }
 
     /// Returns the two joints. The reason is empty if they are named, or the only ones.
-    fn joints(&self) -> Result<Evident, Diagnostic> {
-        let settled = |joints: [usize; 2]| Evident { joints, reason: String::new() };
-        let Evident { joints: pair, reason } = match &self.settings.table.joints {
+    fn joints(&self) -> Result<ImpliedPair, Diagnostic> {
+        let implied = |joints: [usize; 2]| ImpliedPair { joints, reason: String::new() };
+        let ImpliedPair { joints: pair, reason } = match &self.settings.table.joints {
             Some(names) => match names.get_ref().as_slice() {
-                [a, b] => settled([self.named(a, "joints")?, self.named(b, "joints")?]),
+                [a, b] => implied([self.named(a, "joints")?, self.named(b, "joints")?]),
                 other => {
                     let message = format!("[robot] joints: {} joints are named, but exactly two must be", other.len());
                     return Err(self.in_world(names, message).help("joints = [\"first\", \"second\"], base to tip"));
@@ -153,12 +153,12 @@ impl Chooser<'_> {
         };
         let [a, b] = pair;
         if self.tree.carries(a, self.tree.parent[b]) {
-            return Ok(Evident { joints: pair, reason });
+            return Ok(ImpliedPair { joints: pair, reason });
         }
         let (first, second) = (&self.all()[a].name, &self.all()[b].name);
         let swapped = self.tree.carries(b, self.tree.parent[a]);
         match &self.settings.table.joints {
-            None if swapped => Ok(settled([b, a])),
+            None if swapped => Ok(implied([b, a])),
             Some(names) if swapped => {
                 let message = format!(
                     "[robot] joints: joint \"{first}\" is carried by joint \"{second}\", not the other way round"
@@ -185,10 +185,10 @@ impl Chooser<'_> {
         (0..self.all().len()).filter(|j| is_movable(&self.all()[*j]) && self.all()[*j].mimic.is_none()).collect()
     }
 
-    fn evident(&self) -> Result<Evident, Diagnostic> {
+    fn evident(&self) -> Result<ImpliedPair, Diagnostic> {
         let candidates = self.candidates();
         if let [a, b] = candidates[..] {
-            return Ok(Evident { joints: [a, b], reason: String::new() });
+            return Ok(ImpliedPair { joints: [a, b], reason: String::new() });
         }
         let list: Vec<String> = candidates
             .iter()
@@ -220,7 +220,7 @@ impl Chooser<'_> {
                 .diagnostic(message)
                 .help("use a robot with two joints that move in one plane"));
         }
-        if candidates.len() > pairing::MOST_TRIED {
+        if candidates.len() > pairing::MAX_TRIED_JOINTS {
             let message =
                 format!("the robot has {} movable joints; which two should cplan plan for?{coupled}", candidates.len());
             let help = "name two of one chain in the world file: [robot] joints = [\"first\", \"second\"]; the others stand still";

@@ -74,7 +74,7 @@ impl Document {
         let xml = roxmltree::Document::parse_with_options(source.text(), options);
         let xml = xml.map_err(|error| foreign::malformed(&source, &error))?;
         let root = xml.root_element();
-        foreign::recognise(&source, root)?;
+        foreign::recognize(&source, root)?;
 
         let mut reader = Reader {
             source: &source,
@@ -127,7 +127,7 @@ impl Document {
 
 /// Returns an `<inertial>` for `urdf-rs`, or `None` if it is incomplete. Many are, and only torques need it.
 fn inertial(node: Node) -> Option<String> {
-    const MOMENTS: [&str; 6] = ["ixx", "ixy", "ixz", "iyy", "iyz", "izz"];
+    const INERTIA_ATTRIBUTES: [&str; 6] = ["ixx", "ixy", "ixz", "iyy", "iyz", "izz"];
     let mass = numbers(children(node, "mass").next()?, "value", 1)?;
     let inertia = children(node, "inertia").next()?;
     let mut copy = "<inertial>".to_owned();
@@ -139,7 +139,7 @@ fn inertial(node: Node) -> Option<String> {
         copy += "/>";
     }
     let _ = write!(copy, "<mass value=\"{mass}\"/><inertia");
-    for name in MOMENTS {
+    for name in INERTIA_ATTRIBUTES {
         let moment = if inertia.has_attribute(name) { numbers(inertia, name, 1)? } else { "0" };
         let _ = write!(copy, " {name}=\"{moment}\"");
     }

@@ -3,7 +3,7 @@
 use super::chain::{Chooser, is_movable};
 use super::plane::project;
 use super::reduction::Reduction;
-use super::tool::PARALLEL;
+use super::tool::PARALLEL_TOLERANCE;
 use super::tree;
 use cplan_core::model::Plane;
 use cplan_handling::{HeldEffect, HeldJoint};
@@ -38,7 +38,7 @@ impl Reduction<'_> {
         }
         let child = self.tree.child[index];
         let along = (self.poses[child] * tree::axis(joint)).dot(&plane.normal);
-        if along.abs() < 1.0 - PARALLEL {
+        if along.abs() < 1.0 - PARALLEL_TOLERANCE {
             return Err("has an axis that is not along the normal of the arm's plane".into());
         }
         match joint.joint_type {

@@ -7,7 +7,7 @@ use cplan_xacro::is_xacro;
 use roxmltree::{Document, Error, Node};
 
 /// Namespace of xacro.
-const XACRO: &str = "ros.org/wiki/xacro";
+const XACRO_NAMESPACE: &str = "ros.org/wiki/xacro";
 
 /// Refuses a text in xacro. Files are expanded earlier.
 fn xacro(diagnostic: Diagnostic) -> Diagnostic {
@@ -20,12 +20,14 @@ fn xacro(diagnostic: Diagnostic) -> Diagnostic {
 /// Refuses document types that define entities, which can grow without end. Other document types are harmless, and
 /// ignored.
 pub(super) fn without_entities(source: &Source) -> Result<(), Diagnostic> {
-    const ENTITY: &str = "<!ENTITY";
-    match source.text().find(ENTITY).filter(|at| source.text()[..*at].contains("<!DOCTYPE")) {
+    const ENTITY_DECLARATION: &str = "<!ENTITY";
+    match source.text().find(ENTITY_DECLARATION).filter(|at| source.text()[..*at].contains("<!DOCTYPE")) {
         None => Ok(()),
         Some(at) => {
-            let diagnostic = source
-                .diagnostic_at(at..at + ENTITY.len(), "the document type defines entities, which cplan does not read");
+            let diagnostic = source.diagnostic_at(
+                at..at + ENTITY_DECLARATION.len(),
+                "the document type defines entities, which cplan does not read",
+            );
             Err(diagnostic.help("write the entities' values directly, and remove the <!DOCTYPE ...>"))
         }
     }
@@ -53,7 +55,7 @@ pub(super) fn malformed(source: &Source, error: &Error) -> Diagnostic {
 }
 
 /// Refuses documents that are not a URDF. A URDF that merely declares the xacro namespace is accepted.
-pub(super) fn recognise(source: &Source, root: Node) -> Result<(), Diagnostic> {
+pub(super) fn recognize(source: &Source, root: Node) -> Result<(), Diagnostic> {
     let at = |node: Node, message: &str| source.diagnostic_at(tag(node), message);
     match root.tag_name().name() {
         "robot" => {}
@@ -77,7 +79,8 @@ pub(super) fn recognise(source: &Source, root: Node) -> Result<(), Diagnostic> {
 /// Returns the first element that only xacro understands.
 fn xacro_trace<'a, 'i>(document: &'a Document<'i>) -> Option<Node<'a, 'i>> {
     document.descendants().filter(Node::is_element).find(|node| {
-        let foreign = |namespace: Option<&str>| namespace.is_some_and(|n| n.contains(XACRO) || n.ends_with("/xacro"));
+        let foreign =
+            |namespace: Option<&str>| namespace.is_some_and(|n| n.contains(XACRO_NAMESPACE) || n.ends_with("/xacro"));
         foreign(node.tag_name().namespace())
             || node.attributes().any(|a| foreign(a.namespace()) || a.value().contains("${") || a.value().contains("$("))
     })

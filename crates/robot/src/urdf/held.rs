@@ -8,7 +8,7 @@ use cplan_core::space::JointRange;
 use urdf_rs::{JointType, Mimic};
 
 /// Values of all joints, with the list of held joints that matter.
-pub(super) struct Held {
+pub(super) struct HeldValues {
     pub values: Vec<f64>,
     pub held: Vec<usize>,
     pub notes: Vec<String>,
@@ -48,7 +48,7 @@ impl Chooser<'_> {
     }
 
     /// Returns the value of every joint, and notes about the relevant ones.
-    pub(super) fn values(&self, chosen: [usize; 2]) -> Result<Held, InputError> {
+    pub(super) fn values(&self, chosen: [usize; 2]) -> Result<HeldValues, InputError> {
         for name in self.settings.table.fixed.keys() {
             if chosen.iter().any(|j| self.all()[*j].name == *name.get_ref()) {
                 let message = format!("[robot] fixed: joint \"{}\" is one of the two that move", name.get_ref());
@@ -91,7 +91,7 @@ impl Chooser<'_> {
                 ));
             }
         }
-        Ok(Held { values, held, notes })
+        Ok(HeldValues { values, held, notes })
     }
 
     /// Returns the value of a held joint: the world's, otherwise 0 clamped into its limits.

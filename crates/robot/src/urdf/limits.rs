@@ -2,26 +2,26 @@
 
 use super::document::Document;
 use crate::error::Diagnostic;
-use crate::quantity::{LARGEST, PerJoint, Written};
+use crate::quantity::{MAX_LENGTH, PerJoint, Written};
 use crate::settings::RobotSettings;
-use cplan_core::model::{LONGEST_TURN, SLIDING_SPEED, TURNING_SPEED, assumed_acceleration};
+use cplan_core::model::{DEFAULT_SLIDING_SPEED, DEFAULT_TURNING_SPEED, MAX_TURN_RANGE, assumed_acceleration};
 use cplan_core::space::JointRange;
 use std::f64::consts::{PI, TAU};
 use toml::Spanned;
 use urdf_rs::JointType;
 
 /// Longest range of a prismatic joint, metres: beyond the coordinates that a world may have, nothing can be hit.
-const LONGEST_SLIDE: f64 = 2.0 * LARGEST;
+const MAX_SLIDE: f64 = 2.0 * MAX_LENGTH;
 
 /// A revolute joint with both limits beyond this, radians, counts as unlimited: simulators write 1e16, exporters 1e9 or
 /// infinity. No valid start is that far out.
-const UNLIMITED: f64 = LARGEST;
+const UNLIMITED_TURN: f64 = MAX_LENGTH;
 
-/// Least limit of a revolute joint, radians, that looks like degrees: four turns. Up to [`MOST_DEGREES`].
-const LEAST_DEGREES: f64 = 4.0 * TAU;
+/// Least limit of a revolute joint, radians, that looks like degrees: four turns. Up to [`MAX_LIMIT_LIKE_DEGREES`].
+const MIN_LIMIT_LIKE_DEGREES: f64 = 4.0 * TAU;
 
 /// Two turns, degrees. No joint has a larger range in either unit.
-const MOST_DEGREES: f64 = 720.0;
+const MAX_LIMIT_LIKE_DEGREES: f64 = 720.0;
 
 /// Limits this close to a multiple of half a turn, radians, are rounded to it. This is the rounding of three decimals.
 const HALF_TURN_ROUNDING: f64 = 1e-3;
@@ -42,12 +42,12 @@ pub(super) struct Rates {
     pub acceleration: f64,
     pub jerk: Option<f64>,
     /// Rates that were assumed because limits are missing.
-    pub assumed: Assumed,
+    pub assumed: MissingRates,
 }
 
 /// The missing rates.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(super) struct Assumed {
+pub(super) struct MissingRates {
     pub velocity: bool,
     pub acceleration: bool,
 }
@@ -77,15 +77,15 @@ impl Limits<'_> {
         }
         let [lower, upper] = self.softened(index, [lower, upper])?;
         let slides = joint.joint_type == JointType::Prismatic;
-        if !slides && lower <= -UNLIMITED && upper >= UNLIMITED {
+        if !slides && lower <= -UNLIMITED_TURN && upper >= UNLIMITED_TURN {
             let note = format!(
                 "joint \"{}\": limits from {lower} to {upper} are unlimited; the joint counts as continuous",
                 joint.name
             );
             return Ok(Range::Taken(JointRange::Circle, note));
         }
-        if slides && upper - lower > LONGEST_SLIDE {
-            let (lower, upper) = (lower.max(-LARGEST), upper.min(LARGEST));
+        if slides && upper - lower > MAX_SLIDE {
+            let (lower, upper) = (lower.max(-MAX_LENGTH), upper.min(MAX_LENGTH));
             if lower < upper {
                 let note = format!("joint \"{}\": its range is cut to {lower:e} to {upper:e} m", joint.name);
                 return Ok(Range::Taken(JointRange::Interval { lower, upper }, note));
@@ -97,7 +97,7 @@ impl Limits<'_> {
                 "has limits from {lower} to {upper} rad, {turns} turns: they look like degrees"
             )));
         }
-        if upper - lower > if slides { LONGEST_SLIDE } else { LONGEST_TURN } {
+        if upper - lower > if slides { MAX_SLIDE } else { MAX_TURN_RANGE } {
             return Ok(Range::Unset(format!("has limits from {lower} to {upper}, a range too long for planning")));
         }
         Ok(Range::Known(JointRange::Interval { lower, upper }))
@@ -151,7 +151,7 @@ impl Limits<'_> {
                 .diagnostic_at(limits.span(), message)
                 .help("limits = { NAME = [lower, upper] }, rad or m")
         };
-        let longest = if joint.joint_type == JointType::Prismatic { LONGEST_SLIDE } else { LONGEST_TURN };
+        let longest = if joint.joint_type == JointType::Prismatic { MAX_SLIDE } else { MAX_TURN_RANGE };
         let numbers: Vec<f64> = limits.get_ref().iter().map(|n| n.get_ref().value).collect();
         if joint.joint_type == JointType::Prismatic && limits.get_ref().iter().any(|n| n.get_ref().in_degrees) {
             return Err(diagnostic("the joint slides: its limits cannot be in degrees".into()));
@@ -195,11 +195,11 @@ impl Limits<'_> {
         let joint = &self.document.robot.joints[index];
         let place = &self.document.joints[index];
         let name = &joint.name;
-        let mut assumed = Assumed::default();
+        let mut assumed = MissingRates::default();
         let slides = joint.joint_type == JointType::Prismatic;
         let given = place.limit.is_some().then_some(joint.limit.velocity).filter(|v| *v > 0.0);
         let velocity = self.positive(&self.settings.table.velocity, name, "velocity")?.or(given).unwrap_or_else(|| {
-            let default = if slides { SLIDING_SPEED } else { TURNING_SPEED };
+            let default = if slides { DEFAULT_SLIDING_SPEED } else { DEFAULT_TURNING_SPEED };
             assumed.velocity = true;
             default
         });
@@ -233,7 +233,8 @@ impl Limits<'_> {
 fn are_degrees(lower: f64, upper: f64) -> bool {
     let is_half_turns = |limit: f64| ((limit / PI).round() * PI - limit).abs() < HALF_TURN_ROUNDING;
     let farthest = lower.abs().max(upper.abs());
-    (LEAST_DEGREES..=MOST_DEGREES).contains(&farthest) && !(is_half_turns(lower) && is_half_turns(upper))
+    (MIN_LIMIT_LIKE_DEGREES..=MAX_LIMIT_LIKE_DEGREES).contains(&farthest)
+        && !(is_half_turns(lower) && is_half_turns(upper))
 }
 
 /// Returns a joint's entry in one of the world's tables.

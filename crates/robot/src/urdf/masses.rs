@@ -17,7 +17,7 @@ const GRAVITY: [f64; 3] = [0.0, 0.0, -9.81];
 /// Least determinant of an inertia matrix, as a fraction of the product of its diagonal; below it, a joint moves no
 /// mass. Also the least effort, as a fraction of the effort that the greatest inertia may need; below it, only rounding
 /// is left.
-const NEGLIGIBLE: f64 = 1e-12;
+const NEGLIGIBLE_SHARE: f64 = 1e-12;
 
 /// Checks the world's values for efforts and gravity, even if they are not used.
 ///
@@ -56,11 +56,11 @@ impl Bodies<'_> {
         let inertia = torques.greatest_inertia();
         let acceleration = torques.greatest_accelerations();
         if inertia.iter().flatten().chain(&acceleration).all(|value| value.is_finite())
-            && (0..2).all(|k| effort[k] > NEGLIGIBLE * inertia[k][k] * acceleration[k])
+            && (0..2).all(|k| effort[k] > NEGLIGIBLE_SHARE * inertia[k][k] * acceleration[k])
         {
             return Ok(dynamics);
         }
-        let is_moved = torques.least_determinant() > NEGLIGIBLE * inertia[0][0] * inertia[1][1];
+        let is_moved = torques.least_determinant() > NEGLIGIBLE_SHARE * inertia[0][0] * inertia[1][1];
         let (message, help) = if is_moved {
             (
                 "the efforts of the joints are far too small for their velocities, masses and gravity",

@@ -2,7 +2,7 @@
 
 use super::chain;
 use super::document::Document;
-use super::plane::ALIGNED;
+use super::plane::ALIGNMENT_TOLERANCE;
 use super::reduction::Reduction;
 use super::tree::Tree;
 use crate::quantity::PerJoint;
@@ -12,10 +12,10 @@ use cplan_core::model::Plane;
 use urdf_rs::JointType;
 
 /// Greatest number of pairs in a message.
-const LISTED: usize = 6;
+const MAX_LISTED_PAIRS: usize = 6;
 
 /// Largest number of movable joints for which pairs are tried. The number of pairs grows with its square.
-pub(super) const MOST_TRIED: usize = 40;
+pub(super) const MAX_TRIED_JOINTS: usize = 40;
 
 /// Two joints that form a planar arm.
 pub(super) struct PlanarPair {
@@ -25,7 +25,7 @@ pub(super) struct PlanarPair {
 }
 
 /// A pair that is chosen although the world names none.
-pub(super) struct Evident {
+pub(super) struct ImpliedPair {
     pub joints: [usize; 2],
     /// The reason for this pair, in words that follow its names.
     pub reason: String,
@@ -44,7 +44,7 @@ pub(super) fn planar(document: &Document, tree: &Tree, settings: RobotSettings) 
 /// Returns the pair that must be meant. This is the only planar pair, if no joint between turns. Otherwise, among the
 /// planar pairs without movable joints between them, it is the only one, or the first of the chain if all share its
 /// plane.
-pub(super) fn evident(document: &Document, tree: &Tree, planar: &[PlanarPair]) -> Option<Evident> {
+pub(super) fn evident(document: &Document, tree: &Tree, planar: &[PlanarPair]) -> Option<ImpliedPair> {
     let between = |pair: &PlanarPair| -> Vec<&urdf_rs::Joint> {
         let [a, b] = &pair.joints;
         let is_inner = |j: &usize| tree.carries(*a, tree.parent[*j]) && tree.carries(*j, tree.parent[*b]);
@@ -54,20 +54,20 @@ pub(super) fn evident(document: &Document, tree: &Tree, planar: &[PlanarPair]) -
     if let [only] = planar {
         let turns = |joint: &&urdf_rs::Joint| joint.joint_type != JointType::Prismatic;
         let reason = ", the only planar pair of neighbours".to_owned();
-        return (!between(only).iter().any(turns)).then_some(Evident { joints: only.joints, reason });
+        return (!between(only).iter().any(turns)).then_some(ImpliedPair { joints: only.joints, reason });
     }
     let adjacent: Vec<&PlanarPair> = planar.iter().filter(|pair| between(pair).is_empty()).collect();
     let (first, others) = adjacent.split_first()?;
     let follows = |other: &&PlanarPair| {
         let [a, b] = [first.joints[1], other.joints[0]];
         (a == b || tree.carries(a, tree.parent[b]))
-            && other.plane.normal.cross(&first.plane.normal).norm() <= ALIGNED.sin()
+            && other.plane.normal.cross(&first.plane.normal).norm() <= ALIGNMENT_TOLERANCE.sin()
     };
     let reason = match others.len() {
         0 => ", the only planar pair of neighbours".to_owned(),
         more => format!(", the first of {} planar pairs of neighbours, which share a plane", more + 1),
     };
-    others.iter().all(follows).then_some(Evident { joints: first.joints, reason })
+    others.iter().all(follows).then_some(ImpliedPair { joints: first.joints, reason })
 }
 
 /// Returns the entries that would choose these pairs, for messages.
@@ -76,8 +76,8 @@ pub(super) fn choices(document: &Document, pairs: &[PlanarPair]) -> String {
         let [a, b] = pair.joints.map(|j| document.robot.joints[j].name.as_str());
         format!("[robot] joints = [{a:?}, {b:?}]")
     };
-    let shown: Vec<String> = pairs.iter().take(LISTED).map(entry).collect();
-    let more = if pairs.len() > LISTED { ", ..." } else { "" };
+    let shown: Vec<String> = pairs.iter().take(MAX_LISTED_PAIRS).map(entry).collect();
+    let more = if pairs.len() > MAX_LISTED_PAIRS { ", ..." } else { "" };
     shown.join(", or ") + more
 }
 

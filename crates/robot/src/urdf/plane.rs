@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 
 /// Directions within this angle, radians, count as parallel (or perpendicular): exported files have axes like
 /// `-1.19e-5 0 0.9999` and angles like 1.57. Over a metre it is a millimetre.
-pub(super) const ALIGNED: f64 = 1e-3;
+pub(super) const ALIGNMENT_TOLERANCE: f64 = 1e-3;
 
 /// A joint's axis in the root frame.
 #[derive(Debug, Clone, Copy)]
@@ -31,11 +31,11 @@ pub(super) fn common_plane(axes: [SpatialAxis; 2]) -> Result<Plane, String> {
     let cross = a.direction.cross(&b.direction).norm();
     let across = a.direction.dot(&b.direction).abs();
     let normal = match (a.revolute, b.revolute) {
-        (true, true) if cross > ALIGNED.sin() => return Err(refusal(axes, "these axes are not parallel")),
-        (true, false) | (false, true) if across > ALIGNED.sin() => {
+        (true, true) if cross > ALIGNMENT_TOLERANCE.sin() => return Err(refusal(axes, "these axes are not parallel")),
+        (true, false) | (false, true) if across > ALIGNMENT_TOLERANCE.sin() => {
             return Err(refusal(axes, "the slide is not perpendicular to the axis of rotation"));
         }
-        (false, false) if cross < ALIGNED.sin() => {
+        (false, false) if cross < ALIGNMENT_TOLERANCE.sin() => {
             return Err(refusal(axes, "both slide along the same line, so the tip cannot leave it"));
         }
         (true, _) => a.direction,
@@ -48,13 +48,13 @@ pub(super) fn common_plane(axes: [SpatialAxis; 2]) -> Result<Plane, String> {
 /// Describes by how much axes deviate from the plane's normal, or prismatic axes from the plane, if it is noticeable.
 pub(super) fn deviation(plane: &Plane, axes: [SpatialAxis; 2]) -> Option<String> {
     /// A micrometre over a metre.
-    const NOTICED: f64 = 1e-6;
+    const NOTICED_DEVIATION: f64 = 1e-6;
     let off = |axis: &SpatialAxis| {
         let [across, along] = [axis.direction.cross(&plane.normal).norm(), axis.direction.dot(&plane.normal).abs()];
         if axis.revolute { across } else { along }
     };
     let off = axes.iter().map(off).fold(0.0, f64::max);
-    (off > NOTICED).then(|| {
+    (off > NOTICED_DEVIATION).then(|| {
         format!("the joints' axes are up to {off:.1e} rad off the assumed plane of motion ({off:.1e} m over a metre)")
     })
 }
@@ -83,7 +83,7 @@ pub(super) fn vector(d: Vector3<f64>) -> String {
 fn basis(normal: Vector3<f64>) -> Plane {
     let (x, y, z) = (Vector3::x(), Vector3::y(), Vector3::z());
     for (axis, u, v) in [(z, x, y), (y, x, z), (x, y, z)] {
-        if normal.cross(&axis).norm() <= ALIGNED.sin() {
+        if normal.cross(&axis).norm() <= ALIGNMENT_TOLERANCE.sin() {
             return Plane { u, v, normal: axis };
         }
     }
@@ -173,13 +173,13 @@ mod tests {
     }
 
     #[test]
-    fn axes_that_are_off_are_told() {
-        let told = |a, b| deviation(&common_plane([a, b]).unwrap(), [a, b]);
-        assert_eq!(told(turn("a", [0.0, 0.0, 1.0]), turn("b", [0.0, 1e-7, -1.0])), None);
-        assert_eq!(told(turn("a", [0.0, 1.0, 1.0]), slide("b", [0.0, 1.0, -1.0])), None);
+    fn deviating_axes_are_reported() {
+        let deviation_of = |a, b| deviation(&common_plane([a, b]).unwrap(), [a, b]);
+        assert_eq!(deviation_of(turn("a", [0.0, 0.0, 1.0]), turn("b", [0.0, 1e-7, -1.0])), None);
+        assert_eq!(deviation_of(turn("a", [0.0, 1.0, 1.0]), slide("b", [0.0, 1.0, -1.0])), None);
         for b in [turn("b", [0.0, 5e-4, 1.0]), slide("b", [1.0, 0.0, -5e-4])] {
-            let told = told(turn("a", [0.0, 0.0, 1.0]), b).unwrap();
-            assert!(told.contains("up to 5.0e-4 rad"), "{told}");
+            let deviation_of = deviation_of(turn("a", [0.0, 0.0, 1.0]), b).unwrap();
+            assert!(deviation_of.contains("up to 5.0e-4 rad"), "{deviation_of}");
         }
     }
 

@@ -180,11 +180,11 @@ impl<'a> Reduction<'a> {
         if self.settings.table.dynamics {
             keep_efforts(&mut arm);
         }
-        let told = |diagnostic: &Diagnostic| {
+        let described = |diagnostic: &Diagnostic| {
             let help = diagnostic.help.as_ref().map(|help| format!("; {help}"));
             diagnostic.message.clone() + &help.unwrap_or_default()
         };
-        report.no_dynamics = unknown.as_ref().map(told);
+        report.no_dynamics = unknown.as_ref().map(described);
         (arm, report, unknown)
     }
 

@@ -7,7 +7,7 @@ use super::bodies::Bodies;
 use super::chain::Chain;
 use super::document::Document;
 use super::shapes::PlacedShape;
-use super::solid::THINNEST;
+use super::solid::MIN_LAYER_THICKNESS;
 use super::tree::Tree;
 use crate::error::{Diagnostic, quoted};
 use cplan_core::model::{Arm, Carrier, Obstacle, Scene, SelfObstacle, Shape, Workspace};
@@ -17,7 +17,7 @@ use std::collections::BTreeSet;
 use urdf_rs::JointType;
 
 /// Number of values of each joint at which links are placed to find those that meet in every configuration.
-const SAMPLES: usize = 32;
+const SAMPLES_PER_JOINT: usize = 32;
 
 /// Part of the robot to which a link belongs, by the joint that moves it last.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -99,7 +99,7 @@ impl<'a> SelfCollision<'a> {
         let others = all.iter().filter(|other| self.checked(link, other.link));
         let mut cuts: Vec<f64> = others.flat_map(|other| [other.heights.lower, other.heights.upper]).collect();
         cuts.sort_by(f64::total_cmp);
-        cuts.dedup_by(|b, a| *b - *a <= THINNEST);
+        cuts.dedup_by(|b, a| *b - *a <= MIN_LAYER_THICKNESS);
         cuts
     }
 
@@ -166,7 +166,7 @@ impl<'a> SelfCollision<'a> {
 
 /// Allows links to meet that do so in every configuration, and names them.
 ///
-/// The arm is placed at [`SAMPLES`] values of each joint within its limits.
+/// The arm is placed at [`SAMPLES_PER_JOINT`] values of each joint within its limits.
 pub(super) fn ignore_permanent_contact(arm: &mut Arm) -> Option<String> {
     if arm.self_obstacles.is_empty() {
         return None;
@@ -179,13 +179,15 @@ pub(super) fn ignore_permanent_contact(arm: &mut Arm) -> Option<String> {
     let mut permanent: BTreeSet<(String, String)> = scene.pairs().iter().map(names).collect();
     let value = |joint: usize, number: usize| {
         let (lower, upper) = scene.arm().joints[joint].range.domain();
-        lower + (upper - lower) * (number as f64 + 0.5) / SAMPLES as f64
+        lower + (upper - lower) * (number as f64 + 0.5) / SAMPLES_PER_JOINT as f64
     };
-    for number in 0..SAMPLES * SAMPLES {
+    for number in 0..SAMPLES_PER_JOINT * SAMPLES_PER_JOINT {
         if permanent.is_empty() {
             return None;
         }
-        let poses = scene.arm().pair_poses(Configuration::new(value(0, number / SAMPLES), value(1, number % SAMPLES)));
+        let poses = scene
+            .arm()
+            .pair_poses(Configuration::new(value(0, number / SAMPLES_PER_JOINT), value(1, number % SAMPLES_PER_JOINT)));
         let of_permanent = scene.pairs().iter().filter(|pair| permanent.contains(&names(pair)));
         let meet = of_permanent
             .filter(|&&pair| separation(&scene.part(pair).at(&poses[pair.link]), scene.piece(pair)).distance <= 0.0);

@@ -28,7 +28,7 @@ pub(super) struct PlacedShape {
 
 /// The shapes of some URDF links.
 #[derive(Default)]
-pub(super) struct Gathered {
+pub(super) struct GatheredShapes {
     pub shapes: Vec<PlacedShape>,
     /// Links with a shape without any size.
     pub empty: Vec<String>,
@@ -46,8 +46,8 @@ enum Kind {
 
 impl Bodies<'_> {
     /// Collects the shapes of these URDF links. For a link without collision geometry these are its visual geometry.
-    pub fn gather(&self, links: impl IntoIterator<Item = usize>) -> Gathered {
-        let mut gathered = Gathered::default();
+    pub fn gather(&self, links: impl IntoIterator<Item = usize>) -> GatheredShapes {
+        let mut gathered = GatheredShapes::default();
         for link in links {
             let before = gathered.shapes.len() + gathered.unread.len();
             self.gather_kind(link, Kind::Collision, &mut gathered);
@@ -60,7 +60,7 @@ impl Bodies<'_> {
         gathered
     }
 
-    fn gather_kind(&self, index: usize, kind: Kind, gathered: &mut Gathered) {
+    fn gather_kind(&self, index: usize, kind: Kind, gathered: &mut GatheredShapes) {
         let (link, place) = (&self.document.robot.links[index], &self.document.links[index]);
         let shapes: Vec<(&urdf_rs::Pose, &Geometry, &Range<usize>)> = match kind {
             Kind::Collision => {
@@ -79,7 +79,7 @@ impl Bodies<'_> {
                     gathered.shapes.push(PlacedShape { link: index, number, is_visual, solid, pose, heights, at });
                     number += 1;
                 }
-                Err(mesh::Unread { message, cure }) => {
+                Err(mesh::UnreadableMesh { message, cure }) => {
                     let message = format!("link \"{}\": {message}", link.name);
                     let diagnostic = self.document.diagnostic_at(at, message).help(cure);
                     match kind {
@@ -91,7 +91,7 @@ impl Bodies<'_> {
         }
     }
 
-    fn solid(&self, geometry: &Geometry) -> Result<Solid, mesh::Unread> {
+    fn solid(&self, geometry: &Geometry) -> Result<Solid, mesh::UnreadableMesh> {
         Ok(match geometry {
             Geometry::Box { size } => Solid::Box { half: Vector3::from(size.0) / 2.0 },
             Geometry::Cylinder { radius, length } => Solid::Cylinder { radius: *radius, half: length / 2.0 },

@@ -33,9 +33,9 @@ pub(super) enum Solid {
 const CORNER_ROUNDING: f64 = 1e-9;
 
 /// An oblique cylinder's outline exceeds its exact projection by at most this fraction of its radius.
-const EXCESS: f64 = 0.005;
+const MAX_OUTLINE_EXCESS: f64 = 0.005;
 
-/// Sides of the polygon round an oblique cylinder's end: circumscribed, so `1 / cos(pi / n) - 1 <= EXCESS`.
+/// Sides of the polygon round an oblique cylinder's end: circumscribed, so `1 / cos(pi / n) - 1 <= MAX_OUTLINE_EXCESS`.
 const ELLIPSE_SIDES: usize = 32;
 
 /// Number of steps along half of the ellipse within an oblique cylinder's end. Its corners are the points where the
@@ -43,11 +43,11 @@ const ELLIPSE_SIDES: usize = 32;
 const ELLIPSE_STEPS: usize = ELLIPSE_SIDES / 2;
 
 /// Least thickness of a mesh's layers, metres: far above the rounding of heights.
-pub(super) const THINNEST: f64 = 1e-6;
+pub(super) const MIN_LAYER_THICKNESS: f64 = 1e-6;
 
 /// A cylinder whose axis is off the plane, or off its normal, by less than this share counts as parallel or
 /// perpendicular.
-const EXACT: f64 = 1e-13;
+const EXACT_ALIGNMENT: f64 = 1e-13;
 
 impl Solid {
     /// Returns true if the solid has no size.
@@ -94,7 +94,8 @@ impl Solid {
     /// and of the points where edges cross its two heights.
     pub fn layers(&self, pose: &Isometry3<f64>, plane: &Plane, cuts: &[f64]) -> Vec<(Convex, Heights)> {
         let heights = self.heights(pose, plane);
-        let is_within = |cut: &&f64| heights.lower + THINNEST < **cut && **cut + THINNEST < heights.upper;
+        let is_within =
+            |cut: &&f64| heights.lower + MIN_LAYER_THICKNESS < **cut && **cut + MIN_LAYER_THICKNESS < heights.upper;
         let cuts: Vec<f64> = cuts.iter().filter(is_within).copied().collect();
         let Solid::Mesh(Mesh { points, edges }) = self else { return vec![(self.outline(pose, plane), heights)] };
         if cuts.is_empty() || edges.is_empty() {
@@ -178,7 +179,7 @@ fn polygon(points: Vec<Point>) -> Convex {
 /// `tilt` the cosine). The exact projection is the hull of two ellipses, the ends, with half-axes `radius` across and
 /// `radius * |tilt|` along.
 fn cylinder(center: Point, along: Vector, tilt: f64, radius: f64, half: f64) -> Convex {
-    if 1.0 - tilt.abs() <= EXCESS {
+    if 1.0 - tilt.abs() <= MAX_OUTLINE_EXCESS {
         // For an axis close to the normal the ends are discs, up to a factor of `tilt` in one direction.
         return capsule(center - along * half, center + along * half, radius);
     }
@@ -186,7 +187,7 @@ fn cylinder(center: Point, along: Vector, tilt: f64, radius: f64, half: f64) -> 
     let across = cplan_geometry::perpendicular(direction) * radius;
     let bulge = direction * (radius * tilt.abs());
     let end = along * half;
-    if tilt.abs() <= EXCESS {
+    if tilt.abs() <= MAX_OUTLINE_EXCESS {
         // Lying or nearly so: a rectangle as long as the ellipses reach.
         let end = end + bulge;
         return polygon(vec![
@@ -210,11 +211,11 @@ fn cylinder(center: Point, along: Vector, tilt: f64, radius: f64, half: f64) -> 
 /// Returns a region that an oblique cylinder certainly covers, or `None` if [`cylinder`] is exact. Each end contributes
 /// a disc if it is almost one, else a polygon whose corners are on the outer half of the ellipse.
 fn within_cylinder(center: Point, along: Vector, tilt: f64, radius: f64, half: f64) -> Option<Convex> {
-    if tilt <= EXACT || 1.0 - tilt <= EXACT {
+    if tilt <= EXACT_ALIGNMENT || 1.0 - tilt <= EXACT_ALIGNMENT {
         return None;
     }
     let end = along * half;
-    if 1.0 - tilt <= EXCESS {
+    if 1.0 - tilt <= MAX_OUTLINE_EXCESS {
         let is_disc = 2.0 * end.norm() <= CORNER_ROUNDING;
         let core = if is_disc { vec![center] } else { vec![center - end, center + end] };
         return Some(Convex::trusted(core, radius * tilt));

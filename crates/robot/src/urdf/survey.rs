@@ -6,7 +6,7 @@ use super::chain::{self, Chain, is_movable};
 use super::document::Document;
 use super::help;
 use super::ignored;
-use super::limits::{Assumed, Limits, Range, Rates, find};
+use super::limits::{Limits, MissingRates, Range, Rates, find};
 use super::plane;
 use super::reduction::{Bounds, Reduction};
 use super::tree::{self, Tree};
@@ -335,7 +335,7 @@ fn unbounded(reduction: &Reduction) -> [Bounds; 2] {
         let rest = if slides { JointRange::Interval { lower: 0.0, upper: 0.0 } } else { JointRange::Circle };
         Bounds {
             range: limits.planned_range(j).unwrap_or(rest),
-            rates: Rates { velocity: 1.0, acceleration: 1.0, jerk: None, assumed: Assumed::default() },
+            rates: Rates { velocity: 1.0, acceleration: 1.0, jerk: None, assumed: MissingRates::default() },
         }
     })
 }

@@ -13,10 +13,10 @@ use toml::Spanned;
 use urdf_rs::JointType;
 
 /// Rounding within which an axis is parallel to the plane's normal: 1 minus the cosine.
-pub(super) const PARALLEL: f64 = 1e-9;
+pub(super) const PARALLEL_TOLERANCE: f64 = 1e-9;
 
 /// Rounding within which the tip is on the wrist's axis, metres.
-const ON_AXIS: f64 = 1e-6;
+const AXIS_TOLERANCE: f64 = 1e-6;
 
 /// The function of a tool's joint.
 #[derive(Clone, Copy, PartialEq)]
@@ -143,7 +143,7 @@ impl Reduction<'_> {
         }
         let direction = self.poses[self.tree.child[index]] * tree::axis(joint);
         let along = direction.dot(&plane.normal);
-        if along.abs() < 1.0 - PARALLEL {
+        if along.abs() < 1.0 - PARALLEL_TOLERANCE {
             let why = "is not parallel to the normal of the plane that the arm moves in";
             return diagnostic(why, "name a joint of the tool whose axis is");
         }
@@ -155,7 +155,7 @@ impl Reduction<'_> {
         }
         let to_tip = self.poses[tip].translation.vector - self.poses[self.tree.child[index]].translation.vector;
         let off = (to_tip - plane.normal * to_tip.dot(&plane.normal)).norm();
-        if tool == Tool::Wrist && off > ON_AXIS {
+        if tool == Tool::Wrist && off > AXIS_TOLERANCE {
             let why = format!("moves the tip \"{tip_link}\", which is {off:.2e} m off its axis");
             return diagnostic(&why, "name a link on the axis: [robot] tip = \"LINK\"");
         }

@@ -31,7 +31,7 @@ pub(super) struct Tree {
 }
 
 /// The one link name that may be used without being declared, as a root.
-const WORLD: &str = "world";
+const WORLD_LINK: &str = "world";
 
 impl Tree {
     /// Connects the joints. Linear in their number.
@@ -131,11 +131,11 @@ fn motion(joint: &urdf_rs::Joint, value: f64) -> Isometry3<f64> {
 fn endpoints(document: &Document, links: &mut Vec<String>) -> Result<(Vec<usize>, Vec<usize>), InputError> {
     let joints = &document.robot.joints;
     let declared = links.len();
-    let implicit = !links.iter().any(|l| l == WORLD)
-        && joints.iter().any(|j| j.parent.link == WORLD)
-        && !joints.iter().any(|j| j.child.link == WORLD);
+    let implicit = !links.iter().any(|l| l == WORLD_LINK)
+        && joints.iter().any(|j| j.parent.link == WORLD_LINK)
+        && !joints.iter().any(|j| j.child.link == WORLD_LINK);
     if implicit {
-        links.push(WORLD.to_owned());
+        links.push(WORLD_LINK.to_owned());
     }
     let mut numbers = HashMap::new();
     for (number, link) in links.iter().enumerate() {

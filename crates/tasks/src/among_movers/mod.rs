@@ -13,47 +13,47 @@
 //! moving obstacles.
 
 mod passing;
-mod ways;
+mod timed_candidates;
 
 use super::answer::{Event, Leg, TaskAnswer, TaskMotion};
-use super::failed_step::{FailedStep, Refused, farthest};
+use super::failed_step::{FailedStep, RefusedStep, farthest};
 use super::heuristic::Heuristic;
-use super::legs::{Legs, Refusal, of_legs, unobstructed};
+use super::motion_cache::{MotionCache, Refusal, of_legs, require_unobstructed};
 use super::sequence::Sequence;
 use super::state::State;
 use cplan_core::check::Posture;
 use cplan_core::model::{MotionProblem, Outcome};
-use cplan_geometry::Ordered;
+use cplan_geometry::OrderedF64;
 use cplan_handling::{Action, Item, Step, Task, TimedScene};
 use cplan_interrupt::checkpoint;
-use cplan_motion::{Limits, Timed, after_pause, nanoseconds, not_before, seconds};
-use cplan_movers::{Demand, InTime, Movers, Timing, Wait, in_time, stands};
+use cplan_motion::{Limits, TimedMotion, after_pause, nanoseconds, round_up, seconds};
+use cplan_movers::{MovingObstacles, TimedPath, Timing, TimingRequirements, Wait, clearance_at_rest, in_time};
 use cplan_solver::Options;
 use passing::passages;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 use std::sync::Arc;
-use ways::{Choices, Here, Moment, Way};
+use timed_candidates::{Choices, Moment, TimedCandidate, TimedState};
 
 /// Budget of motions planned in time until all steps are done: a fixed number, plus a number for each step.
-const MOTIONS: [usize; 2] = [150, 40];
+const MOTION_BUDGET: [usize; 2] = [150, 40];
 
 /// The same budget for finding an earlier end.
-const MORE_MOTIONS: [usize; 2] = [10, 8];
+const IMPROVEMENT_BUDGET: [usize; 2] = [10, 8];
 
 /// Budget of motions with rounded corners if jerks are limited, which takes tenths of a second for each: a fixed
 /// number, plus a number for each step. Later motions stop at their corners.
-const ROUNDED_MOTIONS: [usize; 2] = [12, 4];
+const ROUNDED_MOTION_BUDGET: [usize; 2] = [12, 4];
 
 /// Number of parts of the span between a moment that works and the one before it, in which an earlier moment is sought
 /// repeatedly, ...
-const PARTS: usize = 4;
+const PARTS_PER_SPAN: usize = 4;
 
 /// ... until the two moments are this close, seconds.
-const FINEST: f64 = 5e-3;
+const MIN_MOMENT_DISTANCE: f64 = 5e-3;
 
 /// Number of motions between two progress messages.
-const NEWS: usize = 50;
+const PROGRESS_INTERVAL: usize = 50;
 
 /// Plans a task among moving obstacles.
 pub(super) fn plan(task: &Task, options: &Options, progress: &mut dyn FnMut(&str)) -> TaskAnswer {
@@ -75,8 +75,8 @@ pub(super) fn plan(task: &Task, options: &Options, progress: &mut dyn FnMut(&str
         options: of_legs(options),
         stopping: Options { drive: options.drive.stopping_at_corners(), ..of_legs(options) },
         heuristic: &heuristic,
-        legs: Legs::new(options),
-        stopping_legs: Legs::new(&Options { drive: options.drive.stopping_at_corners(), ..*options }),
+        legs: MotionCache::new(options),
+        stopping_legs: MotionCache::new(&Options { drive: options.drive.stopping_at_corners(), ..*options }),
         nodes: Vec::new(),
         open: BinaryHeap::new(),
         is_done: false,
@@ -125,7 +125,7 @@ fn out_of_reach(task: &Task, start: &State) -> Option<FailedStep> {
 /// Returns the failed step if it is proven that the task cannot be done even without moving obstacles. If moving
 /// objects are picked, their places would be unknown, so nothing is proven.
 fn if_nothing_moved(task: &Task, options: &Options, progress: &mut dyn FnMut(&str)) -> Option<FailedStep> {
-    if task.moving_at_first().next().is_some() {
+    if task.initially_moving().next().is_some() {
         return None;
     }
     let mut standing = task.clone();
@@ -139,7 +139,7 @@ fn if_nothing_moved(task: &Task, options: &Options, progress: &mut dyn FnMut(&st
 /// Returns a lower bound on the end of the task: each moving object that is picked must first come within reach, one
 /// after the other.
 fn last_passage(task: &Task) -> f64 {
-    let mut moving: Vec<usize> = task.moving_at_first().collect();
+    let mut moving: Vec<usize> = task.initially_moving().collect();
     let mut after = |step: &Step, time: f64| {
         let place = moving.iter().position(|object| step.action.picked() == Some(*object));
         let passage = match &step.action {
@@ -174,13 +174,13 @@ struct Node<'a> {
 /// State of the evaluation of a node.
 enum Stage<'a> {
     /// The motion is not planned yet.
-    Pending(Box<Way<'a>>),
+    Pending(Box<TimedCandidate<'a>>),
     /// The motion is planned. The start has no motion.
-    Reached(Box<State>, Option<Box<Done>>),
+    Reached(Box<State>, Option<Box<ExecutedStep>>),
 }
 
 /// A step that is done.
-struct Done {
+struct ExecutedStep {
     leg: Leg,
     /// How its motion passes moving obstacles, on a clock of its own.
     timing: Timing,
@@ -188,22 +188,22 @@ struct Done {
 
 /// Rank of a node: its depth, deepest first until the task is done once; the earliest end of the task; and the node's
 /// index.
-type Rank = (Reverse<usize>, Ordered, usize);
+type Rank = (Reverse<usize>, OrderedF64, usize);
 
 struct Search<'a> {
     task: &'a Task,
     options: Options,
     heuristic: &'a Heuristic<'a>,
     /// Motions planned without moving obstacles.
-    legs: Legs,
+    legs: MotionCache,
     /// Options with a stop at every corner.
     stopping: Options,
-    stopping_legs: Legs,
+    stopping_legs: MotionCache,
     nodes: Vec<Node<'a>>,
     open: BinaryHeap<Reverse<Rank>>,
     /// True if a sequence through the whole task is known.
     is_done: bool,
-    refused: Vec<Refused<'a>>,
+    refused: Vec<RefusedStep<'a>>,
     /// Motions planned in time.
     motions: usize,
 }
@@ -213,11 +213,11 @@ impl<'a> Search<'a> {
     fn run(&mut self, progress: &mut dyn FnMut(&str)) -> Option<usize> {
         let steps = self.task.steps().count();
         let budget = |[some, each]: [usize; 2]| some + each * steps;
-        let (mut best, mut most, mut told) = (None::<usize>, budget(MOTIONS), 0);
-        while let Some(Reverse((_, Ordered(least), index))) = self.open.pop() {
+        let (mut best, mut most, mut reported) = (None::<usize>, budget(MOTION_BUDGET), 0);
+        while let Some(Reverse((_, OrderedF64(least), index))) = self.open.pop() {
             checkpoint();
-            if self.motions >= told + NEWS {
-                told = self.motions;
+            if self.motions >= reported + PROGRESS_INTERVAL {
+                reported = self.motions;
                 progress(&format!("{} motions planned in time, {} states examined", self.motions, self.nodes.len()));
             }
             if self.motions > most {
@@ -233,12 +233,12 @@ impl<'a> Search<'a> {
                 continue;
             }
             match &self.nodes[index].stage {
-                Stage::Pending(_) => self.settle(index),
+                Stage::Pending(_) => self.evaluate(index),
                 Stage::Reached(state, _) if !state.is_done(self.task) => self.expand(index),
                 Stage::Reached(..) => {
                     if best.is_none() {
                         self.is_done = true;
-                        most = self.motions + budget(MORE_MOTIONS);
+                        most = self.motions + budget(IMPROVEMENT_BUDGET);
                         let open: Vec<usize> = self.open.drain().map(|Reverse((_, _, index))| index).collect();
                         open.into_iter().for_each(|index| self.open(index));
                     }
@@ -256,14 +256,14 @@ impl<'a> Search<'a> {
 
     fn open(&mut self, index: usize) {
         let depth = if self.is_done { 0 } else { self.nodes[index].depth };
-        self.open.push(Reverse((Reverse(depth), Ordered(self.soonest(index)), index)));
+        self.open.push(Reverse((Reverse(depth), OrderedF64(self.soonest(index)), index)));
     }
 
     /// Returns the earliest known end of the task through a node.
     fn soonest(&self, index: usize) -> f64 {
         let node = &self.nodes[index];
         let left = match &node.stage {
-            Stage::Pending(way) => self.heuristic.remaining(way.candidate.to, way.candidate.progress),
+            Stage::Pending(choice) => self.heuristic.remaining(choice.candidate.to, choice.candidate.progress),
             Stage::Reached(state, _) => self.heuristic.remaining(state.q, state.progress),
         };
         node.seconds + left
@@ -273,14 +273,14 @@ impl<'a> Search<'a> {
     fn give_up(&mut self, index: usize, is_known: bool) {
         let node = &self.nodes[index];
         let next = match (&node.stage, node.parent) {
-            (Stage::Pending(way), Some(parent)) => Some((parent, way.candidate.step)),
+            (Stage::Pending(choice), Some(parent)) => Some((parent, choice.candidate.step)),
             (Stage::Pending(_), None) => None,
             (Stage::Reached(state, _), _) => state.candidates(self.task).first().map(|next| (index, next.step)),
         };
         if let Some((node, step)) = next.filter(|_| !is_known) {
             let refusal = Refusal::new(format!("given up after {} motions planned in time", self.motions), false);
             let depth = self.nodes[node].depth;
-            self.refused.push(Refused { depth, node, step, ik_solution: None, refusal });
+            self.refused.push(RefusedStep { depth, node, step, ik_solution: None, refusal });
         }
     }
 
@@ -295,51 +295,53 @@ impl<'a> Search<'a> {
     fn expand(&mut self, index: usize) {
         let Node { stage: Stage::Reached(state, _), depth, seconds, .. } = &self.nodes[index] else { return };
         let depth = *depth;
-        let Choices { ways, refused } = Here { task: self.task, state, time: *seconds }.choices();
+        let Choices { ways, refused } = TimedState { task: self.task, state, time: *seconds }.choices();
         for reason in refused {
             let (step, ik_solution, refusal) = (reason.step, reason.to, reason.refusal);
-            self.refused.push(Refused { depth, node: index, step, ik_solution, refusal });
+            self.refused.push(RefusedStep { depth, node: index, step, ik_solution, refusal });
         }
-        for way in ways {
+        for choice in ways {
             self.push(Node {
                 parent: Some(index),
                 depth: depth + 1,
-                seconds: way.ends,
-                stage: Stage::Pending(Box::new(way)),
+                seconds: choice.ends,
+                stage: Stage::Pending(Box::new(choice)),
             });
         }
     }
 
     /// Plans the motion to a node, and tries an earlier moment.
-    fn settle(&mut self, index: usize) {
-        let (Some(parent), Stage::Pending(way)) = (self.nodes[index].parent, &self.nodes[index].stage) else { return };
-        let way = way.clone();
+    fn evaluate(&mut self, index: usize) {
+        let (Some(parent), Stage::Pending(choice)) = (self.nodes[index].parent, &self.nodes[index].stage) else {
+            return;
+        };
+        let choice = choice.clone();
         let Node { stage: Stage::Reached(state, _), seconds, depth, .. } = &self.nodes[parent] else { return };
         let (state, time, depth) = (state.clone(), *seconds, *depth);
-        let here = Here { task: self.task, state: &state, time };
-        match self.done(here, &way) {
+        let here = TimedState { task: self.task, state: &state, time };
+        match self.done(here, &choice) {
             Ok(done) => {
-                self.leave_later_moments(parent, &way);
-                let (done, after, ends) = self.sooner(here, &way).unwrap_or(done);
+                self.leave_later_moments(parent, &choice);
+                let (done, after, ends) = self.sooner(here, &choice).unwrap_or(done);
                 let node = &mut self.nodes[index];
                 (node.seconds, node.stage) = (ends, Stage::Reached(Box::new(after), Some(Box::new(done))));
                 self.open(index);
             }
             Err(refusal) => {
                 // With a passing object, no single place says more than the others.
-                let ik_solution = way.moment.is_none().then_some(way.candidate.to);
-                let step = way.candidate.step;
-                self.refused.push(Refused { depth, node: parent, step, ik_solution, refusal });
+                let ik_solution = choice.moment.is_none().then_some(choice.candidate.to);
+                let step = choice.candidate.step;
+                self.refused.push(RefusedStep { depth, node: parent, step, ik_solution, refusal });
             }
         }
     }
 
     /// Raises the lower limit of the next moment of a pick, because an earlier moment is now known to work.
-    fn leave_later_moments(&mut self, parent: usize, done: &Way) {
+    fn leave_later_moments(&mut self, parent: usize, done: &TimedCandidate) {
         let Some(done_at) = done.moment else { return };
         for node in self.nodes.iter_mut().filter(|node| node.parent == Some(parent)) {
-            if let Stage::Pending(way) = &mut node.stage
-                && let Way { moment: Some(moment), branch, candidate, .. } = &mut **way
+            if let Stage::Pending(choice) = &mut node.stage
+                && let TimedCandidate { moment: Some(moment), branch, candidate, .. } = &mut **choice
                 && moment.since == done_at.time
                 && *branch == done.branch
             {
@@ -350,17 +352,17 @@ impl<'a> Search<'a> {
     }
 
     /// Returns the same pick at an earlier moment, if it can be done then.
-    fn sooner(&mut self, here: Here<'a, '_>, way: &Way<'a>) -> Option<(Done, State, f64)> {
-        let moment = way.moment?;
+    fn sooner(&mut self, here: TimedState<'a, '_>, choice: &TimedCandidate<'a>) -> Option<(ExecutedStep, State, f64)> {
+        let moment = choice.moment?;
         let (mut since, mut until, mut best) = (moment.since, moment.time, None);
-        while until - since > FINEST {
-            let step = (until - since) / PARTS as f64;
-            let parts = (1..PARTS).map(|k| not_before(since + step * k as f64));
+        while until - since > MIN_MOMENT_DISTANCE {
+            let step = (until - since) / PARTS_PER_SPAN as f64;
+            let parts = (1..PARTS_PER_SPAN).map(|k| round_up(since + step * k as f64));
             let sooner =
                 parts.scan(since, |before, time| Some(Moment { time, since: std::mem::replace(before, time) }));
             let found = sooner.into_iter().find_map(|moment| {
-                let way = here.at_moment(way, moment)?;
-                Some((moment, self.done(here, &way).ok()?))
+                let choice = here.at_moment(choice, moment)?;
+                Some((moment, self.done(here, &choice).ok()?))
             });
             let last = until - step;
             match found {
@@ -372,14 +374,18 @@ impl<'a> Search<'a> {
     }
 
     /// Does a step. Returns the state after it, and the time.
-    fn done(&mut self, here: Here<'a, '_>, way: &Way<'a>) -> Result<(Done, State, f64), Refusal> {
-        let Here { task, state, time } = here;
-        let (candidate, step) = (&way.candidate, way.candidate.step);
+    fn done(
+        &mut self,
+        here: TimedState<'a, '_>,
+        choice: &TimedCandidate<'a>,
+    ) -> Result<(ExecutedStep, State, f64), Refusal> {
+        let TimedState { task, state, time } = here;
+        let (candidate, step) = (&choice.candidate, choice.candidate.step);
         if matches!(candidate.event, Some(Event::Grasp { .. })) {
             // If the payload would touch something at this place, the object may be picked elsewhere on its path.
-            unobstructed(&here.standing(candidate, time).0, candidate.to, "after it")?;
+            require_unobstructed(&here.scene_at_rest(candidate, time).0, candidate.to, "after it")?;
         }
-        let [some, each] = ROUNDED_MOTIONS;
+        let [some, each] = ROUNDED_MOTION_BUDGET;
         let stops = Limits::from(&task.arm.joints).stops_at_corners()
             && self.motions >= some + each * self.task.steps().count();
         let (options, legs) =
@@ -394,23 +400,23 @@ impl<'a> Search<'a> {
             true => seconds(nanoseconds(at).saturating_sub(nanoseconds(time))),
             false => at,
         };
-        let demand = Demand {
+        let demand = TimingRequirements {
             speed: step.speed,
-            arrival: Some(way.arrival.map(since)),
-            until: way.moment.map(|moment| since(moment.time)),
+            arrival: Some(choice.arrival.map(since)),
+            until: choice.moment.map(|moment| since(moment.time)),
         };
         let path = motion.timed.curve.straight();
         let planned = in_time(&problem, &courses, path, (*motion.timed).clone(), options, &demand);
         let planned = planned.map_err(|error| Refusal::new(error.to_string(), false))?;
-        let InTime { timed: Timed { curve, trajectory }, figures } =
+        let TimedPath { timed: TimedMotion { curve, trajectory }, figures } =
             planned.map_err(|reason| Refusal::new(reason, false))?;
         let arrival = after_pause(time + trajectory.duration(), 0.0);
-        if arrival > way.moment.map_or(way.arrival[1], |moment| moment.time) {
+        if arrival > choice.moment.map_or(choice.arrival[1], |moment| moment.time) {
             return Err(Refusal::new("the arm cannot rest there for the required time", false));
         }
         let q = curve.curve().path().goal();
-        let (scene, courses) = here.standing(candidate, arrival);
-        let kept = stands(TimedScene { scene: &scene, courses: &courses }, q, step.dwell);
+        let (scene, courses) = here.scene_at_rest(candidate, arrival);
+        let kept = clearance_at_rest(TimedScene { scene: &scene, courses: &courses }, q, step.dwell);
         let kept =
             kept.ok_or_else(|| Refusal::new("a moving obstacle or object arrives while the arm rests there", false))?;
         let leg = Leg {
@@ -418,7 +424,7 @@ impl<'a> Search<'a> {
             scene: self.legs.scene(task, state, step),
             moving: state.moving.clone(),
             carried: state.held.as_ref().map(|held| held.object),
-            timed: Arc::new(Timed { curve: curve.among_movers(kept, None), trajectory }),
+            timed: Arc::new(TimedMotion { curve: curve.among_movers(kept, None), trajectory }),
             turn: None,
             stroke: None,
             event: candidate.event,
@@ -426,17 +432,17 @@ impl<'a> Search<'a> {
         };
         let clearance = figures.clearance.into_iter().chain(kept.is_finite().then_some(kept)).reduce(f64::min);
         let timing = Timing { clearance, ..figures };
-        Ok((Done { leg, timing }, state.after(task, candidate, q), after_pause(arrival, step.dwell)))
+        Ok((ExecutedStep { leg, timing }, state.after(task, candidate, q), after_pause(arrival, step.dwell)))
     }
 
     /// Returns the steps done up to a node.
-    fn way_to(&self, index: usize) -> Vec<&Done> {
+    fn way_to(&self, index: usize) -> Vec<&ExecutedStep> {
         let nodes = std::iter::successors(Some(index), |&index| self.nodes[index].parent);
         let done = nodes.filter_map(|index| match &self.nodes[index].stage {
             Stage::Reached(_, done) => done.as_deref(),
             Stage::Pending(_) => None,
         });
-        let mut done: Vec<&Done> = done.collect();
+        let mut done: Vec<&ExecutedStep> = done.collect();
         done.reverse();
         done
     }
@@ -450,13 +456,13 @@ impl<'a> Search<'a> {
     fn timing(&self, index: usize) -> Option<Timing> {
         let task = self.task;
         let mut whole = Timing {
-            obstacles: task.workspace.movers.len() + task.moving_at_first().count(),
+            obstacles: task.workspace.movers.len() + task.initially_moving().count(),
             ways: 0,
             waits: Vec::new(),
             clearance: None,
             free_until: self.free_until(index),
         };
-        for Done { leg, timing } in self.way_to(index) {
+        for ExecutedStep { leg, timing } in self.way_to(index) {
             whole.ways += timing.ways;
             whole.clearance = whole.clearance.into_iter().chain(timing.clearance).reduce(f64::min);
             let later = |wait: &Wait| Wait { from: leg.begin + wait.from, to: leg.begin + wait.to, at: wait.at };
@@ -472,7 +478,7 @@ impl<'a> Search<'a> {
         let scene = state.scene(self.task, released);
         let courses = self.task.courses_since(&state.moving, node.seconds);
         let timed = TimedScene { scene: &scene, courses: &courses };
-        let movers = Movers::new(timed, scene.workspace().clearance);
+        let movers = MovingObstacles::new(timed, scene.workspace().clearance);
         let safe = movers.safe_intervals(&Posture::new(&scene, state.q));
         safe.first().filter(|[_, until]| until.is_finite()).map(|[_, until]| node.seconds + until)
     }

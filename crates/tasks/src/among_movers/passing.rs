@@ -3,10 +3,10 @@
 use cplan_core::model::{Arm, JointType};
 use cplan_core::space::JointRange;
 use cplan_geometry::{Interval, Point};
-use cplan_handling::{Course, Leg, Object};
+use cplan_handling::{Leg, Object, ObstacleTrajectory};
 
 /// Share by which radii are enlarged: far more than rounding.
-const ROOM: f64 = 1e-9;
+const RADIUS_ENLARGEMENT: f64 = 1e-9;
 
 /// An interval of time in which an object may be within reach, on one leg of its course.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -17,14 +17,16 @@ pub(super) struct Passage {
 }
 
 /// Number of parts of a passage between the moments that are tried.
-const PARTS: usize = 24;
+const PARTS_PER_PASSAGE: usize = 24;
 
 impl Passage {
     /// Returns moments throughout the passage. Only one if the object does not move.
     pub fn moments(&self) -> Vec<f64> {
         let [from, to] = self.times;
-        let parts = if self.is_still || from == to { 0 } else { PARTS };
-        (0..=parts).map(|k| from + if k == 0 { 0.0 } else { (to - from) * (k as f64 / PARTS as f64) }).collect()
+        let parts = if self.is_still || from == to { 0 } else { PARTS_PER_PASSAGE };
+        (0..=parts)
+            .map(|k| from + if k == 0 { 0.0 } else { (to - from) * (k as f64 / PARTS_PER_PASSAGE as f64) })
+            .collect()
     }
 }
 
@@ -32,8 +34,8 @@ impl Passage {
 /// At all other times it is certainly out of the arm's reach, or must not be picked. `when` lists the allowed times;
 /// all are allowed if it is empty.
 pub(super) fn passages(arm: &Arm, object: &Object, grasp: Point, when: &[Interval], from: f64) -> Vec<Passage> {
-    let legs = object.course.as_ref().map_or(&[][..], Course::legs);
-    let reach = (tip_reach(arm) + grasp.norm()) * (1.0 + ROOM);
+    let legs = object.course.as_ref().map_or(&[][..], ObstacleTrajectory::legs);
+    let reach = (tip_reach(arm) + grasp.norm()) * (1.0 + RADIUS_ENLARGEMENT);
     let any = [[0.0, f64::INFINITY]];
     let when = if when.is_empty() { &any[..] } else { when };
     let mut all = Vec::new();
@@ -51,26 +53,28 @@ pub(super) fn passages(arm: &Arm, object: &Object, grasp: Point, when: &[Interva
 
 /// Returns the largest distance of the tip from the base, metres.
 fn tip_reach(arm: &Arm) -> f64 {
-    let ways = [arm.offset.norm(), arm.tip.norm()];
-    let of = |(joint, way): (usize, f64)| {
+    let extents = [arm.offset.norm(), arm.tip.norm()];
+    let of = |(joint, extent): (usize, f64)| {
         let joint = &arm.joints[joint];
         match (joint.joint_type, joint.range) {
-            (JointType::Revolute { .. }, _) => way,
-            (JointType::Prismatic { .. }, JointRange::Interval { lower, upper }) => way + lower.abs().max(upper.abs()),
+            (JointType::Revolute { .. }, _) => extent,
+            (JointType::Prismatic { .. }, JointRange::Interval { lower, upper }) => {
+                extent + lower.abs().max(upper.abs())
+            }
             (JointType::Prismatic { .. }, JointRange::Circle) => f64::INFINITY,
         }
     };
-    ways.into_iter().enumerate().map(of).sum()
+    extents.into_iter().enumerate().map(of).sum()
 }
 
 /// Returns the times of a leg at which the frame's origin is in a disc. `None` if it never is.
 fn within(leg: &Leg, center: Point, radius: f64) -> Option<Interval> {
-    let (way, speed) = (center - leg.start.at, leg.velocity.norm());
+    let (extent, speed) = (center - leg.start.at, leg.velocity.norm());
     if speed == 0.0 || radius == f64::INFINITY {
-        return (way.norm() <= radius).then_some([leg.from, leg.to]);
+        return (extent.norm() <= radius).then_some([leg.from, leg.to]);
     }
-    let along = leg.velocity.dot(&way) / speed;
-    let beside2 = way.norm_squared() - along * along;
+    let along = leg.velocity.dot(&extent) / speed;
+    let beside2 = extent.norm_squared() - along * along;
     let half = (radius * radius - beside2).max(0.0).sqrt();
     let times = [leg.from + (along - half) / speed, leg.from + (along + half) / speed];
     let both = [times[0].max(leg.from), times[1].min(leg.to)];
@@ -84,18 +88,18 @@ mod tests {
 
     #[test]
     fn a_belt_crosses_a_disc() {
-        let course = Course::conveyor([1.0, -3.0], [0.0, 0.5]).unwrap();
+        let course = ObstacleTrajectory::conveyor([1.0, -3.0], [0.0, 0.5]).unwrap();
         let times = within(&course.legs()[0], Point::zeros(), 2.0_f64.sqrt()).unwrap();
         assert!((times[0] - 4.0).abs() < 1e-12 && (times[1] - 8.0).abs() < 1e-12, "{times:?}");
         assert_eq!(within(&course.legs()[0], Point::zeros(), 0.9), None);
-        let away = Course::conveyor([1.0, 3.0], [0.0, 0.5]).unwrap();
+        let away = ObstacleTrajectory::conveyor([1.0, 3.0], [0.0, 0.5]).unwrap();
         assert_eq!(within(&away.legs()[0], Point::zeros(), 2.0), None);
     }
 
     #[test]
-    fn what_stays_is_there_for_ever() {
+    fn resting_objects_stay_in_reach_for_ever() {
         let stop = |time, x| cplan_handling::Stop { time, at: Point::new(x, 0.0), angle: 0.0 };
-        let course = Course::new(vec![stop(0.0, 9.0), stop(8.0, 1.0)], Vector::zeros()).unwrap();
+        let course = ObstacleTrajectory::new(vec![stop(0.0, 9.0), stop(8.0, 1.0)], Vector::zeros()).unwrap();
         let last = course.legs()[1];
         assert_eq!(within(&last, Point::zeros(), 2.0), Some([8.0, f64::INFINITY]));
     }

@@ -1,21 +1,21 @@
 //! Conditions on the orders in which a group can be done.
 
-use super::super::legs::{Blockers, Refusal};
+use super::super::motion_cache::{Blockers, Refusal};
 
 /// A pair that comes before another in the order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) struct Before(pub usize, pub usize);
+pub(super) struct Precedence(pub usize, pub usize);
 
 /// A condition that an order must satisfy: all requirements of one of the alternatives.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Condition {
-    alternatives: Vec<Vec<Before>>,
+    alternatives: Vec<Vec<Precedence>>,
 }
 
 impl Condition {
     /// Creates a condition from these alternatives. `None` if one of them requires nothing.
-    pub fn of(alternatives: impl IntoIterator<Item = Vec<Before>>) -> Option<Self> {
-        let mut all: Vec<Vec<Before>> = Vec::new();
+    pub fn of(alternatives: impl IntoIterator<Item = Vec<Precedence>>) -> Option<Self> {
+        let mut all: Vec<Vec<Precedence>> = Vec::new();
         for mut alternative in alternatives {
             alternative.sort_unstable();
             alternative.dedup();
@@ -36,7 +36,7 @@ impl Condition {
     /// An obstacle that blocks the path to one IK solution, or from one place, may not block others, so conditions are
     /// learned and not proven. If the reasons reveal nothing, the pair must come earlier or later in the order.
     pub fn learned(pair: usize, done: &[bool], refusals: &[Refusal], pair_of: impl Fn(usize) -> Option<usize>) -> Self {
-        let elsewhere = |other: usize| if done[other] { Before(pair, other) } else { Before(other, pair) };
+        let elsewhere = |other: usize| if done[other] { Precedence(pair, other) } else { Precedence(other, pair) };
         let mut alternatives = Vec::new();
         for refusal in refusals {
             match &refusal.blockers {
@@ -62,11 +62,11 @@ impl Condition {
 
     /// Returns true if an order satisfies the condition, given the position of each pair in it.
     pub fn holds(&self, places: &[usize]) -> bool {
-        self.alternatives.iter().any(|all| all.iter().all(|Before(first, then)| places[*first] < places[*then]))
+        self.alternatives.iter().any(|all| all.iter().all(|Precedence(first, then)| places[*first] < places[*then]))
     }
 
     /// Returns the pairs that the condition involves.
     pub fn pairs(&self) -> impl Iterator<Item = usize> + '_ {
-        self.alternatives.iter().flatten().flat_map(|&Before(first, then)| [first, then])
+        self.alternatives.iter().flatten().flat_map(|&Precedence(first, then)| [first, then])
     }
 }

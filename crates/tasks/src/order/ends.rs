@@ -3,7 +3,7 @@
 
 use super::super::state::State;
 use super::Group;
-use super::condition::{Before, Condition};
+use super::condition::{Condition, Precedence};
 use cplan_core::model::Scene;
 use cplan_core::space::Configuration;
 use cplan_geometry::Pose;
@@ -85,20 +85,21 @@ impl Ends<'_> {
         let mut places = Vec::new();
         let mut grips = Vec::new();
         let scenes = worlds.each_ref().map(|world| world.scene(&task, Some(object)));
-        for way in source.candidates(&task).into_iter().flat_map(|candidates| candidates.ways) {
-            let lifted = [source, goal].map(|world| world.after(&task, &way, way.to));
+        for candidate in source.candidates(&task).into_iter().flat_map(|candidates| candidates.ways) {
+            let lifted = [source, goal].map(|world| world.after(&task, &candidate, candidate.to));
             let carrying = lifted.each_ref().map(|world| world.scene(&task, None));
-            let at_pick = self.alternative(&scenes, way.to);
-            picks.extend(at_pick.zip(self.alternative(&carrying, way.to)).map(|(a, b)| [a, b].concat()));
+            let at_pick = self.alternative(&scenes, candidate.to);
+            picks.extend(at_pick.zip(self.alternative(&carrying, candidate.to)).map(|(a, b)| [a, b].concat()));
             let grip = lifted[0].held.as_ref().map(|held| held.grip);
             if grips.contains(&grip) {
                 continue;
             }
             grips.push(grip);
-            for way in lifted[0].candidates(&task).into_iter().flat_map(|candidates| candidates.ways) {
-                let released = lifted.each_ref().map(|world| world.after(&task, &way, way.to).scene(&task, None));
-                let at_place = self.alternative(&carrying, way.to);
-                places.extend(at_place.zip(self.alternative(&released, way.to)).map(|(a, b)| [a, b].concat()));
+            for candidate in lifted[0].candidates(&task).into_iter().flat_map(|candidates| candidates.ways) {
+                let released =
+                    lifted.each_ref().map(|world| world.after(&task, &candidate, candidate.to).scene(&task, None));
+                let at_place = self.alternative(&carrying, candidate.to);
+                places.extend(at_place.zip(self.alternative(&released, candidate.to)).map(|(a, b)| [a, b].concat()));
             }
         }
         // Without any alternative, no order helps. The search will find that out.
@@ -108,14 +109,14 @@ impl Ends<'_> {
 
     /// Returns the pairs that must come before or after for the arm to be at `q`, given the worlds before and after the
     /// group. `None` if no order of the group makes that possible.
-    fn alternative(&self, [before, after]: &[Scene; 2], q: Configuration) -> Option<Vec<Before>> {
+    fn alternative(&self, [before, after]: &[Scene; 2], q: Configuration) -> Option<Vec<Precedence>> {
         let hit = |scene: &Scene, ahead: bool| {
             let others = scene.obstructions(q).into_iter().map(move |hit| {
                 let other = self.group.pair_of(self.task, hit.contact.pair.obstacle)?;
-                let before = if ahead { Before(other, self.pair) } else { Before(self.pair, other) };
+                let before = if ahead { Precedence(other, self.pair) } else { Precedence(self.pair, other) };
                 (other != self.pair).then_some(before)
             });
-            others.collect::<Option<Vec<Before>>>()
+            others.collect::<Option<Vec<Precedence>>>()
         };
         Some([hit(before, true)?, hit(after, false)?].concat())
     }

@@ -9,7 +9,7 @@ mod walk;
 use super::answer::Leg;
 use super::heuristic::{Heuristic, stops};
 use super::least_time::least_time;
-use super::legs::Legs;
+use super::motion_cache::MotionCache;
 use super::state::State;
 use condition::Condition;
 use cplan_core::model::Arm;
@@ -19,13 +19,13 @@ use tour::Tour;
 use walk::{Layer, advance, walk};
 
 /// Largest number of paths examined for an order: some seconds of work.
-const MOST_WAYS: usize = 20_000;
+const MAX_EXAMINED_PATHS: usize = 20_000;
 
 /// Number of proposed orders of a group before one is built pair by pair.
-const PROPOSALS: usize = 64;
+const MAX_PROPOSALS: usize = 64;
 
 /// Largest number of pairs of a group for which the ends of motions are examined in advance.
-const MOST_ENDS: usize = 64;
+const MAX_PAIRS_WITH_ENDS: usize = 64;
 
 /// The groups of a task whose order is free, each with one order.
 pub(super) struct Orders<'a> {
@@ -81,27 +81,27 @@ impl<'a> Orders<'a> {
     }
 
     /// Returns the task in these orders.
-    pub fn settled(&self) -> Task {
+    pub fn in_chosen_order(&self) -> Task {
         self.with_origins().0
     }
 
     fn with_origins(&self) -> (Task, Vec<Origin>) {
-        let mut settled = Task { items: Vec::new(), ..self.task.clone() };
+        let mut in_chosen_order = Task { items: Vec::new(), ..self.task.clone() };
         let mut origins = Vec::new();
         let mut groups = self.groups.iter().enumerate();
         for item in &self.task.items {
             let Item::AnyOrder(pairs) = item else {
-                settled.items.push(item.clone());
+                in_chosen_order.items.push(item.clone());
                 origins.push(None);
                 continue;
             };
             let Some((number, group)) = groups.next() else { continue };
             for (before, &pair) in group.order.iter().enumerate() {
-                settled.items.extend(pairs[pair].clone().map(Item::Step));
+                in_chosen_order.items.extend(pairs[pair].clone().map(Item::Step));
                 origins.extend([Some((number, before)); 2]);
             }
         }
-        (settled, origins)
+        (in_chosen_order, origins)
     }
 
     /// Returns the order of each group, as indices of pairs.
@@ -111,13 +111,13 @@ impl<'a> Orders<'a> {
 
     /// Returns a lower bound on the seconds of the task in these orders.
     pub fn least_seconds(&self) -> f64 {
-        let settled = self.settled();
-        let start = State::at_start(&settled);
-        Heuristic::new(&settled).remaining(start.q, start.progress)
+        let in_chosen_order = self.in_chosen_order();
+        let start = State::at_start(&in_chosen_order);
+        Heuristic::new(&in_chosen_order).remaining(start.q, start.progress)
     }
 
     /// Takes the orders of `other`.
-    pub fn take_over(&mut self, other: &Self) {
+    pub fn adopt(&mut self, other: &Self) {
         for (group, other) in self.groups.iter_mut().zip(&other.groups) {
             group.order.clone_from(&other.order);
         }
@@ -125,8 +125,8 @@ impl<'a> Orders<'a> {
 
     /// Learns the durations of motions that have been planned in these orders.
     pub fn learn_times(&mut self, arm: &Arm, legs: &[Leg]) {
-        let (settled, origins) = self.with_origins();
-        let steps = settled.items.iter().zip(origins).filter(|(item, _)| matches!(item, Item::Step(_)));
+        let (in_chosen_order, origins) = self.with_origins();
+        let steps = in_chosen_order.items.iter().zip(origins).filter(|(item, _)| matches!(item, Item::Step(_)));
         let mut before = None;
         for (leg, (_, origin)) in legs.iter().zip(steps) {
             let path = leg.timed.curve.curve().path();
@@ -136,7 +136,9 @@ impl<'a> Orders<'a> {
                 let group = &mut self.groups[number];
                 let pair = group.order[at];
                 match (&mut group.tour, leg.step.action.picked(), before) {
-                    (Some(tour), Some(_), Some((last, other))) if last == number => tour.learn_way(other, pair, more),
+                    (Some(tour), Some(_), Some((last, other))) if last == number => {
+                        tour.learn_transfer(other, pair, more)
+                    }
                     (Some(tour), None, _) => tour.learn_carry(pair, more),
                     _ => {}
                 }
@@ -149,15 +151,15 @@ impl<'a> Orders<'a> {
 
     /// Finds other orders that seem faster by the known times, and that nothing rules out. Returns true if there are
     /// any.
-    pub fn improve(&mut self, legs: &mut Legs) -> bool {
-        for _ in 0..PROPOSALS {
+    pub fn improve(&mut self, legs: &mut MotionCache) -> bool {
+        for _ in 0..MAX_PROPOSALS {
             let before = self.order();
             let meets_all = self.groups.iter_mut().filter(|group| group.tour.is_some()).all(Group::propose);
             if !meets_all || self.order() == before {
                 return false;
             }
-            let (settled, origins) = self.with_origins();
-            let Err(failure) = walk(&settled, legs) else { return true };
+            let (in_chosen_order, origins) = self.with_origins();
+            let Err(failure) = walk(&in_chosen_order, legs) else { return true };
             let Some((number, at)) = origins[failure.item] else { return false };
             self.groups[number].learn(self.task, at, &failure.refusals);
         }
@@ -165,15 +167,15 @@ impl<'a> Orders<'a> {
     }
 
     /// Returns true if nothing known rules these orders out.
-    pub fn promising(&self, legs: &mut Legs) -> bool {
-        walk(&self.settled(), legs).is_ok()
+    pub fn promising(&self, legs: &mut MotionCache) -> bool {
+        walk(&self.in_chosen_order(), legs).is_ok()
     }
 
     /// Looks for orders that can be done.
-    pub fn search(&mut self, legs: &mut Legs, progress: &mut dyn FnMut(&str)) -> OrderSearch {
-        let most = legs.looked_at() + MOST_WAYS;
+    pub fn search(&mut self, legs: &mut MotionCache, progress: &mut dyn FnMut(&str)) -> OrderSearch {
+        let most = legs.examined_paths() + MAX_EXAMINED_PATHS;
         for group in &mut self.groups {
-            if group.pairs.len() <= MOST_ENDS {
+            if group.pairs.len() <= MAX_PAIRS_WITH_ENDS {
                 group.conditions = ends::conditions(self.task, group);
             }
             group.propose();
@@ -181,26 +183,26 @@ impl<'a> Orders<'a> {
         let mut proposals = vec![0; self.groups.len()];
         let mut built = vec![false; self.groups.len()];
         loop {
-            let (settled, origins) = self.with_origins();
-            let Err(failure) = walk(&settled, legs) else { return OrderSearch::Promising };
+            let (in_chosen_order, origins) = self.with_origins();
+            let Err(failure) = walk(&in_chosen_order, legs) else { return OrderSearch::Promising };
             let Some((number, before)) = origins[failure.item] else { return OrderSearch::Elsewhere };
             let group = &mut self.groups[number];
             let learned = group.learn(self.task, before, &failure.refusals);
             let stuck = OrderSearch::Stuck { item: group.item, pairs: learned };
-            if built[number] || legs.looked_at() > most {
+            if built[number] || legs.examined_paths() > most {
                 return stuck;
             }
             proposals[number] += 1;
-            if proposals[number] <= PROPOSALS && group.propose() {
+            if proposals[number] <= MAX_PROPOSALS && group.propose() {
                 progress(&format!("order {} of {} pairs", proposals[number] + 1, group.pairs.len()));
                 continue;
             }
             built[number] = true;
             progress("building an order pair by pair");
             let first = origins.iter().position(|origin| matches!(origin, Some((group, _)) if *group == number));
-            let entry = entered(&settled, legs, first.unwrap_or(0));
+            let entry = entered(&in_chosen_order, legs, first.unwrap_or(0));
             let group = &mut self.groups[number];
-            match entry.and_then(|layer| Build::new(self.task, group, legs, most).order(&layer)) {
+            match entry.and_then(|layer| OrderBuilder::new(self.task, group, legs, most).order(&layer)) {
                 Some(order) => group.order = order,
                 None => return stuck,
             }
@@ -230,7 +232,7 @@ impl Group<'_> {
 
     /// Learns from the pair that cannot be done after the first `before` pairs. Returns it, and the pairs that its
     /// condition involves.
-    fn learn(&mut self, task: &Task, before: usize, refusals: &[super::legs::Refusal]) -> Vec<usize> {
+    fn learn(&mut self, task: &Task, before: usize, refusals: &[super::motion_cache::Refusal]) -> Vec<usize> {
         let pair = self.order[before];
         let mut done = vec![false; self.pairs.len()];
         self.order[..before].iter().for_each(|&pair| done[pair] = true);
@@ -244,7 +246,7 @@ impl Group<'_> {
 }
 
 /// Returns the states before an item of a task in a fixed order.
-fn entered(task: &Task, legs: &mut Legs, item: usize) -> Option<Layer> {
+fn entered(task: &Task, legs: &mut MotionCache, item: usize) -> Option<Layer> {
     let mut layer = vec![(0.0, State::at_start(task))];
     while layer[0].1.progress.item < item {
         layer = advance(task, legs, &layer).ok()?;
@@ -253,9 +255,9 @@ fn entered(task: &Task, legs: &mut Legs, item: usize) -> Option<Layer> {
 }
 
 /// Builds an order pair by pair. Pairs that come first in the proposed order are tried first.
-struct Build<'a, 'g> {
+struct OrderBuilder<'a, 'g> {
     group: &'a mut Group<'g>,
-    legs: &'a mut Legs,
+    legs: &'a mut MotionCache,
     most: usize,
     /// Dead ends: the set of pairs done, and the last of them.
     dead: BTreeSet<(Vec<bool>, Option<usize>)>,
@@ -263,8 +265,8 @@ struct Build<'a, 'g> {
     alone: Task,
 }
 
-impl<'a, 'g> Build<'a, 'g> {
-    fn new(task: &'a Task, group: &'a mut Group<'g>, legs: &'a mut Legs, most: usize) -> Self {
+impl<'a, 'g> OrderBuilder<'a, 'g> {
+    fn new(task: &'a Task, group: &'a mut Group<'g>, legs: &'a mut MotionCache, most: usize) -> Self {
         let alone = Task { items: Vec::new(), ..task.clone() };
         Self { group, legs, most, dead: BTreeSet::new(), alone }
     }
@@ -285,7 +287,7 @@ impl<'a, 'g> Build<'a, 'g> {
         }
         let preferred = self.group.order.clone();
         for pair in preferred.into_iter().filter(|&pair| !done[pair]).collect::<Vec<_>>() {
-            if self.legs.looked_at() > self.most {
+            if self.legs.examined_paths() > self.most {
                 return false;
             }
             let Some(next) = self.with(layer, pair) else { continue };

@@ -5,17 +5,17 @@ use super::super::least_time::least_time;
 use super::condition::Condition;
 use cplan_core::model::Arm;
 use cplan_core::space::Configuration;
-use cplan_geometry::Ordered;
+use cplan_geometry::OrderedF64;
 use cplan_handling::Task;
 
 /// Longest run of pairs that is moved elsewhere.
-const LONGEST_RUN: usize = 3;
+const MAX_MOVED_RUN: usize = 3;
 
 /// Largest total number of pairs in all orders that are evaluated: some tenths of a second of work.
-const MOST_VISITS: usize = 20_000_000;
+const MAX_EVALUATED_PAIRS: usize = 20_000_000;
 
 /// Largest number of pairs for which the table of times between them fits in memory. Larger groups keep their order.
-const MOST_PAIRS: usize = 300;
+const MAX_TABLE_PAIRS: usize = 300;
 
 /// The times of a group without obstacles, by IK solutions, and the extra times learned since. An unknown IK solution
 /// counts as one that takes no time.
@@ -25,7 +25,7 @@ pub(super) struct Tour {
     /// From the pick of each pair to its place, by the IK solutions of pick and place.
     carry: Vec<Vec<Vec<f64>>>,
     /// From the place of one pair to the pick of another.
-    way: Vec<Vec<Vec<Vec<f64>>>>,
+    transfer: Vec<Vec<Vec<Vec<f64>>>>,
     /// From the place of each pair to the step after the group.
     exit: Vec<Vec<f64>>,
     /// Extra seconds of motions that have been planned, beyond these times: for carrying each pair, ...
@@ -36,14 +36,14 @@ pub(super) struct Tour {
 }
 
 /// Merit of an order: the number of violated conditions, then seconds.
-pub(super) type Merit = (usize, Ordered);
+pub(super) type Merit = (usize, OrderedF64);
 
 impl Tour {
     /// Creates the tour for the group with index `index` in a task with these stops. `None` if that item is not a
     /// group, or is too large.
     pub fn new(task: &Task, stops: &[Stops], index: usize) -> Option<Self> {
         let Stops::Pairs(pairs) = &stops[index] else { return None };
-        if pairs.len() > MOST_PAIRS {
+        if pairs.len() > MAX_TABLE_PAIRS {
             return None;
         }
         let entry = match index.checked_sub(1).map(|before| &stops[before]) {
@@ -65,7 +65,7 @@ impl Tour {
         Some(Self {
             entry: pairs.iter().map(|[pick, _]| least(to_stop(entry.as_deref(), pick))).collect(),
             carry: pairs.iter().map(|[pick, place]| to_stop(pick.ik_solutions(), place)).collect(),
-            way: pairs
+            transfer: pairs
                 .iter()
                 .map(|[_, place]| pairs.iter().map(|[pick, _]| to_stop(place.ik_solutions(), pick)).collect())
                 .collect(),
@@ -88,7 +88,7 @@ impl Tour {
 
     /// Records that the motion from one pair's place to another's pick takes `more` seconds longer than without
     /// obstacles.
-    pub fn learn_way(&mut self, from: usize, to: usize, more: f64) {
+    pub fn learn_transfer(&mut self, from: usize, to: usize, more: f64) {
         self.way_more[from][to] = Some(more);
         let known = || self.way_more.iter().flatten().flatten();
         self.unknown_more = known().sum::<f64>() / (2 * known().count()) as f64;
@@ -103,12 +103,12 @@ impl Tour {
         for (at, &pair) in order.iter().enumerate() {
             through(&mut times, &self.carry[pair], &mut next);
             if let Some(&following) = order.get(at + 1) {
-                through(&mut times, &self.way[pair][following], &mut next);
+                through(&mut times, &self.transfer[pair][following], &mut next);
             } else {
                 times.iter_mut().zip(&self.exit[pair]).for_each(|(time, exit)| *time += exit);
             }
         }
-        let more = |way: &[usize]| self.way_more[way[0]][way[1]].unwrap_or(self.unknown_more);
+        let more = |transfer: &[usize]| self.way_more[transfer[0]][transfer[1]].unwrap_or(self.unknown_more);
         let more = order.windows(2).map(more).chain(order.iter().map(|&pair| self.carry_more[pair]));
         times.into_iter().fold(f64::INFINITY, f64::min) + more.sum::<f64>()
     }
@@ -118,22 +118,22 @@ impl Tour {
         let mut places = vec![0; order.len()];
         order.iter().enumerate().for_each(|(at, &pair)| places[pair] = at);
         let broken = conditions.iter().filter(|condition| !condition.holds(&places)).count();
-        (broken, Ordered(if broken > most { f64::INFINITY } else { self.seconds(order) }))
+        (broken, OrderedF64(if broken > most { f64::INFINITY } else { self.seconds(order) }))
     }
 
     /// Improves the order until no change helps, taking the first improvement found. A change moves a run of up to
-    /// [`LONGEST_RUN`] pairs elsewhere, or reverses a run.
+    /// [`MAX_MOVED_RUN`] pairs elsewhere, or reverses a run.
     pub fn improved(&self, mut order: Vec<usize>, conditions: &[Condition]) -> (Vec<usize>, Merit) {
         let count = order.len();
         let mut best = self.merit(&order, conditions, usize::MAX);
-        let mut left = MOST_VISITS / count.max(1);
+        let mut left = MAX_EVALUATED_PAIRS / count.max(1);
         let mut tried = order.clone();
         loop {
             let before = best;
             for first in 0..count {
                 for last in first..count {
                     let run = last - first + 1;
-                    let moves = if run <= LONGEST_RUN { count - run + 1 } else { 0 };
+                    let moves = if run <= MAX_MOVED_RUN { count - run + 1 } else { 0 };
                     // All of these changes start from the same order.
                     let from = order.clone();
                     for change in 0..=moves {
@@ -170,8 +170,8 @@ fn through(times: &mut Vec<f64>, stage: &[Vec<f64>], next: &mut Vec<f64>) {
     next.clear();
     next.resize(stage.first().map_or(0, Vec::len), f64::INFINITY);
     for (time, row) in times.iter().zip(stage) {
-        for (least, way) in next.iter_mut().zip(row) {
-            *least = least.min(time + way);
+        for (least, transfer) in next.iter_mut().zip(row) {
+            *least = least.min(time + transfer);
         }
     }
     std::mem::swap(times, next);

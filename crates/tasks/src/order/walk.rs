@@ -1,16 +1,16 @@
 //! Tries steps in a fixed order, without planning motions.
 
 use super::super::least_time::least_time;
-use super::super::legs::{Legs, Refusal};
+use super::super::motion_cache::{MotionCache, Refusal};
 use super::super::state::State;
-use cplan_geometry::Ordered;
+use cplan_geometry::OrderedF64;
 use cplan_handling::Task;
 use cplan_interrupt::checkpoint;
 use std::collections::BTreeMap;
 
 /// Largest number of states that are followed at once, the earliest first. That covers all states with level payloads,
 /// whose places do not depend on IK solutions.
-const WIDTH: usize = 8;
+const MAX_STATES: usize = 8;
 
 /// States of the world after the same steps, each with the least seconds to it. Never empty.
 pub(super) type Layer = Vec<(f64, State)>;
@@ -26,7 +26,7 @@ pub(super) struct Failure {
 ///
 /// # Errors
 /// Returns the first item that cannot be done.
-pub(super) fn walk(task: &Task, legs: &mut Legs) -> Result<(), Failure> {
+pub(super) fn walk(task: &Task, legs: &mut MotionCache) -> Result<(), Failure> {
     let mut layer = vec![(0.0, State::at_start(task))];
     while !layer[0].1.is_done(task) {
         let item = layer[0].1.progress.item;
@@ -39,20 +39,20 @@ pub(super) fn walk(task: &Task, legs: &mut Legs) -> Result<(), Failure> {
 ///
 /// # Errors
 /// Returns the reasons if there are no such states.
-pub(super) fn advance(task: &Task, legs: &mut Legs, layer: &Layer) -> Result<Layer, Vec<Refusal>> {
+pub(super) fn advance(task: &Task, legs: &mut MotionCache, layer: &Layer) -> Result<Layer, Vec<Refusal>> {
     // By the key of the state, so that each state is reached once.
     let mut next: BTreeMap<Vec<i64>, (f64, State)> = BTreeMap::new();
     let mut refusals = Vec::new();
     for (seconds, state) in layer {
         checkpoint();
-        for way in state.candidates(task).into_iter().flat_map(|candidates| candidates.ways) {
-            let after = state.after(task, &way, way.to);
-            let seconds = seconds + least_time(&task.arm, state.q, way.to, way.step.speed);
+        for candidate in state.candidates(task).into_iter().flat_map(|candidates| candidates.ways) {
+            let after = state.after(task, &candidate, candidate.to);
+            let seconds = seconds + least_time(&task.arm, state.q, candidate.to, candidate.step.speed);
             let key = after.key(task);
             if next.get(&key).is_some_and(|(known, _)| *known <= seconds) {
                 continue;
             }
-            match legs.promising(task, state, &way) {
+            match legs.promising(task, state, &candidate) {
                 Ok(()) => {
                     next.insert(key, (seconds, after));
                 }
@@ -64,7 +64,7 @@ pub(super) fn advance(task: &Task, legs: &mut Legs, layer: &Layer) -> Result<Lay
         return Err(refusals);
     }
     let mut layer: Layer = next.into_values().collect();
-    layer.sort_by_key(|(seconds, _)| Ordered(*seconds));
-    layer.truncate(WIDTH);
+    layer.sort_by_key(|(seconds, _)| OrderedF64(*seconds));
+    layer.truncate(MAX_STATES);
     Ok(layer)
 }

@@ -2,17 +2,17 @@
 
 use super::picture::{contours, title_of};
 use super::summary::{Line, configuration, goal_lines, laid_out};
-use crate::{Picture, Stuck, View};
+use crate::{BlockingView, Picture, View};
 use cplan_core::model::{Outcome, Scene};
 use cplan_explain::{
-    Among, BlockedEnd, BlockingSet, Bottleneck, Change, Closed, Cure, Element, End, Explanation, OutOfReach, Shaped,
-    TIME_LIMIT, Target,
+    BlockedEnd, BlockingSet, Bottleneck, Change, ChangeContext, ChangeKind, Element, End, Explanation,
+    FoundExplanation, InfeasibleExplanation, OutOfReach, TIME_LIMIT, Target,
 };
 use cplan_solver::BoundedPath;
-use cplan_text::{at_least, at_most, fixed, listed, nonzero, percent, short};
+use cplan_text::{fixed, listed, nonzero, percent, round_down, round_up, short};
 
 /// Factor by which more time is suggested for an explanation that was stopped.
-const MORE_TIME: f64 = 12.0;
+const TIME_LIMIT_FACTOR: f64 = 12.0;
 
 /// Returns the verdict, and then the reasons.
 #[must_use]
@@ -36,8 +36,8 @@ pub fn view(explanation: &Explanation) -> View {
     let question = &explanation.question;
     let goals = question.ends();
     let (path, proof) = match &explanation.outcome {
-        Outcome::Found(Shaped { answer, .. }) => (answer.path(), None),
-        Outcome::Infeasible(Closed { proof, .. }) => (None, proof.as_ref()),
+        Outcome::Found(FoundExplanation { answer, .. }) => (answer.path(), None),
+        Outcome::Infeasible(InfeasibleExplanation { proof, .. }) => (None, proof.as_ref()),
         Outcome::Unknown(_) => (None, None),
     };
     let picture = Picture {
@@ -55,7 +55,7 @@ pub fn view(explanation: &Explanation) -> View {
     if let Outcome::Infeasible(closed) = &explanation.outcome {
         let blockers = closed.sets.iter().flat_map(BlockingSet::elements).filter_map(Element::obstacle).collect();
         let at = closed.bottleneck.as_ref().map(|bottleneck| (bottleneck.at, bottleneck.point));
-        return view.with_stuck(Stuck { blockers, at });
+        return view.with_blocking(BlockingView { blockers, at });
     }
     view
 }
@@ -83,7 +83,7 @@ fn verdict(explanation: &Explanation) -> String {
 /// Returns a note if the time was up too early, with the option for more time.
 fn stopped(explanation: &Explanation) -> Option<String> {
     let limit = explanation.question.time_limit().filter(|_| explanation.is_stopped)?.as_secs_f64();
-    let more = short((MORE_TIME * limit).max(TIME_LIMIT.as_secs_f64()));
+    let more = short((TIME_LIMIT_FACTOR * limit).max(TIME_LIMIT.as_secs_f64()));
     Some(format!("after {limit} s, before the explanation was complete; --time {more} allows more time"))
 }
 
@@ -101,7 +101,7 @@ fn facts(explanation: &Explanation) -> Vec<Line> {
     }
 }
 
-fn found(scene: &Scene, Shaped { answer, savings }: &Shaped) -> Vec<Line> {
+fn found(scene: &Scene, FoundExplanation { answer, savings }: &FoundExplanation) -> Vec<Line> {
     let mut lines = Vec::new();
     if let Some(bound) = answer.bound() {
         let gap = percent(bound.gap());
@@ -109,7 +109,7 @@ fn found(scene: &Scene, Shaped { answer, savings }: &Shaped) -> Vec<Line> {
     }
     for saving in savings {
         let (what, length) = (saving.element.describe(scene), saving.length);
-        let (least, most) = (at_least(saving.at_least, 4), at_most(saving.at_most, 4));
+        let (least, most) = (round_down(saving.at_least, 4), round_up(saving.at_most, 4));
         let by = format!("without {what} it would be {length:.4}: shorter by {least} at least, {most} at most");
         lines.push(("shaped by", by));
     }
@@ -120,13 +120,13 @@ fn found(scene: &Scene, Shaped { answer, savings }: &Shaped) -> Vec<Line> {
         let at = configuration(scene.arm(), nearest.at);
         lines.push((
             "tightest",
-            format!("at least {} m, between {between} at {at}", at_least(certified.clearance(), 6)),
+            format!("at least {} m, between {between} at {at}", round_down(certified.clearance(), 6)),
         ));
     }
     lines
 }
 
-fn infeasible(scene: &Scene, closed: &Closed) -> Vec<Line> {
+fn infeasible(scene: &Scene, closed: &InfeasibleExplanation) -> Vec<Line> {
     let mut lines: Vec<Line> = closed.ends.iter().flat_map(|end| end_lines(scene, end)).collect();
     lines.extend(closed.out_of_reach.iter().map(|out| ("reach", misses(scene, out))));
     for (number, set) in closed.sets.iter().enumerate() {
@@ -136,7 +136,7 @@ fn infeasible(scene: &Scene, closed: &Closed) -> Vec<Line> {
         }
         let boxes = set.proof.as_ref().map_or_else(
             || "the start or the goal collides".into(),
-            |proof| match proof.stuck().len() {
+            |proof| match proof.collision_boxes().len() {
                 1 => "1 collision box proves it".into(),
                 n => format!("{n} collision boxes prove it"),
             },
@@ -156,7 +156,7 @@ fn infeasible(scene: &Scene, closed: &Closed) -> Vec<Line> {
         let changes = set.blockers.iter().flat_map(|blocker| &blocker.changes);
         lines.extend(changes.map(|change| ("opens", opens(scene, set, change))));
     }
-    lines.extend(closed.bottleneck.iter().map(|bottleneck| ("stuck", stuck(scene, bottleneck))));
+    lines.extend(closed.bottleneck.iter().map(|bottleneck| ("stuck", bottleneck_line(scene, bottleneck))));
     lines
 }
 
@@ -199,32 +199,34 @@ fn opens(scene: &Scene, set: &BlockingSet, change: &Change) -> String {
     let Change { element, cure, among, by } = change;
     let (what, unit) = (element.describe(scene), element.unit(scene.arm()));
     let how = match cure {
-        Cure::Moved { direction: [x, y] } => format!("{what} moved towards ({x:.3}, {y:.3}) by"),
-        Cure::Eroded => format!("{what} smaller on all sides by"),
-        Cure::Scaled { to } => format!("{what} scaled to {:.1} % about its centre, its farthest point by", 100.0 * to),
-        Cure::Widened => format!("{what} wider by"),
-        Cure::Lowered => format!("{what} lowered by"),
+        ChangeKind::Moved { direction: [x, y] } => format!("{what} moved towards ({x:.3}, {y:.3}) by"),
+        ChangeKind::Eroded => format!("{what} smaller on all sides by"),
+        ChangeKind::Scaled { to } => {
+            format!("{what} scaled to {:.1} % about its centre, its farthest point by", 100.0 * to)
+        }
+        ChangeKind::Widened => format!("{what} wider by"),
+        ChangeKind::Lowered => format!("{what} lowered by"),
     };
     let others: Vec<String> =
         set.elements().iter().filter(|other| *other != element).map(|other| other.describe(scene)).collect();
     let others = if others.is_empty() { "nothing else".into() } else { format!("only {}", others.join(", ")) };
-    let nothing_else = if *among == Among::Set { format!(", with {others} in the way") } else { String::new() };
+    let nothing_else = if *among == ChangeContext::Set { format!(", with {others} in the way") } else { String::new() };
     let is_length =
         !matches!(element, Element::Limit { joint, .. } if scene.arm().joints[*joint].joint_type.is_revolute());
     let digits = if is_length && by.opens < 0.01 { 6 } else { 4 };
-    let (open, shut) = (at_most(by.opens, digits), at_least(by.closed, digits));
+    let (open, shut) = (round_up(by.opens, digits), round_down(by.closed, digits));
     format!("{how} {open} {unit} opens a path (certified), by {shut} {unit} does not (proven){nothing_else}")
 }
 
 /// Describes a bottleneck.
-fn stuck(scene: &Scene, bottleneck: &Bottleneck) -> String {
+fn bottleneck_line(scene: &Scene, bottleneck: &Bottleneck) -> String {
     let clearance = scene.workspace().clearance;
-    let lacking = bottleneck.lacking(clearance);
+    let lacking = bottleneck.missing_distance(clearance);
     let at = configuration(scene.arm(), bottleneck.at);
     let point = bottleneck.point;
     let between: Vec<String> = bottleneck.hits.iter().map(|hit| scene.describe(hit.contact.pair)).collect();
     let between = listed(&between);
-    let (open, shut) = (at_most(bottleneck.by.opens, 4), at_least(bottleneck.by.closed, 4));
+    let (open, shut) = (round_up(bottleneck.by.opens, 4), round_down(bottleneck.by.closed, 4));
     format!(
         "at {at}, near ({}, {}) m: too narrow by {} m ({between}); a path opens if all shapes shrink by {open} m, but not \
          by {shut} m",

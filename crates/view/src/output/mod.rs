@@ -15,8 +15,8 @@ mod summary;
 mod task_summary;
 
 pub use cspace::{
-    Axis, Boxes, CSpace, CSpaceFormat, CSpaces, Cells, FieldGrid, FreeRegion, ObstacleRegion, Polygons, Roadmap,
-    Values, Way, cspace_schema,
+    Axis, Boxes, CSpace, CSpaceFormat, CSpaces, Cells, FieldGrid, FreeRegion, ObstacleRegion, PathData, Polygons,
+    Roadmap, Values, cspace_schema,
 };
 pub use file::{FileFormat, SaveError};
 pub use picture::{PictureFormat, PictureFormatError};

@@ -1,19 +1,19 @@
 //! The summary of a single motion for people.
 
-use super::summary::{Line, Told, configuration, field, goal_lines, non_empty, torque};
+use super::summary::{Line, SummaryLines, configuration, field, goal_lines, non_empty, torque};
 use cplan_core::model::{Arm, MotionProblem, Outcome, Scene};
 use cplan_core::planner::Proposal;
 use cplan_core::space::{Configuration, Metric};
 use cplan_engine::{Motion, Plan};
-use cplan_explain::{BlockingSet, Question, blocking_set};
+use cplan_explain::{BlockingSet, MotionQuestion, blocking_set};
 use cplan_motion::CertifiedCurve;
-use cplan_motion::{Fastest, Timed};
+use cplan_motion::{DurationOptimality, TimedMotion};
 use cplan_movers::{Timing, Wait};
 use cplan_solver::{Answer, Bound, GridSpace, Space};
-use cplan_text::{at_least, counted, percent};
+use cplan_text::{counted, percent, round_down};
 
 /// Returns the planner's result and work, and the query.
-pub(super) fn told(plan: &Plan, problem: &MotionProblem, answer: &Answer<Motion>) -> Told {
+pub(super) fn summary_lines(plan: &Plan, problem: &MotionProblem, answer: &Answer<Motion>) -> SummaryLines {
     let (scene, arm) = (problem.scene(), plan.arm());
     let moving = match scene.loose().len() {
         0 => String::new(),
@@ -25,7 +25,7 @@ pub(super) fn told(plan: &Plan, problem: &MotionProblem, answer: &Answer<Motion>
         ("start", configuration(arm, problem.start())),
     ];
     asked.extend(goal_lines(arm, problem.goals()));
-    Told { found: found(plan, problem, answer), asked }
+    SummaryLines { found: found(plan, problem, answer), asked }
 }
 
 fn found(plan: &Plan, problem: &MotionProblem, answer: &Answer<Motion>) -> Vec<Line> {
@@ -37,7 +37,7 @@ fn found(plan: &Plan, problem: &MotionProblem, answer: &Answer<Motion>) -> Vec<L
     let graph = plan.options().planner.graph().map(|graph| format!("{} graph", graph.name()));
     let search: Vec<String> = plan.search().iter().map(ToString::to_string).chain(graph).collect();
     let search = (!search.is_empty()).then(|| format!(" ({})", search.join(", ")));
-    let space = plan.options().planner.space().and_then(GridSpace::told).map(|space| format!(", {space}"));
+    let space = plan.options().planner.space().and_then(GridSpace::reported_name).map(|space| format!(", {space}"));
     let how = search.unwrap_or_default() + &space.unwrap_or_default();
     lines.push(("planner", format!("{}{how}: {}", answer.method, answer.run.size)));
     lines.extend(cells(plan, answer));
@@ -50,7 +50,7 @@ fn found(plan: &Plan, problem: &MotionProblem, answer: &Answer<Motion>) -> Vec<L
 /// Returns the lines of the motion that was found, and the facts that are proven of it.
 fn motion_lines(problem: &MotionProblem, answer: &Answer<Motion>, motion: &Motion) -> Vec<Line> {
     let (scene, arm, path) = (problem.scene(), problem.scene().arm(), motion.path.path());
-    let Timed { curve, trajectory } = &motion.timed;
+    let TimedMotion { curve, trajectory } = &motion.timed;
     let kind = if answer.method.has_own_path() { format!(", {} path", answer.path_kind) } else { String::new() };
     let pieces = counted(path.segments().count(), "straight piece");
     let mut lines = vec![("result", format!("found and certified: {pieces}, length {:.4}{kind}", path.length()))];
@@ -82,31 +82,32 @@ fn exact(plan: &Plan, answer: &Answer<Motion>) -> Option<Line> {
     let Proposal::Found(path) = &answer.run.outcome else { return None };
     (plan.options().planner.is_exact() && is_found).then(|| {
         let length = path.length();
-        let told = match answer.history[..] {
+        let summary_lines = match answer.history[..] {
             [] => "the path was planned among the exact polygons and touches none".to_owned(),
             _ => format!(
                 "length {length:.4} among the exact polygons, but that path touches them, which is contact; the certified \
                  path avoids slightly grown polygons"
             ),
         };
-        ("exact", told)
+        ("exact", summary_lines)
     })
 }
 
 /// Number of boxes that are examined for each decision about blocking obstacles. `cplan explain` does longer searches.
-const BOXES: usize = 500;
+const BOXES_PER_DECISION: usize = 500;
 
 /// Largest number of pairs of shapes; with more of them, the decisions can take seconds.
-const FEW_PAIRS: usize = 1000;
+const MAX_PAIRS: usize = 1000;
 
 /// Returns the obstacles that block the motion, if there is no motion and they can be found within milliseconds. `cplan
 /// explain` reports more.
 pub(super) fn blocked_by(problem: &MotionProblem, answer: &Answer<Motion>) -> Option<Line> {
     let (proof, scene) = (answer.outcome.infeasible()?, problem.scene());
-    let is_small = scene.pairs().len() <= FEW_PAIRS;
-    let set = is_small.then(|| blocking_set(&Question::from(problem), Some(proof.clone()), [BOXES; 2]));
-    let told = set.filter(BlockingSet::is_irreducible).map(|set| set.describe(scene));
-    Some(("blocked by", told.unwrap_or_else(|| "unknown so far; `cplan explain` takes more time".into())))
+    let is_small = scene.pairs().len() <= MAX_PAIRS;
+    let set =
+        is_small.then(|| blocking_set(&MotionQuestion::from(problem), Some(proof.clone()), [BOXES_PER_DECISION; 2]));
+    let summary_lines = set.filter(BlockingSet::is_irreducible).map(|set| set.describe(scene));
+    Some(("blocked by", summary_lines.unwrap_or_else(|| "unknown so far; `cplan explain` takes more time".into())))
 }
 
 /// Describes the clearance of the motion, and the nearest place.
@@ -114,7 +115,7 @@ fn clearance(scene: &Scene, curve: &CertifiedCurve) -> String {
     match curve.nearest() {
         Some(nearest) => format!(
             "{} m proven; closest: {} at {}",
-            at_least(curve.clearance(), 6),
+            round_down(curve.clearance(), 6),
             scene.describe(nearest.contact.pair),
             configuration(scene.arm(), nearest.at)
         ),
@@ -126,7 +127,7 @@ fn clearance(scene: &Scene, curve: &CertifiedCurve) -> String {
 pub(super) fn among_movers(arm: &Arm, timing: &Timing) -> Vec<Line> {
     let Timing { obstacles, ways, waits, clearance, free_until } = timing;
     let kept =
-        clearance.map_or_else(|| "all of them out of reach".into(), |kept| format!("{} m proven", at_least(kept, 6)));
+        clearance.map_or_else(|| "all of them out of reach".into(), |kept| format!("{} m proven", round_down(kept, 6)));
     let stays = free_until.map_or_else(|| "for ever".into(), |until| format!("until {until:.3} s"));
     let tried = counted(*ways, "route");
     let mut lines = vec![(
@@ -155,10 +156,10 @@ fn corners(curve: &CertifiedCurve) -> String {
 }
 
 /// Describes how near the motion is to the fastest.
-fn least_time(fastest: &Fastest) -> String {
-    let Fastest { lower_bound, gap, .. } = *fastest;
+fn least_time(fastest: &DurationOptimality) -> String {
+    let DurationOptimality { lower_bound, gap, .. } = *fastest;
     let longer = gap.map_or_else(String::new, |gap| format!(", so at most {} longer than the fastest", percent(gap)));
-    format!("proven: no motion takes less than {} s{longer}", at_least(lower_bound, 3))
+    format!("proven: no motion takes less than {} s{longer}", round_down(lower_bound, 3))
 }
 
 /// Describes how near the path is to the optimum.
@@ -169,6 +170,6 @@ fn optimum(bound: &Bound) -> String {
         Metric::Weighted { weights: [a, b] } => format!("weighted length {upper:.4} (weights {a}, {b})"),
         Metric::Time { .. } => format!("{upper:.4} s at top speed"),
     };
-    let (lower, gap) = (at_least(lower, 4), percent(bound.gap()));
+    let (lower, gap) = (round_down(lower, 4), percent(bound.gap()));
     format!("{measure}; proven: none below {lower}, so at most {gap} longer than the shortest")
 }

@@ -8,7 +8,7 @@ use cplan_engine::{Detail, Motion, Plan};
 use cplan_handling::{Task, TimedScene};
 use cplan_solver::{Answer, Options};
 use cplan_tasks::TaskAnswer;
-use cplan_text::{at_least, counted};
+use cplan_text::{counted, round_down};
 use std::path::Path;
 use thiserror::Error;
 
@@ -159,7 +159,7 @@ fn motion_view(plan: &Plan, problem: &MotionProblem, answer: &Answer<Motion>, co
     let scene = problem.scene();
     let timed = TimedScene { scene, ..plan.problem().timed() };
     let moments =
-        plan.duration().map_or_else(Vec::new, |duration| contours_in_time(timed, [0.0, duration], MOST_MOMENTS));
+        plan.duration().map_or_else(Vec::new, |duration| contours_in_time(timed, [0.0, duration], MAX_MOMENTS));
     let method = answer.method;
     let outline = answer.outcome.found().map(|motion| motion.timed.curve.outline());
     let detail = match &answer.outcome {
@@ -221,7 +221,7 @@ pub fn status(status: Status) -> &'static str {
 
 /// Describes the proven distance of a motion from obstacles.
 fn kept(clearance: Option<f64>) -> String {
-    clearance.map_or("no obstacle within reach".into(), |c| format!("proven clearance {} m", at_least(c, 6)))
+    clearance.map_or("no obstacle within reach".into(), |c| format!("proven clearance {} m", round_down(c, 6)))
 }
 
 /// Returns a title from workspace and robot.
@@ -234,7 +234,7 @@ pub fn title_of(scene: &Scene) -> String {
 }
 
 /// Largest number of times of a motion at which C-obstacles of moving obstacles are drawn.
-const MOST_MOMENTS: usize = 60;
+const MAX_MOMENTS: usize = 60;
 
 /// Returns C-obstacles of moving obstacles, some times per second, at most at this many times.
 fn contours_in_time(TimedScene { scene, courses }: TimedScene, [from, to]: [f64; 2], most: usize) -> Moments {

@@ -5,13 +5,13 @@ use cplan_core::model::{Obstacle, Part};
 use cplan_core::space::Configuration;
 use cplan_engine::{Detail, Plan};
 use cplan_geometry::Pose;
-use cplan_handling::{Course, Task};
+use cplan_handling::{ObstacleTrajectory, Task};
 use cplan_motion::{Body, Solid, Stage};
 use cplan_tasks::{Event, Leg, TaskAnswer};
 
-/// Number of the first link (`LINKS`) and of the first object (`OBJECTS`) among the bodies. The workspace has number 0.
-const LINKS: usize = 1;
-const OBJECTS: usize = 3;
+/// Number of the first link (`FIRST_LINK`) and of the first object (`FIRST_OBJECT`) among the bodies. The workspace has number 0.
+const FIRST_LINK: usize = 1;
+const FIRST_OBJECT: usize = 3;
 
 /// Returns the bodies and their poses during the motion; `None` if there is no motion.
 pub(super) fn stage(plan: &Plan) -> Option<Stage> {
@@ -36,7 +36,7 @@ pub(super) fn stage(plan: &Plan) -> Option<Stage> {
     }
     for (&time, &q) in trajectory.time.iter().zip(&trajectory.position) {
         let poses = arm.poses(q.into());
-        let moved = poses.into_iter().enumerate().map(|(link, pose)| (time, LINKS + link, pose, 0.0));
+        let moved = poses.into_iter().enumerate().map(|(link, pose)| (time, FIRST_LINK + link, pose, 0.0));
         stage.poses.extend(moved);
     }
     match plan.detail() {
@@ -58,7 +58,7 @@ pub(super) fn stage(plan: &Plan) -> Option<Stage> {
 fn with_movers<'a>(
     stage: &mut Stage,
     standing: usize,
-    movers: impl Iterator<Item = (&'a Obstacle, &'a Course)>,
+    movers: impl Iterator<Item = (&'a Obstacle, &'a ObstacleTrajectory)>,
     times: &[f64],
 ) {
     for (number, (obstacle, course)) in movers.enumerate() {
@@ -79,12 +79,12 @@ fn with_objects(stage: &mut Stage, task: &Task, answer: &TaskAnswer, times: &[f6
             pieces: object.pieces.iter().map(|piece| (piece.clone(), object.heights)).collect(),
         };
         stage.bodies.push(Body { name: format!("object/{}", object.name), solids: vec![solid] });
-        stage.poses.push((0.0, OBJECTS + number, object.at, 0.0));
+        stage.poses.push((0.0, FIRST_OBJECT + number, object.at, 0.0));
         if let Some(course) = &object.course {
             let grasped = |leg: &Leg| leg.event_time().filter(|_| leg.event == Some(Event::Grasp { object: number }));
             let until = answer.legs.iter().find_map(grasped).unwrap_or(f64::INFINITY);
             let moves = times.iter().filter(|&&time| 0.0 < time && time <= until);
-            stage.poses.extend(moves.map(|&time| (time, OBJECTS + number, course.pose(time), 0.0)));
+            stage.poses.extend(moves.map(|&time| (time, FIRST_OBJECT + number, course.pose(time), 0.0)));
         }
     }
     for leg in &answer.legs {
@@ -92,11 +92,11 @@ fn with_objects(stage: &mut Stage, task: &Task, answer: &TaskAnswer, times: &[f6
             let lift = task.objects[object].lift;
             let motion = &leg.timed.trajectory;
             stage.poses.extend(motion.time.iter().zip(&motion.position).map(|(&time, &q)| {
-                (leg.begin + time, OBJECTS + object, payload.grip.pose(&task.arm, Configuration::from(q)), lift)
+                (leg.begin + time, FIRST_OBJECT + object, payload.grip.pose(&task.arm, Configuration::from(q)), lift)
             }));
         }
         if let (Some(Event::Release { object, pose }), Some(time)) = (leg.event, leg.event_time()) {
-            stage.poses.push((time, OBJECTS + object, pose, 0.0));
+            stage.poses.push((time, FIRST_OBJECT + object, pose, 0.0));
         }
     }
 }

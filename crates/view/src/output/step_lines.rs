@@ -1,12 +1,12 @@
 //! The steps of a task for people, one line per step.
 
-use cplan_text::{INDENT, counted, wrapped};
+use cplan_text::{SECOND_COLUMN, counted, wrapped};
 
 /// Width of a line in characters, so that it fits a terminal of 80 beside the summary's first column.
-const WIDTH: usize = 80 - INDENT;
+const LINE_WIDTH: usize = 80 - SECOND_COLUMN;
 
 /// Number of repetitions of a step that are shown; of the others only the number is shown.
-const SHOWN_CYCLES: usize = 3;
+const MAX_SHOWN_CYCLES: usize = 3;
 
 /// A step of a task, for people.
 pub struct StepLine {
@@ -21,19 +21,19 @@ pub struct StepLine {
 /// Returns the lines, with one line for each run of later cycles. If a table of all columns is too wide, payload and
 /// motion are in the line below the action.
 pub fn step_lines(steps: &[StepLine]) -> Vec<String> {
-    let shown = |step: &StepLine| step.matters || step.cycle <= SHOWN_CYCLES;
+    let shown = |step: &StepLine| step.matters || step.cycle <= MAX_SHOWN_CYCLES;
     let width = |k: usize| {
         let rows = steps.iter().filter(|step| shown(step));
         rows.map(|step| step.columns[k].chars().count()).max().unwrap_or(0)
     };
     let [a, b, c, d] = [0, 1, 2, 3].map(width);
-    let is_narrow = a + b + c + d + 6 <= WIDTH;
+    let is_narrow = a + b + c + d + 6 <= LINE_WIDTH;
     let row = |StepLine { columns: [number, action, carried, motion], .. }: &StepLine| {
         if is_narrow {
             return vec![format!("{number:<a$}  {action:<b$}  {carried:<c$}  {motion}")];
         }
         let below = format!("{:<a$}  {carried:<c$}  {motion}", "");
-        let all = [format!("{number:<a$}  {action}"), below].map(|line| wrapped(&line, WIDTH, a + 2));
+        let all = [format!("{number:<a$}  {action}"), below].map(|line| wrapped(&line, LINE_WIDTH, a + 2));
         all.iter().flat_map(|text| text.lines().map(str::to_owned)).collect()
     };
     let mut lines = Vec::new();
@@ -69,7 +69,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_too_wide_stands_below() {
+    fn too_wide_lines_are_continued_below() {
         let action = "place at (0.6, 0.4) m, turned to 1.5708 rad, beside the box that was put there";
         let motion = "0.980 s, turn in 0.512 s, clearance 0.0008 m";
         let lines =
@@ -84,6 +84,6 @@ mod tests {
                 "   empty-handed     1 s",
             ]
         );
-        assert!(lines.iter().all(|line| line.len() <= WIDTH));
+        assert!(lines.iter().all(|line| line.len() <= LINE_WIDTH));
     }
 }

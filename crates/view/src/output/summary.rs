@@ -46,7 +46,7 @@ pub fn range(joint: &Joint) -> String {
 /// after planning in milliseconds. On request, it also describes how the robot was read.
 #[must_use]
 pub fn summary_with(plan: &Plan, files: &[String], after: &[(&'static str, Duration)], is_verbose: bool) -> String {
-    let Told { found: mut lines, asked } = told(plan);
+    let SummaryLines { found: mut lines, asked } = summary_lines(plan);
     if let Some(blocked) = plan.motion().and_then(|(problem, answer)| motion_summary::blocked_by(problem, answer)) {
         lines.insert(1, blocked);
     }
@@ -65,24 +65,24 @@ pub fn summary_with(plan: &Plan, files: &[String], after: &[(&'static str, Durat
 
 /// Returns the verdict in words, the first line of the summary.
 pub(super) fn verdict(plan: &Plan) -> String {
-    told(plan).found.into_iter().next().map_or_else(String::new, |(_, text)| text)
+    summary_lines(plan).found.into_iter().next().map_or_else(String::new, |(_, text)| text)
 }
 
 /// Returns the facts for a page: outcome and arm.
 pub(super) fn facts(plan: &Plan) -> Vec<[String; 2]> {
-    let lines = told(plan).found.into_iter().chain(arm_lines(plan.arm()));
+    let lines = summary_lines(plan).found.into_iter().chain(arm_lines(plan.arm()));
     lines.map(|(key, text)| [key.to_owned(), text]).collect()
 }
 
-fn told(plan: &Plan) -> Told {
+fn summary_lines(plan: &Plan) -> SummaryLines {
     match plan.detail() {
-        Detail::Motion { problem, answer } => motion_summary::told(plan, problem, answer),
-        Detail::Task { task, answer } => task_summary::told(plan, task, answer),
+        Detail::Motion { problem, answer } => motion_summary::summary_lines(plan, problem, answer),
+        Detail::Task { task, answer } => task_summary::summary_lines(plan, task, answer),
     }
 }
 
 /// The lines of a summary that are specific to a single motion or a task.
-pub(super) struct Told {
+pub(super) struct SummaryLines {
     /// Lines about the result, which a page shows, too: the verdict first.
     pub found: Vec<Line>,
     /// Lines about the problem.

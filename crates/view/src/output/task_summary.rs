@@ -2,16 +2,16 @@
 
 use super::motion_summary::among_movers;
 use super::step_lines::{StepLine, step_lines};
-use super::summary::{Line, Told, configuration, field, non_empty, torque};
+use super::summary::{Line, SummaryLines, configuration, field, non_empty, torque};
 use cplan_core::model::{Arm, Outcome};
 use cplan_engine::Plan;
 use cplan_handling::Task;
 use cplan_tasks::{FailedStep, Leg, TaskAnswer, TaskMotion};
-use cplan_text::{at_least, counted, nonzero, percent};
+use cplan_text::{counted, nonzero, percent, round_down};
 
 /// Returns the results of the steps, and the task.
-pub(super) fn told(plan: &Plan, task: &Task, answer: &TaskAnswer) -> Told {
-    let moving = match (task.workspace.movers.len(), task.moving_at_first().count()) {
+pub(super) fn summary_lines(plan: &Plan, task: &Task, answer: &TaskAnswer) -> SummaryLines {
+    let moving = match (task.workspace.movers.len(), task.initially_moving().count()) {
         (0, 0) => String::new(),
         (obstacles, objects) => format!(", {} moving", obstacles + objects),
     };
@@ -28,7 +28,7 @@ pub(super) fn told(plan: &Plan, task: &Task, answer: &TaskAnswer) -> Told {
     };
     found.push(("planner", format!("{}: {motions} planned, {states} examined", plan.options().planner.method())));
     found.extend(field(plan.options()));
-    Told { found, asked }
+    SummaryLines { found, asked }
 }
 
 /// Returns one line per step, with later cycles merged.
@@ -72,7 +72,7 @@ fn motion_lines(arm: &Arm, answer: &TaskAnswer, motion: &TaskMotion) -> Vec<Line
     let proven = match answer.gap() {
         Some(gap) => format!(
             "proven: no sequence of motions takes less than {} s, so at most {} longer than the fastest",
-            at_least(answer.least_seconds(), 3),
+            round_down(answer.least_seconds(), 3),
             percent(gap)
         ),
         None => "no lower bound on the duration is known".into(),
@@ -107,6 +107,6 @@ fn clearance(answer: &TaskAnswer) -> Option<Line> {
         (_, Some(nearest)) => least.scene.describe(nearest.contact.pair),
         (_, None) => return Some(("clearance", "no obstacle within reach".into())),
     };
-    let kept = at_least(least.clearance(), 6);
+    let kept = round_down(least.clearance(), 6);
     Some(("clearance", format!("{kept} m proven; closest: {closest} in step {step}{file}{cycle}")))
 }

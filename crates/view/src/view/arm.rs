@@ -1,6 +1,6 @@
 //! The arm in the document: all data needed to place it in any configuration.
 
-use super::numbers::{Grain, ShapeView};
+use super::numbers::{RoundingSteps, ShapeView};
 use crate::chart;
 use cplan_core::model::{Arm, JointType, Part, Plane, Scene};
 use cplan_core::space::Configuration;
@@ -63,7 +63,7 @@ struct ArmView<'a> {
 
 /// Returns a scene's arm without its payload.
 #[must_use]
-pub fn empty_handed(scene: &Scene, grain: Grain) -> Arm {
+pub fn empty_handed(scene: &Scene, grain: RoundingSteps) -> Arm {
     let mut arm = scene.arm().clone();
     for (k, link) in arm.links.iter_mut().enumerate() {
         let part = |part: &Part| Part { shape: grain.shape(&part.shape).0, ..part.clone() };
@@ -115,9 +115,9 @@ fn joint(arm: &Arm, k: usize) -> JointView<'_> {
 
 /// Returns the names of the plane's coordinates: those of the root frame's axes if they are parallel to them.
 pub fn titles(plane: &Plane) -> [String; 2] {
-    const ALONG: f64 = 0.9999;
+    const NEARLY_PARALLEL_COSINE: f64 = 0.9999;
     let name = |v: Vector3<f64>, other: &str| {
-        let axis = ["x", "y", "z"].into_iter().zip(v.iter()).find(|(_, part)| **part > ALONG);
+        let axis = ["x", "y", "z"].into_iter().zip(v.iter()).find(|(_, part)| **part > NEARLY_PARALLEL_COSINE);
         format!("{} (m)", axis.map_or(other, |(name, _)| name))
     };
     [name(plane.u, "u"), name(plane.v, "v")]
@@ -130,10 +130,10 @@ pub fn reach_shape(arm: &Arm) -> Convex {
     let topology = arm.topology();
     let [first, second] = topology.ranges.map(|axis| axis.domain());
     if arm.joints[0].joint_type.is_revolute() {
-        const FINE: usize = 720;
-        let at = |i: usize| second.0 + (second.1 - second.0) * i as f64 / FINE as f64;
+        const REACH_STEPS: usize = 720;
+        let at = |i: usize| second.0 + (second.1 - second.0) * i as f64 / REACH_STEPS as f64;
         let distance = |i: usize| (arm.tip_at(Configuration::new(first.0, at(i))) - arm.base).norm();
-        return Convex::trusted(vec![arm.base], (0..=FINE).map(distance).fold(0.0, f64::max));
+        return Convex::trusted(vec![arm.base], (0..=REACH_STEPS).map(distance).fold(0.0, f64::max));
     }
     match arm.joints[1].joint_type {
         JointType::Revolute { .. } => {

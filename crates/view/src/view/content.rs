@@ -7,8 +7,8 @@ use super::phase::{MotionReplayView, PhaseView};
 use super::steps::Row;
 use super::trace::TraceView;
 use super::world::{ObstacleView, WorldView};
+use crate::blocking::BlockingView;
 use crate::flow::FieldLines;
-use crate::stuck::Stuck;
 use cplan_core::model::{Arm, Status};
 use cplan_core::space::Configuration;
 use cplan_explain::Reach;
@@ -54,7 +54,7 @@ pub struct View {
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub(super) replays: Vec<MotionReplayView>,
     #[serde(skip)]
-    pub(crate) still: Still,
+    pub(crate) still: StillContent,
 }
 
 /// A frame, drawn by its axes: see [`AxesFrame`].
@@ -67,7 +67,7 @@ pub(crate) struct FrameView {
 
 /// Content that only pictures show at once; pages show it over time.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub(crate) struct Still {
+pub(crate) struct StillContent {
     /// Empty for an arm alone.
     pub panels: Vec<PanelView>,
     /// The lines of a field to draw.
@@ -81,7 +81,7 @@ pub(crate) struct Still {
     /// The time of that, seconds.
     pub time: f64,
     /// The obstacles that block the motion.
-    pub stuck: Option<Stuck>,
+    pub stuck: Option<BlockingView>,
     /// The arm's final configuration, and the world.
     pub end: Option<([f64; 2], usize)>,
     /// The steps of a task, below the names of the columns; empty for single motions.
@@ -150,7 +150,7 @@ impl View {
 
     /// Returns the view with the obstacles that block a motion, and the place where it gets stuck.
     #[must_use]
-    pub fn with_stuck(mut self, stuck: Stuck) -> Self {
+    pub fn with_blocking(mut self, stuck: BlockingView) -> Self {
         self.still.stuck = Some(stuck);
         self
     }

@@ -1,11 +1,11 @@
 //! The document of a view for the page's code.
 
 use super::content::View;
-use super::numbers::Grain;
+use super::numbers::RoundingSteps;
+use crate::blocking::BlockingView;
 use crate::key::KeyView;
 use crate::legend;
 use crate::reach::ReachView;
-use crate::stuck::Stuck;
 use serde::Serialize;
 
 /// A view, the meaning of its signs, the obstacles that block a missing motion, and the places that the tip can reach.
@@ -15,7 +15,7 @@ struct Document<'a> {
     view: &'a View,
     legend: Vec<KeyView>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    stuck: Option<&'a Stuck>,
+    stuck: Option<&'a BlockingView>,
     #[serde(skip_serializing_if = "Option::is_none")]
     reach: Option<ReachView>,
 }
@@ -27,7 +27,7 @@ impl View {
     /// Never: all keys are strings.
     #[must_use]
     pub fn json(&self) -> String {
-        let reach = self.still.reach.as_ref().map(|reach| ReachView::new(reach, Grain::of(&self.arm)));
+        let reach = self.still.reach.as_ref().map(|reach| ReachView::new(reach, RoundingSteps::of(&self.arm)));
         let stuck = self.still.stuck.as_ref();
         let document = Document { view: self, legend: legend::on_pages(self), stuck, reach };
         serde_json::to_string(&document).expect("numbers and strings")

@@ -6,26 +6,27 @@ use cplan_core::space::Configuration;
 use cplan_geometry::{Convex, Point, Pose};
 
 /// Number of samples along each axis from which the extent of the arm's motion is taken.
-const SAMPLES: usize = 17;
+const SAMPLES_PER_AXIS: usize = 17;
 
 /// Returns least and greatest coordinates of everything that the arm can sweep, and of the obstacles that are not much
 /// farther away.
 #[must_use]
 pub fn sides(scene: &Scene, shown: &[Configuration]) -> [Range; 2] {
     /// Fraction of the swept extent by which the panel may grow to include obstacles.
-    const NEARBY: f64 = 0.25;
-    const MARGIN: f64 = 0.04;
+    const MAX_GROWTH: f64 = 0.25;
+    const MARGIN_SHARE: f64 = 0.04;
     let swept = swept(scene, shown);
     let size = (swept[0].1 - swept[0].0).max(swept[1].1 - swept[1].0);
     let mut sides = swept;
     for corners in scene.workspace().obstacles.iter().map(|o| around(&o.pieces)) {
-        let near = [0, 1]
-            .map(|k| (corners[k].0.max(swept[k].0 - NEARBY * size), corners[k].1.min(swept[k].1 + NEARBY * size)));
+        let near = [0, 1].map(|k| {
+            (corners[k].0.max(swept[k].0 - MAX_GROWTH * size), corners[k].1.min(swept[k].1 + MAX_GROWTH * size))
+        });
         if near.iter().all(|(lower, upper)| lower <= upper) {
             sides = [0, 1].map(|k| (sides[k].0.min(near[k].0), sides[k].1.max(near[k].1)));
         }
     }
-    sides.map(|(lower, upper)| (lower - MARGIN * size, upper + MARGIN * size))
+    sides.map(|(lower, upper)| (lower - MARGIN_SHARE * size, upper + MARGIN_SHARE * size))
 }
 
 /// Returns the box around the arm in a sample of its configurations, dense enough for a picture.
@@ -40,7 +41,7 @@ fn swept(scene: &Scene, shown: &[Configuration]) -> [Range; 2] {
     include(arm.base, 0.0);
     let [first, second] = arm.topology().ranges.map(|axis| {
         let (lower, upper) = axis.domain();
-        (0..SAMPLES).map(move |i| lower + (upper - lower) * i as f64 / (SAMPLES - 1) as f64)
+        (0..SAMPLES_PER_AXIS).map(move |i| lower + (upper - lower) * i as f64 / (SAMPLES_PER_AXIS - 1) as f64)
     });
     let sampled = first.flat_map(|q1| second.clone().map(move |q2| Configuration::new(q1, q2)));
     for q in sampled.chain(shown.iter().copied()) {

@@ -4,15 +4,15 @@ use super::isolines::Samples;
 use cplan_core::space::Topology;
 
 /// Number of starting points along each axis.
-const BEGINNINGS: usize = 16;
+const STARTS_PER_AXIS: usize = 16;
 /// Length of a step, in cells.
-const STEP: f64 = 0.5;
+const STEP_LENGTH: f64 = 0.5;
 /// Length of the shortest step, in cells. On a ridge, long steps lead down its other side; short ones follow it.
-const SHORT_STEP: f64 = 0.03;
+const MIN_STEP_LENGTH: f64 = 0.03;
 /// Greatest length of a line, in widths of the grid. Lines that wind for longer add nothing to the picture.
-const WIDTHS: f64 = 4.0;
+const MAX_LINE_LENGTH: f64 = 4.0;
 /// One of this many points of a line is kept.
-const KEPT: usize = 4;
+const POINTS_PER_KEPT_POINT: usize = 4;
 
 /// Returns lines of steepest ascent, as polylines. They end at the goal, at a local maximum, or where there is no
 /// value. On a circle they may leave the domain by less than a cell and end there, so that the seam is visible.
@@ -25,9 +25,9 @@ pub fn lines(samples: &Samples, topology: &Topology) -> Vec<Vec<[f64; 2]>> {
     let Some(extent) = extent(samples) else { return Vec::new() };
     let begin = |k: usize, i: usize| {
         let [low, high] = extent[k].map(|at| at as f64);
-        low + (i as f64 + 0.5) / BEGINNINGS as f64 * (high - low)
+        low + (i as f64 + 0.5) / STARTS_PER_AXIS as f64 * (high - low)
     };
-    let beginnings = (0..BEGINNINGS).flat_map(|i| (0..BEGINNINGS).map(move |j| [i, j]));
+    let beginnings = (0..STARTS_PER_AXIS).flat_map(|i| (0..STARTS_PER_AXIS).map(move |j| [i, j]));
     let lines = beginnings.map(|[i, j]| line(samples, [begin(0, i), begin(1, j)]));
     let domain = topology.ranges.map(|axis| axis.domain());
     let clamp = |q: [f64; 2]| [0, 1].map(|k| q[k].clamp(domain[k].0, domain[k].1));
@@ -46,12 +46,12 @@ fn extent(samples: &Samples) -> Option<[[usize; 2]; 2]> {
 }
 
 fn line(samples: &Samples, begin: [f64; 2]) -> Vec<[f64; 2]> {
-    let steps = (WIDTHS * samples.x.len().max(samples.y.len()) as f64 / STEP) as usize;
+    let steps = (MAX_LINE_LENGTH * samples.x.len().max(samples.y.len()) as f64 / STEP_LENGTH) as usize;
     let mut points = Vec::new();
     let Some((mut here, mut direction)) = slope(samples, begin) else { return points };
-    let (mut at, mut length) = (begin, STEP);
+    let (mut at, mut length) = (begin, STEP_LENGTH);
     for taken in 0..steps {
-        if taken % KEPT == 0 {
+        if taken % POINTS_PER_KEPT_POINT == 0 {
             points.push(place(samples, at));
         }
         // On a plateau or at a maximum, no step leads up.
@@ -61,14 +61,14 @@ fn line(samples: &Samples, begin: [f64; 2]) -> Vec<[f64; 2]> {
             let next = [0, 1].map(|k| at[k] + length * along[k]);
             match slope(samples, next).filter(|(there, _)| *there > here) {
                 Some((there, onwards)) => break Some((next, there, onwards)),
-                None if length > SHORT_STEP => length /= 2.0,
+                None if length > MIN_STEP_LENGTH => length /= 2.0,
                 None => break None,
             }
         }) else {
             break;
         };
         (at, here, direction) = next;
-        length = (2.0 * length).min(STEP);
+        length = (2.0 * length).min(STEP_LENGTH);
     }
     points
 }

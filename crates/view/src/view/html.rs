@@ -7,7 +7,7 @@ use cplan_text::markup;
 const STYLE: &str = include_str!("assets/view.css");
 
 /// Code that draws a view. Each part needs only the parts before it.
-const CODE: [&str; 11] = [
+const SCRIPTS: [&str; 11] = [
     include_str!("assets/geometry.js"),
     include_str!("assets/panel.js"),
     include_str!("assets/labels.js"),
@@ -22,7 +22,7 @@ const CODE: [&str; 11] = [
 ];
 
 /// Code that shows the view in the page.
-const PLAN: &str = include_str!("assets/plan.js");
+const PLAN_SCRIPT: &str = include_str!("assets/plan.js");
 
 /// Returns the colours of pictures as variables of the style sheet, which has other colours for dark mode.
 fn colors() -> String {
@@ -34,13 +34,13 @@ fn colors() -> String {
 #[must_use]
 pub fn page(view: &View) -> String {
     let title = view.title.first().map_or("cplan", String::as_str);
-    sealed(title, "", "view", &view.json(), &(drawing() + PLAN))
+    sealed(title, "", "view", &view.json(), &(drawing() + PLAN_SCRIPT))
 }
 
 /// Returns the code that draws a view; a page's own code can follow it.
 #[must_use]
 pub fn drawing() -> String {
-    CODE.concat()
+    SCRIPTS.concat()
 }
 
 /// Returns a self-contained page that loads nothing, and is not allowed to. `json` is in the element `id`, where `code`

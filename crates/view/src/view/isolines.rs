@@ -128,7 +128,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_where_there_is_nothing() {
+    fn an_empty_field_has_no_isolines() {
         assert!(samples(5, |_, _| f64::NEG_INFINITY).isolines(0.0).is_empty());
         assert!(samples(5, |_, _| 1.0).isolines(1.0).is_empty());
         assert!(Samples { x: vec![], y: vec![], values: vec![] }.isolines(0.0).is_empty());

@@ -1,6 +1,6 @@
 //! Paths, and motions in time.
 
-use super::numbers::{Chain, Grain};
+use super::numbers::{Chain, RoundingSteps};
 use crate::color::{self, GREY, INK, Rgb};
 use crate::figure::Pen;
 use cplan_core::space::{Configuration, Path};
@@ -8,10 +8,10 @@ use cplan_motion::Trajectory;
 use serde::Serialize;
 
 /// Number of poses shown between the ends of a path.
-const GHOSTS: usize = 5;
-/// Width of a highlighted line, and of another line (`THIN`), in pixels.
-const WIDE: f64 = 2.4;
-const THIN: f64 = 1.6;
+const GHOST_POSES: usize = 5;
+/// Width of a highlighted line, and of another line (`LINE_WIDTH`), in pixels.
+const HIGHLIGHTED_WIDTH: f64 = 2.4;
+const LINE_WIDTH: f64 = 1.6;
 
 /// A path in a world.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -43,26 +43,33 @@ fn is_none(step: &usize) -> bool {
 
 impl PathView {
     /// Creates path `index` out of `count`: a single one is drawn in ink.
-    pub fn of_several(name: &str, path: &Path, [index, count]: [usize; 2], grain: Grain) -> Self {
+    pub fn of_several(name: &str, path: &Path, [index, count]: [usize; 2], grain: RoundingSteps) -> Self {
         let (color, dash) = color::path(index);
         let (color, dash) = if count > 1 { (Some(color), dash) } else { (None, &[][..]) };
         Self {
             name: name.to_owned(),
             world: 0,
             color,
-            width: WIDE,
+            width: HIGHLIGHTED_WIDTH,
             dash,
             points: grain.configurations(path.waypoints()),
-            ghosts: grain.configurations(&between(path, GHOSTS)),
+            ghosts: grain.configurations(&between(path, GHOST_POSES)),
             step: 0,
             grows: false,
         }
     }
 
     /// Creates the path of a step, in the colour of the payload.
-    pub fn of_step(name: String, path: &Path, world: usize, step: usize, carried: Option<Rgb>, grain: Grain) -> Self {
+    pub fn of_step(
+        name: String,
+        path: &Path,
+        world: usize,
+        step: usize,
+        carried: Option<Rgb>,
+        grain: RoundingSteps,
+    ) -> Self {
         let color = carried.map(|color| color.darker(0.25));
-        let width = if carried.is_some() { WIDE } else { THIN };
+        let width = if carried.is_some() { HIGHLIGHTED_WIDTH } else { LINE_WIDTH };
         Self { name, world, color, width, step, ..Self::of_several("", path, [0, 1], grain) }
     }
 
@@ -73,12 +80,12 @@ impl PathView {
 
     /// Returns a second path in grey beside this one.
     pub fn beside(&self, points: Chain) -> Self {
-        Self { name: "before it is pulled taut".to_owned(), color: Some(GREY), width: THIN, ..self.along(points) }
+        Self { name: "before it is pulled taut".to_owned(), color: Some(GREY), width: LINE_WIDTH, ..self.along(points) }
     }
 
     /// Returns the pen of the path.
     pub fn pen(&self) -> Pen {
-        let ink = if self.width < WIDE { INK.lighter(0.3) } else { INK };
+        let ink = if self.width < HIGHLIGHTED_WIDTH { INK.lighter(0.3) } else { INK };
         Pen { color: self.color.unwrap_or(ink), width: self.width, dash: self.dash }
     }
 
@@ -169,7 +176,7 @@ impl Clock {
         positions[next - 1] + (positions[next] - positions[next - 1]) * part
     }
 
-    pub fn new(trajectory: &Trajectory, grain: Grain) -> Self {
+    pub fn new(trajectory: &Trajectory, grain: RoundingSteps) -> Self {
         let chain = |values: &[[f64; 2]]| Chain(values.iter().map(|&q| grain.configuration(q.into()).into()).collect());
         Self {
             time: trajectory.time.iter().map(|&t| (t * 1e6).round() / 1e6).collect(),

@@ -1,6 +1,6 @@
 //! Places for the names of C-obstacles.
 
-use super::numbers::{Grain, number};
+use super::numbers::{RoundingSteps, number};
 use super::world::ContourView;
 use crate::copies::Window;
 use cplan_core::model::Arm;
@@ -9,13 +9,13 @@ use cplan_geometry::{Point, pole_of_inaccessibility};
 use serde::Serialize;
 
 /// Largest number of obstacles with names. With more of them, nobody could assign the names.
-const MOST: usize = 100;
+const MAX_NAMED_OBSTACLES: usize = 100;
 /// Ratio of width to height of a typical name; the place with the most room depends on it.
-const WIDE: f64 = 2.5;
-/// Precision of the places, and the detail of outlines (`COARSE`) that may be ignored for this, as fractions of an
+const NAME_PROPORTION: f64 = 2.5;
+/// Precision of the places, and the detail of outlines (`OUTLINE_PRECISION`) that may be ignored for this, as fractions of an
 /// axis.
-const PRECISION: f64 = 0.004;
-const COARSE: f64 = 0.005;
+const PLACE_PRECISION: f64 = 0.004;
+const OUTLINE_PRECISION: f64 = 0.005;
 
 /// A place for the name of a C-obstacle.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -27,8 +27,8 @@ pub struct NameView {
 }
 
 /// Returns a place for each obstacle that has a C-obstacle: in its largest visible part, farthest from the outline.
-pub fn places(arm: &Arm, count: usize, contours: &[ContourView], grain: Grain) -> Vec<NameView> {
-    if count > MOST {
+pub fn places(arm: &Arm, count: usize, contours: &[ContourView], grain: RoundingSteps) -> Vec<NameView> {
+    if count > MAX_NAMED_OBSTACLES {
         return Vec::new();
     }
     let ranges = arm.topology().ranges.map(|axis| axis.domain());
@@ -41,9 +41,9 @@ pub fn places(arm: &Arm, count: usize, contours: &[ContourView], grain: Grain) -
         });
         let largest = parts.map(|part| (area(&part), part)).max_by(|a, b| a.0.total_cmp(&b.0));
         let (area, part) = largest.filter(|(area, _)| *area > 0.0)?;
-        let scaled: Vec<Point> = part.iter().map(|p| Point::new(p.x / WIDE, p.y)).collect();
-        let (pole, _) = pole_of_inaccessibility(&coarsened(scaled), PRECISION)?;
-        let [x, y] = [pole.x * WIDE, pole.y];
+        let scaled: Vec<Point> = part.iter().map(|p| Point::new(p.x / NAME_PROPORTION, p.y)).collect();
+        let (pole, _) = pole_of_inaccessibility(&coarsened(scaled), PLACE_PRECISION)?;
+        let [x, y] = [pole.x * NAME_PROPORTION, pole.y];
         let q = |k: usize, part: f64| ranges[k].0 + part * (ranges[k].1 - ranges[k].0);
         let at = grain.configuration(Configuration::new(q(0, x), q(1, y)));
         Some(NameView { obstacle, at, area: number(area) })
@@ -82,7 +82,7 @@ fn clipped(corners: impl Iterator<Item = Point>) -> Vec<Point> {
 fn coarsened(corners: Vec<Point>) -> Vec<Point> {
     let mut kept: Vec<Point> = Vec::new();
     for corner in corners {
-        if kept.last().is_none_or(|last| (corner - last).norm() > COARSE) {
+        if kept.last().is_none_or(|last| (corner - last).norm() > OUTLINE_PRECISION) {
             kept.push(corner);
         }
     }
@@ -102,7 +102,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_sticks_out_is_cut_off() {
+    fn shapes_are_clipped_to_the_panel() {
         let square = [(-1.0, 0.25), (0.5, 0.25), (0.5, 0.75), (-1.0, 0.75)].map(|(x, y)| Point::new(x, y));
         let inside = clipped(square.into_iter());
         assert!((area(&inside) - 0.25).abs() < 1e-12 && inside.iter().all(|p| p.x >= 0.0), "{inside:?}");

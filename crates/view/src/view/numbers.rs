@@ -9,11 +9,11 @@ use serde::{Serialize, Serializer};
 
 /// Number of digits of a length after the first digit of the arm's reach: a hundredth of a pixel at the size of a
 /// screen.
-const DIGITS: i32 = 5;
+const LENGTH_DIGITS: i32 = 5;
 
 /// Steps of rounding. Each is a power of ten, stored as its reciprocal, so that rounding leaves short decimals.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Grain {
+pub struct RoundingSteps {
     lengths: f64,
     joints: [f64; 2],
 }
@@ -25,7 +25,7 @@ fn rounded(value: f64, grains: f64) -> f64 {
 
 /// Returns the grains for values of this size.
 fn grains(size: f64) -> f64 {
-    10_f64.powi((DIGITS - size.log10().floor() as i32).clamp(-12, 15))
+    10_f64.powi((LENGTH_DIGITS - size.log10().floor() as i32).clamp(-12, 15))
 }
 
 /// Rounds an angle or another number of the order of 1.
@@ -34,7 +34,7 @@ pub fn number(value: f64) -> f64 {
     rounded(value, grains(1.0))
 }
 
-impl Grain {
+impl RoundingSteps {
     /// Returns the grain of an arm: from its reach for lengths, and from a radian or the stroke for joints.
     #[must_use]
     pub fn of(arm: &Arm) -> Self {

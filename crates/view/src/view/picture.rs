@@ -1,10 +1,10 @@
 //! The content of a picture of a scene: with one motion, with several to compare, or with none.
 
 use super::arm;
-use super::content::{FrameView, PanelView, Still, View};
+use super::content::{FrameView, PanelView, StillContent, View};
 use super::extent;
 use super::motion::{Clock, MotionView, PathView};
-use super::numbers::{Grain, number};
+use super::numbers::{RoundingSteps, number};
 use super::trace::TraceView;
 use super::world::WorldView;
 use cplan_core::check::CheckedProof;
@@ -96,7 +96,7 @@ impl View {
     pub fn of_picture(picture: &Picture) -> Self {
         let Picture { scene: timed, start, .. } = *picture;
         let scene = timed.scene;
-        let grain = Grain::of(scene.arm());
+        let grain = RoundingSteps::of(scene.arm());
         let trace = picture.trace.and_then(|trace| TraceView::new(trace, &scene.arm().topology(), grain));
         let world = WorldView::new(timed, String::new(), picture.c_obstacles, grain);
         let world = world.proven(picture.proof, grain).traced(trace).timed(picture.moments, grain);
@@ -125,7 +125,7 @@ impl View {
             frames: Vec::new(),
             replay: Vec::new(),
             replays: Vec::new(),
-            still: Still {
+            still: StillContent {
                 panels: vec![PanelView {
                     title: "Configuration space".to_owned(),
                     worlds: vec![0],
@@ -134,7 +134,7 @@ impl View {
                     fails: None,
                 }],
                 end: end.map(|q| (q, 0)),
-                ..Still::default()
+                ..StillContent::default()
             },
             worlds: vec![world],
             paths,
@@ -144,13 +144,13 @@ impl View {
     /// Returns the view of an arm in one configuration with frames, without its configuration space.
     #[must_use]
     pub fn of_arm(picture: &Picture, frames: &[AxesFrame]) -> Self {
-        let grain = Grain::of(picture.scene.scene.arm());
+        let grain = RoundingSteps::of(picture.scene.scene.arm());
         let frame = |frame: &AxesFrame| FrameView {
             name: frame.name.clone(),
             at: grain.point(frame.at).into(),
             axes: frame.axes.map(|axis| [axis.x, axis.y, axis.z].map(number)),
         };
         let frames = frames.iter().map(frame).collect();
-        Self { frames, still: Still::default(), ..Self::of_picture(picture) }
+        Self { frames, still: StillContent::default(), ..Self::of_picture(picture) }
     }
 }

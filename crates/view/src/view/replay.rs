@@ -1,7 +1,7 @@
 //! The replay: animated phases of the planner's run.
 
 use super::content::View;
-use super::numbers::{Chain, Grain};
+use super::numbers::{Chain, RoundingSteps};
 use super::phase::{MotionReplayView, PhaseView, ShowsView};
 use super::trace::TraceView;
 use super::waves::{self, Waves};
@@ -10,35 +10,36 @@ use cplan_core::space::{Configuration, Topology};
 use cplan_solver::{Phase, Replay, Shows, SlabBoxes, Sweeps};
 use cplan_tasks::TaskReplay;
 
-/// Shortest and longest time of a phase, in seconds; in between, `A_ROOT` times the square root of the number of its
+/// Shortest and longest time of a phase, in seconds; in between, `SECONDS_PER_ROOT` times the square root of the number of its
 /// events.
-const SECONDS: [f64; 2] = [1.2, 2.2];
-const A_ROOT: f64 = 0.1;
+const PHASE_SECONDS: [f64; 2] = [1.2, 2.2];
+const SECONDS_PER_ROOT: f64 = 0.1;
 
 /// Longest time of all phases together, in seconds. Nobody would watch a longer replay.
-const MOST: f64 = 6.0;
+const MAX_REPLAY_SECONDS: f64 = 6.0;
 
 /// Largest size of the replays for a task's motions in a page, in bytes. Later motions have none.
-const MOST_BYTES: usize = 200_000;
+const MAX_REPLAY_BYTES: usize = 200_000;
 
 /// Largest number of slab boxes, for all motions of a task together.
-const MOST_BOXES: usize = 5_000;
+const MAX_BOXES: usize = 5_000;
 
 /// If there are too many boxes, those narrower than this fraction of a joint's range disappear. The first fraction
 /// that suffices is used.
-const NARROW: [f64; 4] = [1.0 / 512.0, 1.0 / 256.0, 1.0 / 128.0, 1.0 / 64.0];
+const BOX_WIDTH_LIMITS: [f64; 4] = [1.0 / 512.0, 1.0 / 256.0, 1.0 / 128.0, 1.0 / 64.0];
 
 impl PhaseView {
     /// Returns all phases of a replay.
-    pub fn all(replay: &Replay, topology: &Topology, trace: Option<&TraceView>, grain: Grain) -> Vec<Self> {
-        let seconds = |phase: &Phase| (A_ROOT * (phase.events as f64).sqrt()).clamp(SECONDS[0], SECONDS[1]);
-        let hurry = (MOST / replay.phases.iter().map(seconds).sum::<f64>()).min(1.0);
+    pub fn all(replay: &Replay, topology: &Topology, trace: Option<&TraceView>, grain: RoundingSteps) -> Vec<Self> {
+        let seconds =
+            |phase: &Phase| (SECONDS_PER_ROOT * (phase.events as f64).sqrt()).clamp(PHASE_SECONDS[0], PHASE_SECONDS[1]);
+        let time_scale = (MAX_REPLAY_SECONDS / replay.phases.iter().map(seconds).sum::<f64>()).min(1.0);
         let rounded = |seconds: f64| (seconds * 100.0).round() / 100.0;
-        let told = |phase| Self::new(phase, rounded(hurry * seconds(phase)), topology, trace, grain);
-        replay.phases.iter().map(told).collect()
+        let replayed = |phase| Self::new(phase, rounded(time_scale * seconds(phase)), topology, trace, grain);
+        replay.phases.iter().map(replayed).collect()
     }
 
-    fn new(phase: &Phase, seconds: f64, topology: &Topology, trace: Option<&TraceView>, grain: Grain) -> Self {
+    fn new(phase: &Phase, seconds: f64, topology: &Topology, trace: Option<&TraceView>, grain: RoundingSteps) -> Self {
         let corners = |boxes: &[[Configuration; 2]]| grain.configurations(boxes.iter().flatten());
         let shows = match &phase.shows {
             Shows::Nodes => ShowsView::Nodes,
@@ -79,7 +80,7 @@ fn thinned(replay: &Replay, topology: &Topology, most: usize) -> Replay {
     let mut replay = replay.clone();
     for phase in &mut replay.phases {
         let Shows::Slabs(SlabBoxes { free, stuck, mixed }) = &mut phase.shows else { continue };
-        for narrow in NARROW {
+        for narrow in BOX_WIDTH_LIMITS {
             if free.len() + stuck.len() + mixed.len() <= most {
                 break;
             }
@@ -124,12 +125,12 @@ impl View {
     /// Adds the planner's replay for each motion of a task, as far as there is room.
     #[must_use]
     pub fn with_task_replay(mut self, replay: &TaskReplay) -> Self {
-        let (grain, topology) = (Grain::of(&self.arm), self.arm.topology());
-        let most = MOST_BOXES / replay.motions.len().max(1);
-        let mut left = MOST_BYTES;
-        for told in &replay.motions {
-            let trace = told.trace.as_ref().and_then(|trace| TraceView::new(trace, &topology, grain));
-            let phases = PhaseView::all(&thinned(&told.replay, &topology, most), &topology, trace.as_ref(), grain);
+        let (grain, topology) = (RoundingSteps::of(&self.arm), self.arm.topology());
+        let most = MAX_BOXES / replay.motions.len().max(1);
+        let mut left = MAX_REPLAY_BYTES;
+        for replayed in &replay.motions {
+            let trace = replayed.trace.as_ref().and_then(|trace| TraceView::new(trace, &topology, grain));
+            let phases = PhaseView::all(&thinned(&replayed.replay, &topology, most), &topology, trace.as_ref(), grain);
             let scale = trace.as_ref().and_then(TraceView::scale);
             let view = MotionReplayView { trace, scale, phases };
             // Serialisation cannot fail: there are only numbers and strings.
@@ -138,8 +139,8 @@ impl View {
             left = room;
             self.replays.push(view);
         }
-        for (motion, &told) in self.motions.iter_mut().zip(&replay.legs) {
-            motion.replay = Some(told).filter(|&told| told < self.replays.len());
+        for (motion, &replayed) in self.motions.iter_mut().zip(&replay.legs) {
+            motion.replay = Some(replayed).filter(|&replayed| replayed < self.replays.len());
         }
         self
     }
@@ -147,7 +148,7 @@ impl View {
     /// Adds the planner's replay.
     #[must_use]
     pub fn with_replay(mut self, replay: &Replay) -> Self {
-        let (grain, trace) = (Grain::of(&self.arm), self.first_world().trace.as_ref());
+        let (grain, trace) = (RoundingSteps::of(&self.arm), self.first_world().trace.as_ref());
         self.replay = PhaseView::all(replay, &self.arm.topology(), trace, grain);
         self
     }

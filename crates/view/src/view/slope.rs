@@ -6,12 +6,12 @@ use cplan_core::space::Topology;
 use std::borrow::Cow;
 
 /// Number of equipotentials that are drawn.
-const LINES: usize = 20;
+const EQUIPOTENTIALS: usize = 20;
 /// Fraction of the cells that may lie below the lowest equipotential. The field continues to fall in dead ends that
 /// interest nobody, and these would leave no lines for the rest.
-const TAIL: f64 = 0.02;
+const IGNORED_SHARE: f64 = 0.02;
 /// Same fraction for a potential that grows without bound towards obstacles.
-const SLOPES: f64 = 0.15;
+const IGNORED_SHARE_OF_UNBOUNDED: f64 = 0.15;
 
 /// A field that paths follow upwards, coarse enough to be drawn.
 #[derive(Debug, Clone, PartialEq)]
@@ -27,12 +27,14 @@ impl Slope {
     pub fn new(trace: &Trace, topology: &Topology) -> Option<Self> {
         let (cells, values, tail) = match trace {
             // Heights fall towards the goal, so their negatives rise.
-            Trace::Potential { cells, heights } => {
-                (*cells, Cow::Owned(heights.iter().map(|height| -height).collect::<Vec<_>>()), SLOPES)
-            }
+            Trace::Potential { cells, heights } => (
+                *cells,
+                Cow::Owned(heights.iter().map(|height| -height).collect::<Vec<_>>()),
+                IGNORED_SHARE_OF_UNBOUNDED,
+            ),
             _ => {
                 let (cells, ln) = trace.logarithms()?;
-                (cells, ln, TAIL)
+                (cells, ln, IGNORED_SHARE)
             }
         };
         if values.len() != cells[0] * cells[1] {
@@ -45,8 +47,8 @@ impl Slope {
     /// end.
     pub fn equipotentials(&self) -> impl Iterator<Item = (f64, Vec<Vec<[f64; 2]>>)> + '_ {
         let (low, high) = self.span;
-        let part = |k: usize| (k as f64 + 0.5) / LINES as f64;
-        (0..LINES).map(part).map(move |part| (part, self.samples.isolines(high + (low - high) * part)))
+        let part = |k: usize| (k as f64 + 0.5) / EQUIPOTENTIALS as f64;
+        (0..EQUIPOTENTIALS).map(part).map(move |part| (part, self.samples.isolines(high + (low - high) * part)))
     }
 }
 
@@ -61,12 +63,13 @@ fn span(potential: &[f64], tail: f64) -> Option<(f64, f64)> {
 /// Returns the potential at the centres of every cell, or on a fine grid at the centres of some. On a circle there is
 /// one more sample beyond each seam, so that lines continue across it.
 fn samples(cells: [usize; 2], potential: &[f64], topology: &Topology) -> Samples {
-    const MOST: usize = 256;
+    const MAX_SAMPLES: usize = 256;
     let [x, y] = [0, 1].map(|k| {
         let axis = topology.ranges[k];
         let (n, extent) = (cells[k], axis.extent());
         let place = |i: usize| axis.domain().0 + (i as f64 + 0.5) / n as f64 * extent;
-        let mut all: Vec<(usize, f64)> = (0..n).step_by(n.div_ceil(MOST).max(1)).map(|i| (i, place(i))).collect();
+        let mut all: Vec<(usize, f64)> =
+            (0..n).step_by(n.div_ceil(MAX_SAMPLES).max(1)).map(|i| (i, place(i))).collect();
         if let (true, Some(&first), Some(&last)) = (axis.is_circle(), all.first(), all.last()) {
             all.insert(0, (last.0, last.1 - extent));
             all.push((first.0, first.1 + extent));
@@ -103,6 +106,6 @@ mod tests {
         let topology = Topology { ranges: [JointRange::Circle; 2] };
         let trace = Trace::Field { cells: [4, 4], potential: vec![f64::NEG_INFINITY; 16] };
         assert_eq!(Slope::new(&trace, &topology), None);
-        assert_eq!(span(&[f64::NEG_INFINITY, -3.0, 0.0], TAIL), Some((-3.0, 0.0)));
+        assert_eq!(span(&[f64::NEG_INFINITY, -3.0, 0.0], IGNORED_SHARE), Some((-3.0, 0.0)));
     }
 }

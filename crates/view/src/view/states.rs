@@ -6,7 +6,7 @@ use cplan_tasks::Leg;
 use std::sync::Arc;
 
 /// Configurations nearer than this look the same, in radians or metres. It covers rounding.
-const SAME: f64 = 1e-6;
+const EQUALITY_TOLERANCE: f64 = 1e-6;
 
 /// Consecutive motions with the same payload in the same world.
 #[derive(Debug, Clone)]
@@ -53,7 +53,7 @@ fn same_world(a: &Leg, b: &Leg) -> bool {
 fn same_motion(a: &Leg, b: &Leg, topology: &Topology) -> bool {
     let paths = [a, b].map(|leg| leg.timed.curve.curve().path().waypoints());
     let same = || {
-        let near = |(a, b): (&Configuration, &Configuration)| topology.distance(*a, *b) <= SAME;
+        let near = |(a, b): (&Configuration, &Configuration)| topology.distance(*a, *b) <= EQUALITY_TOLERANCE;
         paths[0].len() == paths[1].len() && paths[0].iter().zip(paths[1]).all(near)
     };
     a.step.number == b.step.number && (Arc::ptr_eq(&a.timed, &b.timed) || same())

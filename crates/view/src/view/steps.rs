@@ -1,15 +1,15 @@
 //! The steps of a task, in words.
 
 use super::task_picture::TaskPicture;
-use crate::color::{BARRED, GREY, INK, Rgb};
+use crate::color::{BLOCKED, GREY, INK, Rgb};
 use cplan_core::model::Outcome;
 use cplan_handling::{Object, Step};
 use cplan_tasks::{Leg, TaskAnswer};
 
 /// Largest number of rows that are shown.
-const MOST: usize = 26;
+const MAX_ROWS: usize = 26;
 /// Largest number of lines that explain why a step fails.
-const MOST_REASONS: usize = 4;
+const MAX_REASONS: usize = 4;
 
 /// A row: the step's number, its action, and its end time.
 #[derive(Debug, Clone, PartialEq)]
@@ -76,9 +76,9 @@ pub fn rows(picture: &TaskPicture) -> Vec<Row> {
         let (text, time) = (order.describe(&leg.step, objects), format!("{:.2} s", leg.end()));
         rows.push(Row::new(order.number(&leg.step), text, time, INK));
     }
-    if rows.len() > 1 + MOST {
-        let text = format!("and {} further steps", rows.len() - 1 - MOST);
-        rows.truncate(1 + MOST);
+    if rows.len() > 1 + MAX_ROWS {
+        let text = format!("and {} further steps", rows.len() - 1 - MAX_ROWS);
+        rows.truncate(1 + MAX_ROWS);
         rows.push(Row::new("", text, "", GREY));
     }
     if let Some(failed) = picture.answer.failed() {
@@ -87,7 +87,7 @@ pub fn rows(picture: &TaskPicture) -> Vec<Row> {
             _ => "unknown",
         };
         let step = &failed.step;
-        rows.push(Row::new(order.number(step), order.describe(step, objects), time, BARRED));
+        rows.push(Row::new(order.number(step), order.describe(step, objects), time, BLOCKED));
     }
     rows
 }
@@ -108,7 +108,7 @@ pub fn words(picture: &TaskPicture) -> (Vec<String>, String) {
         return (lines, status);
     }
     lines.push(heading);
-    let shown = if reasons.len() > MOST_REASONS { MOST_REASONS - 1 } else { reasons.len() };
+    let shown = if reasons.len() > MAX_REASONS { MAX_REASONS - 1 } else { reasons.len() };
     lines.extend(reasons[..shown].iter().cloned());
     if shown < reasons.len() {
         lines.push(format!("and {} further reasons", reasons.len() - shown));

@@ -1,10 +1,10 @@
 //! A task: its worlds, the times of its events, and the motions that a still picture shows together.
 
 use super::arm;
-use super::content::{PanelView, Still, View};
+use super::content::{PanelView, StillContent, View};
 use super::extent;
 use super::motion::{Clock, MotionView, PathView};
-use super::numbers::Grain;
+use super::numbers::RoundingSteps;
 use super::states::{PayloadState, describe, payload_states};
 use super::steps::{Order, rounds, rows, words};
 use super::task_picture::TaskPicture;
@@ -12,22 +12,22 @@ use super::world::{ContourView, ObstacleView, WorldView, contours};
 use crate::{FieldLines, color};
 use cplan_core::model::{Additions, Obstacle, Scene};
 use cplan_geometry::Pose;
-use cplan_handling::{Course, Object, Task, TimedScene};
+use cplan_handling::{Object, ObstacleTrajectory, Task, TimedScene};
 use cplan_tasks::{Event, FailedStep, Leg, Sequence};
 use std::sync::Arc;
 
 /// Poses nearer than this look the same, in metres or radians. It covers rounding.
-const SAME: f64 = 1e-6;
+const EQUALITY_TOLERANCE: f64 = 1e-6;
 
 /// Greatest number of times at which C-obstacles of moving obstacles are drawn, all worlds together.
-const MOST_MOMENTS: usize = 120;
+const MAX_MOMENTS: usize = 120;
 
 impl View {
     /// Returns the view of a task: a world for each set of motions that share one.
     #[must_use]
     pub fn of_task(picture: &TaskPicture) -> Self {
         let (task, legs) = (picture.task, &picture.answer.legs);
-        let (grain, order) = (Grain::of(&task.arm), Order::of(picture.answer));
+        let (grain, order) = (RoundingSteps::of(&task.arm), Order::of(picture.answer));
         let mut worlds = Worlds { picture, grain, scenes: Vec::new(), views: Vec::new() };
         let (mut paths, mut motions) = (Vec::new(), Vec::new());
         let mut from = 0.0;
@@ -58,7 +58,7 @@ impl View {
         motions.push(MotionView { world, path: None, from, label, replay: None });
         worlds.put_in_time(&spans);
         let placed = placed(task, legs);
-        let at_first: Vec<_> = task.objects.iter().map(Object::standing_at_first).collect();
+        let at_first: Vec<_> = task.objects.iter().map(Object::initial_static_pose).collect();
         let mut everything = task.obstacles(&at_first);
         everything.obstacles.extend(placed.iter().map(|(_, obstacle)| obstacle.clone()));
         let overview = everything.scene_trusted(task.arm.clone());
@@ -66,7 +66,7 @@ impl View {
         let shown: Vec<_> = [task.start].into_iter().chain(ends).collect();
         let placed = placed.iter().map(|(object, o)| ObstacleView::new(o, task.obstacle_number(*object), grain));
         let last = legs.last().map(|leg| (leg, motions[legs.len() - 1].world));
-        let still = Still {
+        let still = StillContent {
             time: 0.0,
             now: None,
             reach: None,
@@ -104,7 +104,13 @@ impl View {
 }
 
 /// Returns a configuration space for each payload state, then that of the step that fails, in the world `last`.
-fn panels(picture: &TaskPicture, order: &Order, paths: &[PathView], last: usize, grain: Grain) -> Vec<PanelView> {
+fn panels(
+    picture: &TaskPicture,
+    order: &Order,
+    paths: &[PathView],
+    last: usize,
+    grain: RoundingSteps,
+) -> Vec<PanelView> {
     let (task, legs) = (picture.task, &picture.answer.legs);
     let states = payload_states(legs, &task.arm.topology());
     let rounds = rounds(legs);
@@ -134,9 +140,9 @@ fn panels(picture: &TaskPicture, order: &Order, paths: &[PathView], last: usize,
 /// The worlds of a task, each once.
 struct Worlds<'a> {
     picture: &'a TaskPicture<'a>,
-    grain: Grain,
+    grain: RoundingSteps,
     /// Each with the trajectories of its moving obstacles.
-    scenes: Vec<(Arc<Scene>, Vec<Course>)>,
+    scenes: Vec<(Arc<Scene>, Vec<ObstacleTrajectory>)>,
     views: Vec<WorldView>,
 }
 
@@ -144,7 +150,7 @@ impl Worlds<'_> {
     /// Returns the number of a scene's world, in which these objects move. Repetitions often share one scene, or have
     /// equal ones.
     fn of(&mut self, scene: &Arc<Scene>, moving: &[usize]) -> usize {
-        let known = |(other, _): &(Arc<Scene>, Vec<Course>)| Arc::ptr_eq(other, scene) || other == scene;
+        let known = |(other, _): &(Arc<Scene>, Vec<ObstacleTrajectory>)| Arc::ptr_eq(other, scene) || other == scene;
         self.scenes.iter().position(known).unwrap_or_else(|| self.add(scene, moving))
     }
 
@@ -170,7 +176,7 @@ impl Worlds<'_> {
             view.movers.iter_mut().for_each(|mover| mover.until = picked(&mover.obstacle.name));
             let Some(span) = spans.get(number) else { continue };
             let (scene, courses) = &self.scenes[number];
-            let moments = (self.picture.in_time)(TimedScene { scene, courses }, *span, MOST_MOMENTS / spans.len());
+            let moments = (self.picture.in_time)(TimedScene { scene, courses }, *span, MAX_MOMENTS / spans.len());
             *view = view.clone().timed(&moments, self.grain);
         }
     }
@@ -211,8 +217,8 @@ impl Worlds<'_> {
 
 /// Returns the poses of the objects after all steps, and the objects that still move. A carried object has no pose.
 fn at_the_end(task: &Task, legs: &[Leg]) -> (Vec<Option<Pose>>, Vec<usize>) {
-    let mut poses: Vec<Option<Pose>> = task.objects.iter().map(Object::standing_at_first).collect();
-    let mut moving: Vec<usize> = task.moving_at_first().collect();
+    let mut poses: Vec<Option<Pose>> = task.objects.iter().map(Object::initial_static_pose).collect();
+    let mut moving: Vec<usize> = task.initially_moving().collect();
     for event in legs.iter().filter_map(|leg| leg.event) {
         moving.retain(|&object| object != event.object());
         poses[event.object()] = match event {
@@ -231,11 +237,13 @@ fn placed(task: &Task, legs: &[Leg]) -> Vec<(usize, Obstacle)> {
         let Some(Event::Release { object, pose }) = leg.event else { continue };
         let same = |known: &(usize, Pose)| {
             let by = known.1.inverse_pose(&pose);
-            known.0 == object && by.translation.norm() <= SAME && by.rotation.angle().abs() <= SAME
+            known.0 == object
+                && by.translation.norm() <= EQUALITY_TOLERANCE
+                && by.rotation.angle().abs() <= EQUALITY_TOLERANCE
         };
         if !seen.iter().any(same) {
             seen.push((object, pose));
         }
     }
-    seen[first..].iter().map(|(object, pose)| (*object, task.objects[*object].lying(Some(pose)))).collect()
+    seen[first..].iter().map(|(object, pose)| (*object, task.objects[*object].obstacle_at(Some(pose)))).collect()
 }

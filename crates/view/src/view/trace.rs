@@ -1,7 +1,7 @@
 //! The planner's trace.
 
 use super::flow;
-use super::numbers::{Chain, Grain, number};
+use super::numbers::{Chain, RoundingSteps, number};
 use super::slope::Slope;
 use super::waves::Waves;
 use cplan_core::planner::{Trace, VisibilityGraph};
@@ -100,7 +100,7 @@ impl TraceView {
     }
 
     /// Returns the trace; `None` if there is nothing to show.
-    pub fn new(trace: &Trace, topology: &Topology, grain: Grain) -> Option<Self> {
+    pub fn new(trace: &Trace, topology: &Topology, grain: RoundingSteps) -> Option<Self> {
         let pairs = |pairs: &[[Configuration; 2]]| grain.configurations(pairs.iter().flatten());
         Some(match trace {
             Trace::Roadmap { edges, whole } => Self::Roadmap { edges: pairs(edges), whole: *whole },

@@ -3,13 +3,13 @@
 use serde::{Serialize, Serializer};
 
 /// Largest number of blocks along an axis: each one is nearly one and a half pixels wide.
-const CELLS: usize = 192;
-/// Letters for the levels, one letter per block of cells. `NONE` stands for no level.
-const LETTERS: &[u8; LEVELS] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-const NONE: char = '.';
+const MAX_BLOCKS: usize = 192;
+/// Letters for the levels, one letter per block of cells. `NO_LEVEL` stands for no level.
+const LEVEL_LETTERS: &[u8; LEVELS] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+const NO_LEVEL: char = '.';
 
 /// Largest number of cells along either axis with which each cell shows its number.
-const NUMBERED: usize = 32;
+const MAX_NUMBERED_CELLS: usize = 32;
 
 /// Number of different distances to the goal.
 pub const LEVELS: usize = 64;
@@ -21,7 +21,7 @@ pub struct Waves {
     pub blocks: [usize; 2],
     /// Part of the axis that the blocks cover, above 1 if blocks extend beyond the last cell.
     pub extent: [f64; 2],
-    /// Least label of each block, as a fraction of the greatest label; `NONE` if the wave did not reach the block.
+    /// Least label of each block, as a fraction of the greatest label; `NO_LEVEL` if the wave did not reach the block.
     levels: String,
     /// Position of each block's first cell in the order of expansion, written in the same way; empty if there is no
     /// order.
@@ -51,7 +51,7 @@ impl Waves {
             return None;
         }
         let farthest = labels.iter().copied().filter(|&l| l != u32::MAX).max().unwrap_or(0);
-        let block = cells.map(|n| n.div_ceil(CELLS).max(1));
+        let block = cells.map(|n| n.div_ceil(MAX_BLOCKS).max(1));
         let blocks = [0, 1].map(|k| cells[k].div_ceil(block[k]));
         let block_of = |cell: usize| cell / cells[1] / block[0] * blocks[1] + cell % cells[1] / block[1];
         let coarse = |values: &mut dyn Iterator<Item = (usize, u32)>, greatest: u32| -> String {
@@ -74,7 +74,7 @@ impl Waves {
             order: if expanded.is_empty() { String::new() } else { coarse(&mut { places }, expanded.len() as u32 - 1) },
             farthest,
             from_start: false,
-            numbers: if cells.iter().all(|&n| n <= NUMBERED) { numbers } else { Vec::new() },
+            numbers: if cells.iter().all(|&n| n <= MAX_NUMBERED_CELLS) { numbers } else { Vec::new() },
         })
     }
 
@@ -95,22 +95,22 @@ impl Waves {
     pub fn up_to(&self, part: f64) -> Self {
         let last = (part * LEVELS as f64).floor() as usize;
         let order = if self.order.is_empty() { &self.levels } else { &self.order };
-        let there = |letter: u8| LETTERS.iter().position(|&l| l == letter).is_some_and(|level| level < last);
+        let there = |letter: u8| LEVEL_LETTERS.iter().position(|&l| l == letter).is_some_and(|level| level < last);
         let levels =
-            self.levels.chars().zip(order.bytes()).map(|(level, place)| if there(place) { level } else { NONE });
+            self.levels.chars().zip(order.bytes()).map(|(level, place)| if there(place) { level } else { NO_LEVEL });
         let numbers = self.numbers.iter().zip(order.bytes()).map(|(number, place)| number.filter(|_| there(place)));
         Self { levels: levels.collect(), numbers: numbers.collect(), ..self.clone() }
     }
 
     /// Returns the level of each block, below [`LEVELS`]; `None` if the wave did not reach it.
     pub fn levels(&self) -> impl Iterator<Item = Option<usize>> + '_ {
-        self.levels.bytes().map(|letter| LETTERS.iter().position(|&l| l == letter))
+        self.levels.bytes().map(|letter| LEVEL_LETTERS.iter().position(|&l| l == letter))
     }
 }
 
 /// Returns the letter of a value from 0 to 1.
 pub fn letter(part: Option<f64>) -> char {
-    part.map_or(NONE, |part| char::from(LETTERS[(part * (LEVELS - 1) as f64).round() as usize]))
+    part.map_or(NO_LEVEL, |part| char::from(LEVEL_LETTERS[(part * (LEVELS - 1) as f64).round() as usize]))
 }
 
 #[cfg(test)]

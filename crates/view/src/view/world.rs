@@ -1,7 +1,7 @@
 //! A world that the arm moves in: obstacles, payload, pairs of shapes that can meet, and the C-obstacles.
 
 use super::names::{self, NameView};
-use super::numbers::{Chain, Grain, ShapeView, number, outline};
+use super::numbers::{Chain, RoundingSteps, ShapeView, number, outline};
 use super::trace::{ScaleView, TraceView};
 use crate::color::{self, Rgb};
 use cplan_core::check::CheckedProof;
@@ -9,11 +9,11 @@ use cplan_core::cspace::CObstacle;
 use cplan_core::model::{Carrier, Grip, LooseObstacle, Obstacle, Pair, Preference, Region, Scene, Shape};
 use cplan_core::space::Configuration;
 use cplan_geometry::{Convex, Point};
-use cplan_handling::{Course, TimedScene};
+use cplan_handling::{ObstacleTrajectory, TimedScene};
 use serde::{Serialize, Serializer};
 
 /// Largest number of obstacles with names; if there are more, they are numbered.
-pub const NAMED: usize = 16;
+pub const MAX_NAMED_OBSTACLES: usize = 16;
 
 /// An obstacle.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -33,7 +33,7 @@ pub struct ObstacleView {
 
 impl ObstacleView {
     /// Returns obstacle `number` of its world.
-    pub fn new(obstacle: &Obstacle, number: usize, grain: Grain) -> Self {
+    pub fn new(obstacle: &Obstacle, number: usize, grain: RoundingSteps) -> Self {
         Self {
             name: obstacle.name.clone(),
             color: color::obstacle(number),
@@ -61,7 +61,7 @@ impl ObstacleView {
 
 /// A moving obstacle.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct MoverView {
+pub struct MovingObstacleView {
     /// Shape in its own frame.
     #[serde(flatten)]
     pub obstacle: ObstacleView,
@@ -73,11 +73,11 @@ pub struct MoverView {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub until: Option<f64>,
     #[serde(skip)]
-    course: Course,
+    course: ObstacleTrajectory,
 }
 
-impl MoverView {
-    fn new(obstacle: &Obstacle, course: &Course, color: usize, grain: Grain) -> Self {
+impl MovingObstacleView {
+    fn new(obstacle: &Obstacle, course: &ObstacleTrajectory, color: usize, grain: RoundingSteps) -> Self {
         let velocity = course.velocity();
         Self {
             obstacle: ObstacleView::new(obstacle, color, grain),
@@ -172,7 +172,7 @@ pub struct WorldView {
     pub clearance: f64,
     pub obstacles: Vec<ObstacleView>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub movers: Vec<MoverView>,
+    pub movers: Vec<MovingObstacleView>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub payload: Option<PayloadView>,
     /// Shapes that can meet: link, part, obstacle, first piece, and the piece after the last.
@@ -201,7 +201,7 @@ pub struct WorldView {
 
 impl WorldView {
     /// Creates the world of a scene, with its description and the contours of its C-obstacles.
-    pub fn new(timed: TimedScene, label: String, c_obstacles: &[CObstacle], grain: Grain) -> Self {
+    pub fn new(timed: TimedScene, label: String, c_obstacles: &[CObstacle], grain: RoundingSteps) -> Self {
         let scene = timed.scene;
         let standing = scene.workspace().obstacles.len();
         let shown = |number| shown_number(scene, number);
@@ -230,7 +230,7 @@ impl WorldView {
     }
 
     /// Adds the C-obstacles of moving obstacles at some times, by the number of the moving obstacle.
-    pub fn timed(self, moments: &[(f64, Vec<CObstacle>)], grain: Grain) -> Self {
+    pub fn timed(self, moments: &[(f64, Vec<CObstacle>)], grain: RoundingSteps) -> Self {
         let moment =
             |(time, all): &(f64, Vec<CObstacle>)| MomentView { time: number(*time), c_obstacles: contours(all, grain) };
         Self { moments: moments.iter().map(moment).collect(), ..self }
@@ -250,19 +250,24 @@ impl WorldView {
 
     /// Returns the name of an obstacle, or its number if there are many.
     pub fn called(&self, obstacle: usize) -> String {
-        if self.obstacles.len() > NAMED { (obstacle + 1).to_string() } else { self.obstacles[obstacle].name.clone() }
+        if self.obstacles.len() > MAX_NAMED_OBSTACLES {
+            (obstacle + 1).to_string()
+        } else {
+            self.obstacles[obstacle].name.clone()
+        }
     }
 
     /// Adds the boxes of proofs.
-    pub fn proven<'a>(self, proofs: impl IntoIterator<Item = &'a CheckedProof>, grain: Grain) -> Self {
-        let boxes = proofs.into_iter().flat_map(CheckedProof::stuck).flat_map(|s| [s.cell.lower, s.cell.upper]);
+    pub fn proven<'a>(self, proofs: impl IntoIterator<Item = &'a CheckedProof>, grain: RoundingSteps) -> Self {
+        let boxes =
+            proofs.into_iter().flat_map(CheckedProof::collision_boxes).flat_map(|s| [s.cell.lower, s.cell.upper]);
         let corners: Vec<_> = boxes.map(Configuration::from).collect();
         Self { proof: grain.configurations(&corners), ..self }
     }
 }
 
 /// Rounds contours for the document.
-pub fn contours<'a>(all: impl IntoIterator<Item = &'a CObstacle>, grain: Grain) -> Vec<ContourView> {
+pub fn contours<'a>(all: impl IntoIterator<Item = &'a CObstacle>, grain: RoundingSteps) -> Vec<ContourView> {
     let contour =
         |c: &CObstacle| ContourView { obstacle: c.obstacle, link: c.link, contour: grain.configurations(&c.contour) };
     all.into_iter().map(contour).collect()
@@ -277,7 +282,7 @@ fn shown_number(scene: &Scene, number: usize) -> usize {
 
 /// Returns an obstacle by its number in the scene and its number in the view. An obstacle that joint 1 carries has no
 /// fixed place.
-fn obstacle(scene: &Scene, number: usize, shown: usize, grain: Grain) -> ObstacleView {
+fn obstacle(scene: &Scene, number: usize, shown: usize, grain: RoundingSteps) -> ObstacleView {
     let mut view = ObstacleView::new(scene.obstacle(number), shown, grain);
     if scene.self_obstacle(number).is_some_and(|own| own.carrier == Carrier::FirstJoint) {
         view.own = 0;
@@ -291,16 +296,16 @@ fn obstacle(scene: &Scene, number: usize, shown: usize, grain: Grain) -> Obstacl
 
 /// Returns moving obstacles in the colours after those of the static ones; an object keeps the colour that it has when
 /// it lies.
-fn movers(TimedScene { scene, courses }: TimedScene, grain: Grain) -> Vec<MoverView> {
+fn movers(TimedScene { scene, courses }: TimedScene, grain: RoundingSteps) -> Vec<MovingObstacleView> {
     let obstacles = &scene.workspace().obstacles;
-    let view = |(number, (LooseObstacle { obstacle, .. }, course)): (usize, (&LooseObstacle, &Course))| {
+    let view = |(number, (LooseObstacle { obstacle, .. }, course)): (usize, (&LooseObstacle, &ObstacleTrajectory))| {
         let lying = obstacles.iter().position(|o| o.pieces.is_empty() && o.name == obstacle.name);
-        MoverView::new(obstacle, course, lying.unwrap_or(obstacles.len() + number), grain)
+        MovingObstacleView::new(obstacle, course, lying.unwrap_or(obstacles.len() + number), grain)
     };
     scene.loose().iter().zip(courses).enumerate().map(view).collect()
 }
 
-fn payload(scene: &Scene, grain: Grain) -> Option<PayloadView> {
+fn payload(scene: &Scene, grain: RoundingSteps) -> Option<PayloadView> {
     let payload = scene.attachment()?;
     let obstacles = &scene.workspace().obstacles;
     let lying = obstacles.iter().position(|o| o.name == payload.name);
@@ -331,7 +336,7 @@ fn ranges(scene: &Scene) -> Vec<[usize; 5]> {
     ranges
 }
 
-fn region(preference: &Preference, grain: Grain) -> RegionView {
+fn region(preference: &Preference, grain: RoundingSteps) -> RegionView {
     let (joints, polygon) = match &preference.region {
         Region::Configurations(polygon) => (true, polygon),
         Region::Tip(polygon) => (false, polygon),

@@ -2,7 +2,7 @@
 
 use super::picture::{Occupancy, Shade};
 use crate::parsers::yaml_diagnostic;
-use cplan_robot::{Diagnostic, LARGEST, Source, quoted};
+use cplan_robot::{Diagnostic, MAX_LENGTH, Source, quoted};
 use serde::Deserialize;
 use serde::de::IgnoredAny;
 use serde_saphyr::Spanned;
@@ -21,11 +21,11 @@ struct File {
 }
 
 /// The keys that are read; other programs add their own.
-const KEYS: [&str; 7] = ["image", "resolution", "origin", "negate", "occupied_thresh", "free_thresh", "mode"];
+const READ_KEYS: [&str; 7] = ["image", "resolution", "origin", "negate", "occupied_thresh", "free_thresh", "mode"];
 
 /// Darkness that ROS's map savers give to cells that nobody has seen, of 255: the shade 205. They write it whatever
 /// `free_thresh` is, and write `free_thresh: 0.25` beside it, by which it would be free.
-const UNSEEN: f64 = 50.0;
+const UNSEEN_DARKNESS: f64 = 50.0;
 
 /// ROS writes 0 or 1, people also false or true.
 #[derive(Deserialize)]
@@ -55,9 +55,9 @@ impl Description {
                 .help("a map of ROS's map server needs image, resolution, origin, negate, occupied_thresh, free_thresh")
         })?;
         let keys: BTreeMap<String, IgnoredAny> = serde_saphyr::from_str(source.text()).unwrap_or_default();
-        let unused = keys.into_keys().filter(|key| !KEYS.contains(&key.as_str())).collect();
+        let unused = keys.into_keys().filter(|key| !READ_KEYS.contains(&key.as_str())).collect();
         let resolution = file.resolution.value;
-        if !(resolution > 0.0 && resolution <= LARGEST) {
+        if !(resolution > 0.0 && resolution <= MAX_LENGTH) {
             let message = format!("resolution: {resolution} is not a valid length of a pixel's side");
             return Err(diagnostic(source, &file.resolution, message).help("give metres per pixel, such as 0.05"));
         }
@@ -65,9 +65,9 @@ impl Description {
             let message = format!("origin: expected three numbers, found {}", file.origin.value.len());
             diagnostic(source, &file.origin, message).help("origin: [x, y, yaw], metres and radians")
         })?;
-        if let Some(bad) = origin.iter().find(|v| v.is_nan() || v.abs() > LARGEST) {
-            let message = format!("origin: {bad} is not finite, or too large (at most {LARGEST:e})");
-            let help = format!("origin: [x, y, yaw], metres and radians, from -{LARGEST:e} to {LARGEST:e}");
+        if let Some(bad) = origin.iter().find(|v| v.is_nan() || v.abs() > MAX_LENGTH) {
+            let message = format!("origin: {bad} is not finite, or too large (at most {MAX_LENGTH:e})");
+            let help = format!("origin: [x, y, yaw], metres and radians, from -{MAX_LENGTH:e} to {MAX_LENGTH:e}");
             return Err(diagnostic(source, &file.origin, message).help(help));
         }
         let negate = match file.negate.value {
@@ -115,7 +115,7 @@ impl Description {
 
     /// Returns true if a shade is the one of unknown cells. Uses integers, without rounding.
     fn is_unseen(&self, shade: Shade) -> bool {
-        self.dark(shade) * 255.0 == UNSEEN * shade.white
+        self.dark(shade) * 255.0 == UNSEEN_DARKNESS * shade.white
     }
 
     /// Returns the occupancy of a cell by its shade, from 0 for black to that of white. A transparent pixel has no
@@ -135,7 +135,7 @@ impl Description {
         if !self.unused.is_empty() {
             notes.push(format!("unused keys: {}", quoted(&self.unused)));
         }
-        if has_unknown && self.free > UNSEEN / 255.0 {
+        if has_unknown && self.free > UNSEEN_DARKNESS / 255.0 {
             notes.push(format!(
                 "shade {} counts as unknown, as ROS's map savers mean it, though free_thresh {} would make it free; to take what \
                  is unknown for free, write unknown = \"free\" in the world file",

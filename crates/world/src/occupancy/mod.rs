@@ -15,13 +15,13 @@ mod picture;
 mod png;
 mod rectangles;
 
-pub use picture::{MOST_CELLS, Occupancy};
+pub use picture::{MAX_CELLS, Occupancy};
 pub use rectangles::{PixelRectangle, rectangles};
 
 use cplan_geometry::{Convex, Point, Pose, Vector};
-use cplan_robot::{Diagnostic, InputError, LARGEST, Source, read_bounded};
+use cplan_robot::{Diagnostic, InputError, MAX_LENGTH, Source, read_bounded};
 use description::Description;
-use picture::{Broken, Judge, Picture};
+use picture::{Judge, Picture, UnusablePicture};
 use std::path::{Path, PathBuf};
 
 /// An occupancy map in the plane.
@@ -53,7 +53,7 @@ impl OccupancyMap {
     /// costs. Colours are averaged. Pixels that are not opaque are unknown.
     ///
     /// # Errors
-    /// An invalid description; a picture that is damaged, of another format or of more than [`MOST_CELLS`]; and a place
+    /// An invalid description; a picture that is damaged, of another format or of more than [`MAX_CELLS`]; and a place
     /// too far away for the program's arithmetic.
     pub fn read(yaml: &Path) -> Result<Self, InputError> {
         let source = Source::read(yaml)?;
@@ -66,21 +66,24 @@ impl OccupancyMap {
             let help = "name the picture relative to this file";
             return Err(source.diagnostic_at_position(line, column, message).help(help).into());
         }
-        let broken = |Broken { message, help }: Broken| Diagnostic::new(path.display().to_string(), message).help(help);
-        let bytes = read_bounded(&path)
-            .map_err(|e| broken(Broken::new(format!("cannot be read: {e}"), "check the file's permissions")))?;
+        let broken = |UnusablePicture { message, help }: UnusablePicture| {
+            Diagnostic::new(path.display().to_string(), message).help(help)
+        };
+        let bytes = read_bounded(&path).map_err(|e| {
+            broken(UnusablePicture::new(format!("cannot be read: {e}"), "check the file's permissions"))
+        })?;
         let picture = picture(&bytes, &|shade| description.judge(shade)).map_err(broken)?;
         let size = [picture.width, picture.height];
         let [x, y, yaw] = description.origin;
         let extent = size[0].max(size[1]) as f64 * description.resolution;
-        if x.abs().max(y.abs()) + 2.0 * extent > LARGEST {
+        if x.abs().max(y.abs()) + 2.0 * extent > MAX_LENGTH {
             let message = format!(
-                "a picture of {} x {} pixels with a resolution of {} m extends beyond {LARGEST:e} m",
+                "a picture of {} x {} pixels with a resolution of {} m extends beyond {MAX_LENGTH:e} m",
                 size[0], size[1], description.resolution
             );
             return Err(source
                 .diagnostic(message)
-                .help(format!("the resolution is in metres per pixel, and a map may extend to {LARGEST:e} m"))
+                .help(format!("the resolution is in metres per pixel, and a map may extend to {MAX_LENGTH:e} m"))
                 .into());
         }
         let pose = Pose::new(Vector::new(x, y), yaw);
@@ -130,8 +133,8 @@ impl OccupancyMap {
 }
 
 /// Reads a picture, whose format its first bytes tell.
-fn picture(bytes: &[u8], judge: Judge) -> Result<Picture, Broken> {
-    const SAVE: &str = "save it as PGM or PNG";
+fn picture(bytes: &[u8], judge: Judge) -> Result<Picture, UnusablePicture> {
+    const FORMAT_HINT: &str = "save it as PGM or PNG";
     match bytes {
         [b'P', b'2' | b'5', ..] => pgm::read(bytes, judge),
         [0x89, b'P', b'N', b'G', ..] => png::read(bytes, judge),
@@ -141,10 +144,12 @@ fn picture(bytes: &[u8], judge: Judge) -> Result<Picture, Broken> {
                 b'7' => "a PAM",
                 _ => "in colour (PPM)",
             };
-            Err(Broken::new(format!("is {format}, not a greymap (PGM)"), SAVE))
+            Err(UnusablePicture::new(format!("is {format}, not a greymap (PGM)"), FORMAT_HINT))
         }
-        [0xff, 0xd8, ..] => Err(Broken::new("is a JPEG, which does not preserve the shades of pixels", SAVE)),
-        [] => Err(Broken::new("is empty", SAVE)),
-        _ => Err(Broken::new("is neither PGM nor PNG", SAVE)),
+        [0xff, 0xd8, ..] => {
+            Err(UnusablePicture::new("is a JPEG, which does not preserve the shades of pixels", FORMAT_HINT))
+        }
+        [] => Err(UnusablePicture::new("is empty", FORMAT_HINT)),
+        _ => Err(UnusablePicture::new("is neither PGM nor PNG", FORMAT_HINT)),
     }
 }

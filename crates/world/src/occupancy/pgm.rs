@@ -2,28 +2,28 @@
 //!
 //! Format: <https://netpbm.sourceforge.net/doc/pgm.html>. A `#` in the header begins a comment up to the end of the line.
 
-use super::picture::{Broken, Judge, Picture, Shade, checked_size};
+use super::picture::{Judge, Picture, Shade, UnusablePicture, checked_size};
 
 /// The hint of most diagnostics.
-const HELP: &str = "save the picture again";
+const SAVE_HINT: &str = "save the picture again";
 
 /// Reads a greymap.
-pub(super) fn read(bytes: &[u8], judge: Judge) -> Result<Picture, Broken> {
+pub(super) fn read(bytes: &[u8], judge: Judge) -> Result<Picture, UnusablePicture> {
     let in_text = bytes[1] == b'2';
     let mut header = Words { bytes, at: 2 };
     let [width, height, most] =
         [header.number(&"width")?, header.number(&"height")?, header.number(&"greatest value (maxval)")?];
     let count = checked_size(width, height)?;
     if !(1..=65535).contains(&most) {
-        return Err(Broken::new(format!("maxval is {most}, but must be from 1 to 65535"), HELP));
+        return Err(UnusablePicture::new(format!("maxval is {most}, but must be from 1 to 65535"), SAVE_HINT));
     }
     // Once for every shade, not for every pixel.
     let shade = |value: usize| Shade { value: value as f64, white: most as f64 };
-    let said: Vec<_> = (0..=most).map(|value| judge(Some(shade(value)))).collect();
+    let occupancies: Vec<_> = (0..=most).map(|value| judge(Some(shade(value)))).collect();
     let checked = |value: usize, index: usize| {
-        said.get(value).copied().ok_or_else(|| {
+        occupancies.get(value).copied().ok_or_else(|| {
             let place = format!("row {}, column {}", index / width + 1, index % width + 1);
-            Broken::new(format!("{place}: {value} exceeds the maxval, {most}"), HELP)
+            UnusablePicture::new(format!("{place}: {value} exceeds the maxval, {most}"), SAVE_HINT)
         })
     };
     let cells = if in_text {
@@ -45,7 +45,7 @@ pub(super) fn read(bytes: &[u8], judge: Judge) -> Result<Picture, Broken> {
         if raster.len() < needed {
             let message =
                 format!("ends early: {width} x {height} pixels take {needed} bytes, but the file has {}", raster.len());
-            return Err(Broken::new(message, HELP));
+            return Err(UnusablePicture::new(message, SAVE_HINT));
         }
         ended(start + needed, bytes)?;
         let value = |index: usize| match wide {
@@ -58,12 +58,12 @@ pub(super) fn read(bytes: &[u8], judge: Judge) -> Result<Picture, Broken> {
 }
 
 /// Checks that nothing follows the picture, which ends before byte `at`.
-fn ended(at: usize, bytes: &[u8]) -> Result<(), Broken> {
+fn ended(at: usize, bytes: &[u8]) -> Result<(), UnusablePicture> {
     if at >= bytes.len() {
         return Ok(());
     }
     let message = format!("continues after the picture of its header, at byte {}", at + 1);
-    Err(Broken::new(
+    Err(UnusablePicture::new(
         message,
         "correct width, height and maxval in the header, end its lines by one character, or save the picture again",
     ))
@@ -96,14 +96,14 @@ impl Words<'_> {
     }
 
     /// Reads the next number and the white space around it.
-    fn number(&mut self, what: &dyn std::fmt::Display) -> Result<usize, Broken> {
+    fn number(&mut self, what: &dyn std::fmt::Display) -> Result<usize, UnusablePicture> {
         let before = self.at;
         self.skip();
         let rest = &self.bytes[self.at..];
         let length = rest.iter().position(|b| b.is_ascii_whitespace() || *b == b'#').unwrap_or(rest.len());
         let word = &rest[..length];
         if word.is_empty() {
-            return Err(Broken::new(format!("ends early: there is no {what}"), HELP));
+            return Err(UnusablePicture::new(format!("ends early: there is no {what}"), SAVE_HINT));
         }
         let value = std::str::from_utf8(word).ok().filter(|w| w.bytes().all(|b| b.is_ascii_digit()));
         match value.and_then(|w| w.parse().ok()) {
@@ -114,7 +114,10 @@ impl Words<'_> {
             _ => {
                 // Enough characters to recognise the word.
                 let shown: String = String::from_utf8_lossy(word).chars().take(20).collect();
-                Err(Broken::new(format!("{what}: {shown:?} is not a whole number (byte {})", self.at + 1), HELP))
+                Err(UnusablePicture::new(
+                    format!("{what}: {shown:?} is not a whole number (byte {})", self.at + 1),
+                    SAVE_HINT,
+                ))
             }
         }
     }

@@ -12,7 +12,7 @@ pub enum Occupancy {
 }
 
 /// Cells of the largest picture that is read.
-pub const MOST_CELLS: usize = 1 << 26;
+pub const MAX_CELLS: usize = 1 << 26;
 
 /// A picture's pixels, judged.
 pub(super) struct Picture {
@@ -24,12 +24,12 @@ pub(super) struct Picture {
 
 /// Why a picture cannot be used, and what to do about it.
 #[derive(Debug)]
-pub(super) struct Broken {
+pub(super) struct UnusablePicture {
     pub message: String,
     pub help: String,
 }
 
-impl Broken {
+impl UnusablePicture {
     pub fn new(message: impl Into<String>, help: impl Into<String>) -> Self {
         Self { message: message.into(), help: help.into() }
     }
@@ -46,14 +46,14 @@ pub(super) struct Shade {
 pub(super) type Judge<'a> = &'a dyn Fn(Option<Shade>) -> Occupancy;
 
 /// The number of pixels, if the program takes so many: before any memory is asked for.
-pub(super) fn checked_size(width: usize, height: usize) -> Result<usize, Broken> {
+pub(super) fn checked_size(width: usize, height: usize) -> Result<usize, UnusablePicture> {
     if width == 0 || height == 0 {
-        return Err(Broken::new(format!("has no pixels: {width} x {height}"), "save the map again"));
+        return Err(UnusablePicture::new(format!("has no pixels: {width} x {height}"), "save the map again"));
     }
     match width.checked_mul(height) {
-        Some(count) if count <= MOST_CELLS => Ok(count),
-        _ => Err(Broken::new(
-            format!("{width} x {height} pixels are too many (at most {MOST_CELLS})"),
+        Some(count) if count <= MAX_CELLS => Ok(count),
+        _ => Err(UnusablePicture::new(
+            format!("{width} x {height} pixels are too many (at most {MAX_CELLS})"),
             "cut the map to the arm's surroundings, or make its pixels larger",
         )),
     }

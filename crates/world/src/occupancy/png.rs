@@ -1,12 +1,13 @@
 //! PNG pictures of any kind: grey, colour, palette; 1 to 16 bits; with or without opacity.
 
-use super::picture::{Broken, Judge, Picture, Shade, checked_size};
+use super::picture::{Judge, Picture, Shade, UnusablePicture, checked_size};
 use ::png::{BitDepth, ColorType, Decoder, DecodingError, Transformations};
 use std::io::Cursor;
 
 /// Reads a PNG.
-pub(super) fn read(bytes: &[u8], judge: Judge) -> Result<Picture, Broken> {
-    let broken = |error: DecodingError| Broken::new(format!("is a broken PNG: {error}"), "save the picture again");
+pub(super) fn read(bytes: &[u8], judge: Judge) -> Result<Picture, UnusablePicture> {
+    let broken =
+        |error: DecodingError| UnusablePicture::new(format!("is a broken PNG: {error}"), "save the picture again");
     let mut decoder = Decoder::new(Cursor::new(bytes));
     // Palettes become colours, fewer than eight bits eight, a transparent colour an opacity.
     decoder.set_transformations(Transformations::EXPAND);
@@ -14,7 +15,7 @@ pub(super) fn read(bytes: &[u8], judge: Judge) -> Result<Picture, Broken> {
     let (width, height) = (header.width as usize, header.height as usize);
     let count = checked_size(width, height)?;
     if lacks_colors(bytes).map_err(broken)? {
-        return Err(Broken::new(
+        return Err(UnusablePicture::new(
             "is a broken PNG: a pixel has a colour that its palette lacks",
             "save the picture again",
         ));
@@ -36,7 +37,7 @@ pub(super) fn read(bytes: &[u8], judge: Judge) -> Result<Picture, Broken> {
     };
     let cells: Vec<_> = samples.chunks_exact(channels * bytes_each).take(count).map(cell).collect();
     if cells.len() < count {
-        return Err(Broken::new("is a broken PNG: pixels are missing", "save the picture again"));
+        return Err(UnusablePicture::new("is a broken PNG: pixels are missing", "save the picture again"));
     }
     Ok(Picture { width, height, cells })
 }

@@ -7,10 +7,10 @@ use cplan_robot::{Diagnostic, InputError, Source};
 use serde::{Deserialize, Deserializer};
 
 /// Numbers beyond this are a mistake.
-const LARGEST: f64 = 1e12;
+const MAX_NUMBER: f64 = 1e12;
 
 /// Members that are read elsewhere, or say how others are to be read.
-const READ: [&str; 5] = ["joints", "trajectory", "interpolation", "steps", "events"];
+const OTHER_MEMBERS: [&str; 5] = ["joints", "trajectory", "interpolation", "steps", "events"];
 
 /// The members that are judged.
 #[derive(Deserialize)]
@@ -21,7 +21,7 @@ struct Document {
     units: Option<Vec<String>>,
     path: Option<Vec<Vec<f64>>>,
     length: Option<f64>,
-    #[serde(default, deserialize_with = "said")]
+    #[serde(default, deserialize_with = "nullable")]
     clearance: Option<Option<f64>>,
     blends: Option<BlendsMember>,
     duration: Option<f64>,
@@ -33,7 +33,7 @@ struct Document {
     events: Option<Vec<EventMember>>,
 }
 
-const JUDGED: [&str; 10] =
+const JUDGED_MEMBERS: [&str; 10] =
     ["status", "certified", "units", "path", "length", "clearance", "blends", "duration", "optimum", "gap"];
 
 #[derive(Deserialize)]
@@ -59,16 +59,16 @@ struct OptimumMember {
 #[derive(Deserialize)]
 struct StepMember {
     action: Option<String>,
-    #[serde(default, deserialize_with = "said")]
+    #[serde(default, deserialize_with = "nullable")]
     object: Option<Option<String>>,
-    #[serde(default, deserialize_with = "said")]
+    #[serde(default, deserialize_with = "nullable")]
     carried: Option<Option<String>>,
     begin: Option<f64>,
     arrival: Option<f64>,
     end: Option<f64>,
     path: Option<Vec<Vec<f64>>>,
     length: Option<f64>,
-    #[serde(default, deserialize_with = "said")]
+    #[serde(default, deserialize_with = "nullable")]
     clearance: Option<Option<f64>>,
     blends: Option<BlendsMember>,
     turn: Option<TurnMember>,
@@ -76,7 +76,7 @@ struct StepMember {
 
 #[derive(Deserialize)]
 struct TurnMember {
-    #[serde(default, deserialize_with = "said")]
+    #[serde(default, deserialize_with = "nullable")]
     clearance: Option<Option<f64>>,
 }
 
@@ -98,7 +98,7 @@ struct PoseMember {
 }
 
 /// Deserialises a member that may be null, which differs from a missing one.
-fn said<'de, D: Deserializer<'de>, T: Deserialize<'de>>(deserializer: D) -> Result<Option<Option<T>>, D::Error> {
+fn nullable<'de, D: Deserializer<'de>, T: Deserialize<'de>>(deserializer: D) -> Result<Option<Option<T>>, D::Error> {
     Option::deserialize(deserializer).map(Some)
 }
 
@@ -119,7 +119,9 @@ pub(super) fn json(source: &Source, arm: [&str; 2]) -> Result<Option<Claims>, In
         // The reader of samples reports defects of the names.
         return Ok(None);
     };
-    let unjudged = members.keys().filter(|name| !JUDGED.contains(&name.as_str()) && !READ.contains(&name.as_str()));
+    let unjudged = members
+        .keys()
+        .filter(|name| !JUDGED_MEMBERS.contains(&name.as_str()) && !OTHER_MEMBERS.contains(&name.as_str()));
     let mut unjudged: Vec<String> = unjudged.cloned().collect();
     let samples = members.get("trajectory").filter(|trajectory| !trajectory.is_null());
     if samples.is_some_and(|samples| samples.get("torque").is_some_and(|torque| !torque.is_null())) {
@@ -139,13 +141,15 @@ pub(super) fn json(source: &Source, arm: [&str; 2]) -> Result<Option<Claims>, In
         return Err(diagnostic.help("give every joint one unit, \"rad\" or \"m\"").into());
     }
     let paths = document.path.iter().chain(document.steps.iter().flatten().filter_map(|step| step.path.as_ref()));
-    if let Some(row) = paths.flatten().find(|row| row.len() != width || row.iter().any(|value| value.abs() > LARGEST)) {
+    if let Some(row) =
+        paths.flatten().find(|row| row.len() != width || row.iter().any(|value| value.abs() > MAX_NUMBER))
+    {
         let diagnostic = source.diagnostic(format!("a waypoint of a path is {row:?}, but {width} joints are named"));
         return Err(diagnostic.help("give every waypoint one value for each joint, radians or metres").into());
     }
     let claims = document.claims(order, unjudged);
     let numbers = [claims.length, claims.duration, claims.clearance.flatten(), claims.task.lower_bound];
-    if let Some(value) = numbers.into_iter().flatten().find(|value| value.abs() > LARGEST) {
+    if let Some(value) = numbers.into_iter().flatten().find(|value| value.abs() > MAX_NUMBER) {
         let diagnostic: Diagnostic = source.diagnostic(format!("{value:e} is too large"));
         return Err(diagnostic.help("write values in radians, metres and seconds").into());
     }

@@ -20,10 +20,10 @@ pub(super) enum Quantity {
 }
 
 /// Names of columns that hold times, in lower case.
-const TIMES: [&str; 5] = ["time", "t", "time_from_start", "time_s", "__time"];
+const TIME_COLUMNS: [&str; 5] = ["time", "t", "time_from_start", "time_s", "__time"];
 
 /// Words that go with a joint's name.
-const WORDS: [(Quantity, &[&str]); 4] = [
+const QUANTITY_WORDS: [(Quantity, &[&str]); 4] = [
     (Quantity::Position, &["position", "positions", "pos"]),
     (Quantity::Velocity, &["velocity", "velocities", "vel"]),
     (Quantity::Acceleration, &["acceleration", "accelerations", "acc"]),
@@ -35,12 +35,12 @@ const WORDS: [(Quantity, &[&str]); 4] = [
 /// meanings.
 pub(super) fn meanings(column: &str, joints: &[&str]) -> Vec<Meaning> {
     let mut found = Vec::new();
-    if TIMES.contains(&column.to_lowercase().as_str()) {
+    if TIME_COLUMNS.contains(&column.to_lowercase().as_str()) {
         found.push(Meaning::Time);
     }
     let is = |name: &str| column.strip_suffix(name).is_some_and(|topic| topic.is_empty() || topic.ends_with('/'));
     for (index, joint) in joints.iter().enumerate() {
-        for (quantity, words) in WORDS {
+        for (quantity, words) in QUANTITY_WORDS {
             let with_word = |word: &&str| {
                 ["_", ".", "/"].iter().any(|s| is(&format!("{joint}{s}{word}")) || is(&format!("{word}{s}{joint}")))
             };
@@ -83,7 +83,7 @@ mod tests {
     }
 
     #[test]
-    fn names_that_read_two_ways_have_both_meanings() {
+    fn ambiguous_names_have_both_meanings() {
         assert_eq!(meanings("a_vel", &["a", "a_vel"]), [Meaning::Of(0, Velocity), Meaning::Of(1, Position)]);
         assert_eq!(meanings("t", &["t", "u"]), [Meaning::Time, Meaning::Of(0, Position)]);
     }

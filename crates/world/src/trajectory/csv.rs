@@ -64,14 +64,14 @@ pub(super) fn read(source: &Source, names: &Names) -> Result<Samples, InputError
 /// Returns the separator: of comma, semicolon and tab the first for which a line names a joint.
 fn separator(text: &str, names: &Names) -> char {
     let names_some = |separator: &char| {
-        let mut heads = Records::new(text, *separator).take(HEAD);
+        let mut heads = Records::new(text, *separator).take(MAX_HEADER_LINES);
         heads.any(|record| record.len() > 1 && names_joints(&record, names))
     };
     [',', ';', '\t'].into_iter().find(names_some).unwrap_or(',')
 }
 
 /// Number of lines searched for the header.
-const HEAD: usize = 64;
+const MAX_HEADER_LINES: usize = 64;
 
 fn is_comment(record: &[Field]) -> bool {
     record.first().is_some_and(|field| field.text.starts_with('#'))
@@ -197,8 +197,8 @@ impl Columns {
         let parts = field.text.split_once('.').unwrap_or((&field.text, "0"));
         let Ok(seconds) = parts.0.parse::<i64>() else { return Ok(value) };
         if self.epoch.is_none() {
-            self.epoch = Some(if value > LATEST { seconds } else { 0 });
-            if value > LATEST {
+            self.epoch = Some(if value > MAX_RELATIVE_TIME { seconds } else { 0 });
+            if value > MAX_RELATIVE_TIME {
                 self.notes.push(format!("times are dates: counted from {seconds} s"));
             }
         }
@@ -226,7 +226,7 @@ impl Columns {
 }
 
 /// Times beyond this are dates and no times from a start: eleven days, in seconds.
-const LATEST: f64 = 1e6;
+const MAX_RELATIVE_TIME: f64 = 1e6;
 
 /// Returns the meaning of a column, and the unit after its name if there is one.
 fn meant<'a>(name: &'a str, joints: &[&str]) -> (Vec<Meaning>, Option<&'a str>) {
@@ -260,7 +260,7 @@ fn unit_of(
     match units::unit(unit, meaning) {
         None => wrong(
             format!("the unit \"{unit}\" of column \"{}\" is unknown", field.text),
-            format!("units are {}", units::KNOWN),
+            format!("units are {}", units::KNOWN_UNITS_TEXT),
         ),
         Some(found) if !dimensions.contains(&found.dimension) => wrong(
             format!("column \"{}\" cannot have the unit \"{unit}\"", field.text),

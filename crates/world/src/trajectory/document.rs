@@ -138,8 +138,8 @@ fn samples(source: &Source, document: Document) -> Result<Samples, Diagnostic> {
 }
 
 /// Returns how accelerations join samples, by the member `interpolation` of a cplan result.
-fn own_rule(said: Option<&str>, notes: &mut Vec<String>) -> Option<Interpolation> {
-    match said {
+fn own_rule(stated: Option<&str>, notes: &mut Vec<String>) -> Option<Interpolation> {
+    match stated {
         Some(INTERPOLATION) => Some(Interpolation::Quartic),
         Some(SMOOTH_INTERPOLATION) => Some(Interpolation::Cubic),
         Some(_) => {

@@ -24,7 +24,7 @@ use samples::{Names, Samples, Series, misplaced};
 use std::path::Path;
 
 /// Note about accelerations that do not join samples.
-const STATED: &str = "accelerations in the file are held to the limits, but do not change the motion: positions and velocities \
+const STATED_ACCELERATIONS_NOTE: &str = "accelerations in the file are held to the limits, but do not change the motion: positions and velocities \
                       imply it";
 
 /// A recorded motion and how it was read.
@@ -175,7 +175,9 @@ impl<'a> Names<'a> {
         let recording = recording.map_err(|d| misplaced(source, &samples, &d))?;
         let held = self.moved(source, &samples, &recording, &mut notes)?;
         notes.push(rule(&recording).into());
-        notes.extend((recording.accelerations().is_some() && samples.joined.is_none()).then(|| STATED.into()));
+        notes.extend(
+            (recording.accelerations().is_some() && samples.joined.is_none()).then(|| STATED_ACCELERATIONS_NOTE.into()),
+        );
         Ok(LoadedRecording { recording, held, steps: None, claims: None, has_torques: samples.has_torques, notes })
     }
 }

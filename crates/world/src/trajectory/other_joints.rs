@@ -8,7 +8,7 @@ use cplan_robot::{Diagnostic, Source};
 
 /// Largest deviation of a held joint's recorded value from its held value, radians or metres. It exceeds a controller's
 /// jitter and the rounding to six digits, and is too small to cause a collision.
-const STILL: f64 = 1e-4;
+const HELD_TOLERANCE: f64 = 1e-4;
 
 /// Returns the reason why motions of held joints cannot be judged in a scene, or `None`.
 pub(super) fn rigid(scene: &Scene) -> Option<&'static str> {
@@ -39,7 +39,7 @@ impl Names<'_> {
                 notes.push(format!("joint \"{name}\" is ignored: the arm does not depend on it"));
                 continue;
             };
-            let moves = |value: &f64| value.is_nan() || (value - joint.value).abs() > STILL;
+            let moves = |value: &f64| value.is_nan() || (value - joint.value).abs() > HELD_TOLERANCE;
             let Some(sample) = series.position.iter().position(moves) else {
                 notes.push(format!("joint \"{name}\" stays at {}, as in the world, and is ignored", joint.value));
                 continue;

@@ -7,7 +7,7 @@ use cplan_robot::{Diagnostic, InputError, Source};
 use serde::Deserialize;
 
 /// Largest valid angle (radians) or time (seconds), as in recordings. Doubles near it still resolve a nanoradian.
-const LARGEST: f64 = 1e6;
+const MAX_NUMBER: f64 = 1e6;
 
 /// The members that are read; others may exist.
 #[derive(Deserialize)]
@@ -71,7 +71,7 @@ impl StepMember {
             Some(TurnMember { from, to, seconds }) => {
                 let wrong = [("from", *from), ("to", *to), ("seconds", *seconds)];
                 if let Some((what, value)) =
-                    wrong.into_iter().find(|(_, value)| value.is_nan() || value.abs() > LARGEST)
+                    wrong.into_iter().find(|(_, value)| value.is_nan() || value.abs() > MAX_NUMBER)
                 {
                     let help = "a turn of the wrist has two angles in radians, and takes seconds";
                     return refuse(format!("the turn's {what} is {value}"), help);

@@ -19,7 +19,7 @@ pub(super) struct Unit {
 }
 
 /// Names of units, their dimension, and the factor as a quotient.
-const UNITS: [(&[&str], Dimension, f64, f64); 8] = [
+const KNOWN_UNITS: [(&[&str], Dimension, f64, f64); 8] = [
     (&["rad", "radian", "radians"], Dimension::Angle, 1.0, 1.0),
     (&["deg", "degree", "degrees", "\u{b0}"], Dimension::Angle, std::f64::consts::PI, 180.0),
     (&["m", "metre", "metres", "meter", "meters"], Dimension::Length, 1.0, 1.0),
@@ -31,7 +31,8 @@ const UNITS: [(&[&str], Dimension, f64, f64); 8] = [
 ];
 
 /// The list of known units for messages.
-pub(super) const KNOWN: &str = "rad, deg, m, cm, mm, s, ms or ns, with /s for velocities and /s^2 for accelerations";
+pub(super) const KNOWN_UNITS_TEXT: &str =
+    "rad, deg, m, cm, mm, s, ms or ns, with /s for velocities and /s^2 for accelerations";
 
 /// Splits a column's name from the unit in brackets after it.
 pub(super) fn split(column: &str) -> Option<(&str, &str)> {
@@ -53,7 +54,7 @@ pub(super) fn unit(name: &str, meaning: Meaning) -> Option<Unit> {
     };
     suffixes.iter().find_map(|suffix| {
         let base = name.strip_suffix(suffix)?;
-        let (_, dimension, multiple, divisor) = UNITS.into_iter().find(|(names, ..)| names.contains(&base))?;
+        let (_, dimension, multiple, divisor) = KNOWN_UNITS.into_iter().find(|(names, ..)| names.contains(&base))?;
         Some(Unit { dimension, multiple, divisor })
     })
 }

@@ -2,7 +2,7 @@
 
 use super::{Expression, Names, functions};
 use crate::error::Fault;
-use crate::limits::LONGEST;
+use crate::limits::MAX_LIST_ITEMS;
 use crate::value::{Number, Value};
 use std::cmp::Ordering;
 
@@ -24,8 +24,8 @@ impl Evaluator<'_> {
     fn spend(&mut self, value: &Value) -> Result<(), Fault> {
         let size = match value {
             Value::Text(text) => text.len(),
-            Value::List(items) if items.len() > LONGEST => {
-                return Err(format!("a list of more than {LONGEST} items is too long").into());
+            Value::List(items) if items.len() > MAX_LIST_ITEMS => {
+                return Err(format!("a list of more than {MAX_LIST_ITEMS} items is too long").into());
             }
             _ => 0,
         };
@@ -218,7 +218,7 @@ fn binary(sign: &str, a: &Value, b: &Value) -> Result<Value, Fault> {
     }
     let repeated = |length: usize, times: i64| {
         let times = usize::try_from(times).unwrap_or(0);
-        (length.saturating_mul(times) <= LONGEST).then_some(times).ok_or_else(|| too_large(sign))
+        (length.saturating_mul(times) <= MAX_LIST_ITEMS).then_some(times).ok_or_else(|| too_large(sign))
     };
     match (sign, a, b) {
         ("+", Value::Text(a), Value::Text(b)) => Ok(Value::text(format!("{a}{b}"))),

@@ -1,7 +1,7 @@
 //! The functions and constants that expressions know: those of Python's `math`, and some of its own.
 
 use crate::error::Fault;
-use crate::limits::LONGEST;
+use crate::limits::MAX_LIST_ITEMS;
 use crate::value::{Number, Value, float};
 use std::cmp::Ordering;
 use std::f64::consts;
@@ -9,7 +9,7 @@ use std::f64::consts;
 /// Functions of one number.
 type OfOne = (&'static str, fn(f64) -> f64);
 
-const OF_ONE: [OfOne; 25] = [
+const UNARY_FUNCTIONS: [OfOne; 25] = [
     ("acos", f64::acos),
     ("acosh", f64::acosh),
     ("asin", f64::asin),
@@ -39,7 +39,7 @@ const OF_ONE: [OfOne; 25] = [
 
 type OfTwo = (&'static str, fn(f64, f64) -> f64);
 
-const OF_TWO: [OfTwo; 6] = [
+const BINARY_FUNCTIONS: [OfTwo; 6] = [
     ("atan2", f64::atan2),
     ("copysign", f64::copysign),
     ("fmod", |x, y| x % y),
@@ -49,7 +49,7 @@ const OF_TWO: [OfTwo; 6] = [
 ];
 
 /// The others.
-const MORE: [&str; 19] = [
+const OTHER_FUNCTIONS: [&str; 19] = [
     "abs", "all", "any", "bool", "dict", "float", "int", "isinf", "isnan", "len", "list", "max", "min", "range",
     "round", "sorted", "str", "sum", "trunc",
 ];
@@ -68,16 +68,21 @@ pub(super) fn constant(name: &str) -> Option<Value> {
 }
 
 pub(super) fn is_function(name: &str) -> bool {
-    MORE.contains(&name)
+    OTHER_FUNCTIONS.contains(&name)
         || ["load_yaml", "arg", "tuple"].contains(&name)
-        || OF_ONE.iter().any(|(known, _)| *known == name)
-        || OF_TWO.iter().any(|(known, _)| *known == name)
+        || UNARY_FUNCTIONS.iter().any(|(known, _)| *known == name)
+        || BINARY_FUNCTIONS.iter().any(|(known, _)| *known == name)
 }
 
 /// Calls a function.
 pub(super) fn call(name: &str, arguments: &[Value]) -> Result<Value, Fault> {
     if !is_function(name) {
-        let known: Vec<&str> = OF_ONE.iter().map(|f| f.0).chain(OF_TWO.iter().map(|f| f.0)).chain(MORE).collect();
+        let known: Vec<&str> = UNARY_FUNCTIONS
+            .iter()
+            .map(|f| f.0)
+            .chain(BINARY_FUNCTIONS.iter().map(|f| f.0))
+            .chain(OTHER_FUNCTIONS)
+            .collect();
         return Err(Fault::with_hint(
             format!("the function {name}() is unknown"),
             format!("known functions: {}", known.join(", ")),
@@ -86,9 +91,10 @@ pub(super) fn call(name: &str, arguments: &[Value]) -> Result<Value, Fault> {
     let numbers: Option<Vec<Number>> = arguments.iter().map(Value::number).collect();
     let result = match numbers.as_deref() {
         Some([x]) => of_one(name, *x),
-        Some([x, y]) => {
-            OF_TWO.iter().find(|(known, _)| *known == name).map(|(_, f)| finite(name, f(x.as_f64(), y.as_f64())))
-        }
+        Some([x, y]) => BINARY_FUNCTIONS
+            .iter()
+            .find(|(known, _)| *known == name)
+            .map(|(_, f)| finite(name, f(x.as_f64(), y.as_f64()))),
         _ => None,
     };
     if let Some(result) = result {
@@ -108,7 +114,7 @@ fn finite(name: &str, value: f64) -> Result<Value, Fault> {
 }
 
 fn of_one(name: &str, x: Number) -> Option<Result<Value, Fault>> {
-    let (_, f) = OF_ONE.iter().find(|(known, _)| *known == name)?;
+    let (_, f) = UNARY_FUNCTIONS.iter().find(|(known, _)| *known == name)?;
     let value = finite(name, f(x.as_f64()));
     Some(match (name, value) {
         ("ceil" | "floor", Ok(Value::Float(x))) => whole(name, x),
@@ -119,8 +125,8 @@ fn of_one(name: &str, x: Number) -> Option<Result<Value, Fault>> {
 /// Converts a float without a fraction to an integer.
 fn whole(name: &str, x: f64) -> Result<Value, Fault> {
     /// The least power of two that is too large.
-    const BEYOND: f64 = 9_223_372_036_854_775_808.0;
-    match x.abs() < BEYOND {
+    const INTEGER_OVERFLOW: f64 = 9_223_372_036_854_775_808.0;
+    match x.abs() < INTEGER_OVERFLOW {
         true => Ok(Value::Int(x as i64)),
         false => Err(format!("the result of {name}() is too large").into()),
     }
@@ -185,8 +191,8 @@ fn more(name: &str, arguments: &[Value]) -> Result<Option<Value>, Fault> {
 }
 
 fn range(from: i64, to: i64) -> Result<Value, Fault> {
-    if to.saturating_sub(from) > LONGEST as i64 {
-        return Err(format!("a list of more than {LONGEST} items is too long").into());
+    if to.saturating_sub(from) > MAX_LIST_ITEMS as i64 {
+        return Err(format!("a list of more than {MAX_LIST_ITEMS} items is too long").into());
     }
     Ok(Value::list((from..to).map(Value::Int).collect()))
 }
@@ -226,7 +232,7 @@ pub(super) fn method(of: &Value, name: &str, arguments: &[Value]) -> Result<Valu
         (Value::Text(text), "startswith", [Value::Text(part)]) => Value::Bool(text.starts_with(&**part)),
         (Value::Text(text), "endswith", [Value::Text(part)]) => Value::Bool(text.ends_with(&**part)),
         (Value::Text(text), "replace", [Value::Text(from), Value::Text(to)])
-            if !from.is_empty() && text.len().saturating_mul(to.len().max(1)) <= LONGEST * 10 =>
+            if !from.is_empty() && text.len().saturating_mul(to.len().max(1)) <= MAX_LIST_ITEMS * 10 =>
         {
             Value::text(text.replace(&**from, to))
         }

@@ -3,14 +3,14 @@
 use super::Expression;
 use super::tokens::Token;
 use crate::error::Fault;
-use crate::limits::DEEPEST_EXPRESSION;
+use crate::limits::MAX_EXPRESSION_DEPTH;
 use crate::value::Value;
 
 /// Words of an expression.
-const MOST_WORDS: usize = 1_000;
+const MAX_WORDS: usize = 1_000;
 
 /// Binary operators of each precedence, the weakest first.
-const LEVELS: [&[&str]; 2] = [&["+", "-"], &["*", "/", "//", "%"]];
+const PRECEDENCE_LEVELS: [&[&str]; 2] = [&["+", "-"], &["*", "/", "//", "%"]];
 
 const COMPARISONS: [&str; 6] = ["==", "!=", "<=", ">=", "<", ">"];
 
@@ -18,8 +18,8 @@ const COMPARISONS: [&str; 6] = ["==", "!=", "<=", ">=", "<", ">"];
 const UNKNOWN_WORDS: [&str; 4] = ["lambda", "for", "is", "yield"];
 
 pub(super) fn parse(tokens: &[Token]) -> Result<Expression, Fault> {
-    if tokens.len() > MOST_WORDS {
-        return Err(format!("it has more than {MOST_WORDS} words").into());
+    if tokens.len() > MAX_WORDS {
+        return Err(format!("it has more than {MAX_WORDS} words").into());
     }
     let mut parser = Parser { tokens, at: 0, depth: 0 };
     let expression = parser.choice()?;
@@ -89,8 +89,8 @@ impl<'t> Parser<'t> {
     /// Parses an expression, one level deeper, starting with the weakest operator.
     fn choice(&mut self) -> Result<Expression, Fault> {
         self.depth += 1;
-        if self.depth > DEEPEST_EXPRESSION {
-            return Err(format!("it is nested more than {DEEPEST_EXPRESSION} deep").into());
+        if self.depth > MAX_EXPRESSION_DEPTH {
+            return Err(format!("it is nested more than {MAX_EXPRESSION_DEPTH} deep").into());
         }
         let mut value = self.or()?;
         if self.takes_word("if") {
@@ -156,7 +156,7 @@ impl<'t> Parser<'t> {
 
     /// Sums and products.
     fn sum(&mut self, level: usize) -> Result<Expression, Fault> {
-        let Some(operators) = LEVELS.get(level) else { return self.signed() };
+        let Some(operators) = PRECEDENCE_LEVELS.get(level) else { return self.signed() };
         let mut value = self.sum(level + 1)?;
         while let Some(operator) = self.takes_one_of(operators) {
             value = Expression::Binary(operator, boxed(value), boxed(self.sum(level + 1)?));
@@ -183,8 +183,8 @@ impl<'t> Parser<'t> {
             return Ok(base);
         }
         self.depth += 1;
-        if self.depth > DEEPEST_EXPRESSION {
-            return Err(format!("it is nested more than {DEEPEST_EXPRESSION} deep").into());
+        if self.depth > MAX_EXPRESSION_DEPTH {
+            return Err(format!("it is nested more than {MAX_EXPRESSION_DEPTH} deep").into());
         }
         let exponent = self.signed()?;
         self.depth -= 1;
@@ -194,8 +194,8 @@ impl<'t> Parser<'t> {
     fn postfix(&mut self) -> Result<Expression, Fault> {
         let mut value = self.atom()?;
         for count in 0.. {
-            if count > DEEPEST_EXPRESSION {
-                return Err(format!("it is nested more than {DEEPEST_EXPRESSION} deep").into());
+            if count > MAX_EXPRESSION_DEPTH {
+                return Err(format!("it is nested more than {MAX_EXPRESSION_DEPTH} deep").into());
             }
             if self.takes_sign(".") {
                 let Some(Token::Name(name)) = self.peek() else { return Err("a name is missing after \".\"".into()) };

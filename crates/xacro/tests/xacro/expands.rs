@@ -154,7 +154,7 @@ fn numbers_come_from_yaml() {
 
 /// Other namespaces, text and escaped characters stay unchanged.
 #[test]
-fn what_is_no_xacro_stays() {
+fn plain_urdf_stays_unchanged() {
     let text = "<robot name=\"r\" xmlns:xacro=\"http://wiki.ros.org/xacro\" xmlns:s=\"http://x/s\"><!-- gone -->\
                 <s:a b=\"&lt;&quot;&amp;\">1 &lt; ${1 + 1}</s:a><plugin><p>x</p></plugin></robot>";
     let expansion = Files::new(&[("r.xacro", text)]).expand(&[]).unwrap();

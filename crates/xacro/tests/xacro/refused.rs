@@ -63,7 +63,7 @@ fn mistakes_are_named_with_file_line_and_hint() {
 }
 
 #[test]
-fn what_goes_on_without_end_is_refused_soon() {
+fn endless_expansion_is_refused_early() {
     let deep = "<a>".repeat(100_000) + &"</a>".repeat(100_000);
     let parens = format!("<v v=\"${{{}1{}}}\"/>", "(".repeat(5000), ")".repeat(5000));
     let nots = format!("<v v=\"${{{} 1}}\"/>", "not ".repeat(900));

@@ -1,32 +1,32 @@
 //! The carried object: picked, turned and released.
 
-use super::{Manner, Replay, Tool};
+use super::{ContactRule, Replay, ToolHeights};
 use crate::world::hung;
-use crate::world::task::{Carrying, Passing};
+use crate::world::task::{CarryRules, MovingPick};
 use cplan_check::CheckError;
-use cplan_check::certificate::Done;
-use cplan_check::curve::{FINE, Piece};
+use cplan_check::certificate::ExecutedStep;
+use cplan_check::curve::{FRACTION_BITS, Piece};
 use cplan_check::decimal::Decimal;
-use cplan_check::free::{Chain, On, Solid, guard};
+use cplan_check::free::{Attachment, Chain, Solid, guard};
 use cplan_check::interval::{Interval, Point, both_turns, length, minus, turned};
-use cplan_check::motion::{SIXTY, fine};
+use cplan_check::motion::{CONTROL_POINT_FACTOR, fine};
 use cplan_check::obstacle::Obstacle;
 use cplan_check::overlap::Shape;
 use cplan_check::polygon::Corner;
-use cplan_check::scene::{Present, stay_off};
+use cplan_check::scene::{PlacedObstacle, stay_off};
 use num_bigint::BigInt;
 use std::iter;
 
 /// Maximum distance of a moving object from its required position when it is picked, metres: `10^-3`.
-const NEAR: u32 = 3;
+const PICK_TOLERANCE_DECIMALS: u32 = 3;
 
 /// Limit on turns of the wrist, radians: more than one full turn is implausible.
-const LARGEST_TURN: i128 = 7;
+const MAX_WRIST_TURN: i128 = 7;
 
 /// The carried object.
-pub(super) struct Held {
+pub(super) struct HeldObject {
     pub(super) object: usize,
-    pub(super) on: On,
+    pub(super) on: Attachment,
     /// The object relative to the link or point it is attached to. `pressed` is the part of it that must keep away from
     /// supports, if it has any.
     pub(super) hanging: Obstacle,
@@ -35,7 +35,7 @@ pub(super) struct Held {
     pub(super) solids: [Vec<Solid>; 2],
     /// A disc that covers the object in all orientations about the tip, if it is held level.
     pub(super) round: Option<Solid>,
-    pub(super) carrying: Carrying,
+    pub(super) carrying: CarryRules,
 }
 
 impl Replay<'_> {
@@ -43,7 +43,7 @@ impl Replay<'_> {
     fn hung(
         &self,
         chain: &Chain,
-        on: &On,
+        on: &Attachment,
         hanging: &Obstacle,
         pressed: Option<&Obstacle>,
     ) -> Result<[Vec<Solid>; 2], CheckError> {
@@ -62,12 +62,12 @@ impl Replay<'_> {
         };
         let radius = Interval::exactly(all.iter().filter_map(reach).max().unwrap_or_default());
         let disc = Shape { points: vec![self.tip.clone()], radius };
-        Ok(Solid::new(&self.chain, On::Link(1), &disc, &self.kept))
+        Ok(Solid::new(&self.chain, Attachment::Link(1), &disc, &self.kept))
     }
 
     /// Checks that nothing moves, for actions that are not checked in time.
-    pub(super) fn nothing_moves(&self, what: &str) -> Result<(), CheckError> {
-        let moves = |present: &Present| present.obstacle.course.is_some();
+    pub(super) fn require_static(&self, what: &str) -> Result<(), CheckError> {
+        let moves = |present: &PlacedObstacle| present.obstacle.course.is_some();
         match self.present.iter().flatten().any(moves) {
             true => CheckError::fails(format!("the checker does not judge {what} among moving obstacles or objects")),
             false => Ok(()),
@@ -79,9 +79,9 @@ impl Replay<'_> {
         &mut self,
         object: usize,
         grasp: &Corner,
-        carrying: Carrying,
+        carrying: CarryRules,
         at: &Point,
-        (time, passing): (&Decimal, &Passing),
+        (time, passing): (&Decimal, &MovingPick),
     ) -> Result<(), CheckError> {
         let (None, Some(present)) = (&self.held, self.present[self.task.first + object].take()) else {
             return CheckError::fails("an object is picked while the tool carries another");
@@ -90,23 +90,23 @@ impl Replay<'_> {
         if passing.window.as_ref().is_some_and(|[low, high]| time < low || high < time) {
             return CheckError::fails("the object is picked outside its window of time");
         }
-        let near = Interval::from(&Decimal::power_of_ten(NEAR)).lower;
+        let near = Interval::from(&Decimal::power_of_ten(PICK_TOLERANCE_DECIMALS)).lower;
         if passing.at.as_ref().is_some_and(|at| length(&minus(&lying.at, at)).upper > near) {
             return CheckError::fails("the object is not at the position of its pick then");
         }
-        let tip = self.chain.point_at(&On::Link(1), &self.tip, at);
+        let tip = self.chain.point_at(&Attachment::Link(1), &self.tip, at);
         self.misses(length(&minus(&tip, &lying.placed(&grasp.each_ref().map(Interval::from)))).upper)?;
         let (on, hanging, round) = if self.task.objects[object].is_level {
             let (at, turn) = (minus(&lying.at, &tip), lying.turn.clone());
             let hanging = lying.moved(at, turn);
             let round = self.round(&hanging)?;
-            (On::Level(self.tip.clone()), hanging, Some(round))
+            (Attachment::Level(self.tip.clone()), hanging, Some(round))
         } else {
-            (On::Link(1), self.chain.hung(&lying, at), None)
+            (Attachment::Link(1), self.chain.hung(&lying, at), None)
         };
         let pressed = (!carrying.supports.is_empty()).then(|| hung::pressed(&hanging, &self.pressed)).transpose()?;
         let solids = self.hung(&self.chain, &on, &hanging, pressed.as_ref())?;
-        self.held = Some(Held { object, on, hanging, pressed, solids, round, carrying });
+        self.held = Some(HeldObject { object, on, hanging, pressed, solids, round, carrying });
         self.released = None;
         Ok(())
     }
@@ -122,34 +122,38 @@ impl Replay<'_> {
             self.misses(length(&minus(&lying.turn, &angle.sin_cos())).upper)?;
         }
         let number = self.task.first + held.object;
-        self.present[number] = Some(Present::new(&self.chain, lying)?);
+        self.present[number] = Some(PlacedObstacle::new(&self.chain, lying)?);
         self.released = Some(number);
         Ok(())
     }
 
     /// Turns the carried object about the tip, while the arm rests in a configuration.
-    pub(super) fn turn(&mut self, done: &Done, at: &Point) -> Result<(), CheckError> {
+    pub(super) fn turn(&mut self, done: &ExecutedStep, at: &Point) -> Result<(), CheckError> {
         let Some(by) = &done.turn else { return Ok(()) };
-        self.nothing_moves("a turn of the wrist")?;
-        let Some(mut held) = self.held.take_if(|held| held.carrying.may_turn && matches!(held.on, On::Level(_))) else {
+        self.require_static("a turn of the wrist")?;
+        let Some(mut held) =
+            self.held.take_if(|held| held.carrying.may_turn && matches!(held.on, Attachment::Level(_)))
+        else {
             return CheckError::fails("there is no wrist, or no object to turn");
         };
-        let wrist = Chain::about(&self.chain.point_at(&On::Link(1), &self.tip, at));
-        let Some(end) = fine(&(by * &Decimal::whole(SIXTY))).filter(|end| end.abs() < LARGEST_TURN << FINE) else {
+        let wrist = Chain::about(&self.chain.point_at(&Attachment::Link(1), &self.tip, at));
+        let Some(end) = fine(&(by * &Decimal::whole(CONTROL_POINT_FACTOR)))
+            .filter(|end| end.abs() < MAX_WRIST_TURN << FRACTION_BITS)
+        else {
             return CheckError::fails("the wrist turns by more than one revolution");
         };
         let time = [0, 1].map(Decimal::whole);
         let swept = Piece { knot: done.knots[1], curves: vec![vec![[0, 0], [end, 0]]], time };
-        let solids = self.hung(&wrist, &On::Link(0), &held.hanging, held.pressed.as_ref())?;
-        let seen = |(number, present): (usize, &Option<Present>)| {
+        let solids = self.hung(&wrist, &Attachment::Link(0), &held.hanging, held.pressed.as_ref())?;
+        let seen = |(number, present): (usize, &Option<PlacedObstacle>)| {
             // The disc about the tip has already been checked.
-            let meets = || self.meets(&held, number, Tool::Raised).is_some_and(|of| of != Manner::Round);
+            let meets = || self.meets(&held, number, ToolHeights::Raised).is_some_and(|of| of != ContactRule::Round);
             let met = present.as_ref().filter(|_| meets());
-            met.map(|present| Present::new(&wrist, present.obstacle.clone())).transpose()
+            met.map(|present| PlacedObstacle::new(&wrist, present.obstacle.clone())).transpose()
         };
         let present = self.present.iter().enumerate().map(seen).collect::<Result<Vec<_>, _>>()?;
-        let parts = self.hanging(&held, &solids, Tool::Raised);
-        self.surrounds_none(&held, at, &swept.time[0], Tool::Raised)?;
+        let parts = self.hanging(&held, &solids, ToolHeights::Raised);
+        self.require_outside(&held, at, &swept.time[0], ToolHeights::Raised)?;
         stay_off(&wrist, &[swept], &[0, 0].map(Interval::whole), &parts, &present)?;
         let angle = Interval::from(by).sin_cos();
         for own in iter::once(&mut held.hanging).chain(&mut held.pressed) {

@@ -1,6 +1,6 @@
 //! Proofs of disconnection in result files.
 
-use super::{Cell, Disconnection, StuckBox};
+use super::{Cell, CollisionBox, Disconnection};
 use crate::model::Pair;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
@@ -24,14 +24,14 @@ pub struct ProofBox {
     pub piece: usize,
 }
 
-impl From<&StuckBox> for ProofBox {
-    fn from(StuckBox { cell, pair }: &StuckBox) -> Self {
+impl From<&CollisionBox> for ProofBox {
+    fn from(CollisionBox { cell, pair }: &CollisionBox) -> Self {
         let Pair { link, part, obstacle, piece } = *pair;
         Self { lower: cell.lower, upper: cell.upper, link, part, obstacle, piece }
     }
 }
 
-impl From<ProofBox> for StuckBox {
+impl From<ProofBox> for CollisionBox {
     fn from(claim: ProofBox) -> Self {
         let ProofBox { lower, upper, link, part, obstacle, piece } = claim;
         Self { cell: Cell { lower, upper }, pair: Pair { link, part, obstacle, piece } }
@@ -60,7 +60,7 @@ pub fn read_proof(json: &str) -> Result<Disconnection, ProofFormatError> {
     }
     let claim: Claim = serde_json::from_str(json)?;
     let boxes = claim.proof.ok_or(ProofFormatError::Missing)?;
-    Ok(Disconnection::new(boxes.into_iter().map(StuckBox::from).collect()))
+    Ok(Disconnection::new(boxes.into_iter().map(CollisionBox::from).collect()))
 }
 
 #[cfg(test)]
@@ -68,22 +68,22 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_written_is_read_back_bit_by_bit() {
+    fn written_proofs_are_read_back_exactly() {
         // Values whose shortest decimal form a careless reader gets wrong by one unit in the last place.
         let values = [0.1 + 0.2, -2.9, 1.0 / 3.0, 5e-324, 123_456.789_012_345_67, -std::f64::consts::PI];
         for &lower in &values {
             let pair = Pair { link: 1, part: 0, obstacle: 3, piece: 2 };
-            let stuck = StuckBox { cell: Cell { lower: [lower, lower / 7.0], upper: [lower / 3.0, 2.5] }, pair };
+            let stuck = CollisionBox { cell: Cell { lower: [lower, lower / 7.0], upper: [lower / 3.0, 2.5] }, pair };
             let text = serde_json::to_string(&[ProofBox::from(&stuck)]).unwrap();
             assert_eq!(
-                read_proof(&format!(r#"{{"status": "infeasible", "proof": {text}}}"#)).unwrap().stuck(),
+                read_proof(&format!(r#"{{"status": "infeasible", "proof": {text}}}"#)).unwrap().collision_boxes(),
                 [stuck]
             );
         }
     }
 
     #[test]
-    fn what_is_no_proof_is_refused() {
+    fn invalid_proofs_are_refused() {
         assert!(matches!(read_proof(r#"{"status": "found"}"#), Err(ProofFormatError::Missing)));
         for text in ["", "[]", r#"{"proof": 3}"#, r#"{"proof": [{"lower": [0, 1]}]}"#] {
             assert!(matches!(read_proof(text), Err(ProofFormatError::Malformed(_))), "{text}");

@@ -26,18 +26,18 @@ const ROUNDING: f64 = 1e-12;
 
 /// A box of configurations in which the same pair is too near everywhere.
 #[derive(Debug, Clone, PartialEq)]
-pub struct StuckBox {
+pub struct CollisionBox {
     /// The configurations.
     pub cell: Cell,
     /// The shapes.
     pub pair: Pair,
 }
 
-impl StuckBox {
+impl CollisionBox {
     /// Returns true if the pair is too near in the whole box, with room for rounding.
     #[must_use]
     pub fn holds(&self, scene: &Scene, clearance: f64) -> bool {
-        is_stuck(&scene.inner(), 0, self, clearance).is_ok()
+        is_collision(&scene.inner(), 0, self, clearance).is_ok()
     }
 }
 
@@ -45,19 +45,19 @@ impl StuckBox {
 /// does not connect them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Disconnection {
-    stuck: Vec<StuckBox>,
+    stuck: Vec<CollisionBox>,
 }
 
 /// A proof that no motion leads from the start to any goal. Only [`Disconnection::checked`] makes one.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CheckedProof {
-    stuck: Arc<[StuckBox]>,
+    stuck: Arc<[CollisionBox]>,
 }
 
 impl CheckedProof {
     /// Returns the boxes that separate the start from all goals.
     #[must_use]
-    pub fn stuck(&self) -> &[StuckBox] {
+    pub fn collision_boxes(&self) -> &[CollisionBox] {
         &self.stuck
     }
 
@@ -89,7 +89,7 @@ pub enum ProofError {
     #[error(
         "stuck box {index}: the shapes overlap by {depth:e} m in its middle, but can move by {motion:e} m within it"
     )]
-    NotStuck {
+    NotColliding {
         /// Number of the box.
         index: usize,
         /// Penetration depth in the middle, clearance included, metres.
@@ -105,13 +105,13 @@ pub enum ProofError {
 impl Disconnection {
     /// Creates the claim that these boxes prove it.
     #[must_use]
-    pub fn new(stuck: Vec<StuckBox>) -> Self {
+    pub fn new(stuck: Vec<CollisionBox>) -> Self {
         Self { stuck }
     }
 
     /// Returns the boxes.
     #[must_use]
-    pub fn stuck(&self) -> &[StuckBox] {
+    pub fn collision_boxes(&self) -> &[CollisionBox] {
         &self.stuck
     }
 
@@ -143,7 +143,7 @@ impl Disconnection {
             return Err(ProofError::NotSeparated(goal));
         }
         for (index, stuck) in self.stuck.iter().enumerate() {
-            is_stuck(scene, index, stuck, clearance)?;
+            is_collision(scene, index, stuck, clearance)?;
             checkpoint();
         }
         Ok(CheckedProof { stuck: self.stuck.into() })
@@ -151,7 +151,7 @@ impl Disconnection {
 }
 
 /// Returns true if the box is part of the domain, and its shapes can meet.
-fn is_in_space(scene: &Scene, topology: &Topology, index: usize, stuck: &StuckBox) -> Result<(), ProofError> {
+fn is_in_space(scene: &Scene, topology: &Topology, index: usize, stuck: &CollisionBox) -> Result<(), ProofError> {
     let cell = &stuck.cell;
     for k in 0..2 {
         let (lower, upper) = topology.ranges[k].domain();
@@ -163,7 +163,7 @@ fn is_in_space(scene: &Scene, topology: &Topology, index: usize, stuck: &StuckBo
 }
 
 /// Returns true if its shapes are nearer than `clearance` in the whole box.
-fn is_stuck(scene: &Scene, index: usize, stuck: &StuckBox, clearance: f64) -> Result<(), ProofError> {
+fn is_collision(scene: &Scene, index: usize, stuck: &CollisionBox, clearance: f64) -> Result<(), ProofError> {
     let cell = &stuck.cell;
     let middle = Configuration::from_fn(|k, _| (cell.lower[k] + cell.upper[k]) / 2.0);
     // The middle is rounded: the farther of the two ends counts.
@@ -173,12 +173,12 @@ fn is_stuck(scene: &Scene, index: usize, stuck: &StuckBox, clearance: f64) -> Re
     let depth = penetration_depth(&part, &piece);
     let motion = farthest(scene, stuck, middle, half);
     let scale = part.reach_from(scene.arm().base) + piece.reach_from(scene.arm().base) + scene.arm().base.norm();
-    if depth > motion + ROUNDING * scale { Ok(()) } else { Err(ProofError::NotStuck { index, depth, motion }) }
+    if depth > motion + ROUNDING * scale { Ok(()) } else { Err(ProofError::NotColliding { index, depth, motion }) }
 }
 
 /// Returns the farthest that a corner of the link's part can move from its place at `q` while each joint moves by at
 /// most `half`: a turn by `t` about a point at distance `r` moves it by the chord `2 r sin(t / 2)`.
-fn farthest(scene: &Scene, stuck: &StuckBox, q: Configuration, half: [f64; 2]) -> f64 {
+fn farthest(scene: &Scene, stuck: &CollisionBox, q: Configuration, half: [f64; 2]) -> f64 {
     let arm = scene.arm();
     let chord = |angle: f64| 2.0 * (angle.min(std::f64::consts::PI) / 2.0).sin();
     let of_corner = |a: Vector| match (stuck.pair.link, arm.joints[0].joint_type, arm.joints[1].joint_type) {

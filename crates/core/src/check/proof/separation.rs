@@ -1,6 +1,6 @@
 //! Decides if boxes separate the start from all goals.
 
-use super::StuckBox;
+use super::CollisionBox;
 use crate::space::{Configuration, GoalSet, Segment, Topology};
 use cplan_interrupt::checkpoint;
 use petgraph::unionfind::UnionFind;
@@ -8,7 +8,7 @@ use petgraph::unionfind::UnionFind;
 /// Returns the first piece of the goals that is connected with the start, in whole or in part, outside the boxes.
 pub(super) fn not_separated(
     topology: &Topology,
-    boxes: &[StuckBox],
+    boxes: &[CollisionBox],
     start: Configuration,
     goals: &GoalSet,
 ) -> Option<usize> {
@@ -32,7 +32,7 @@ struct Slabs {
 }
 
 impl Slabs {
-    fn new(topology: &Topology, boxes: &[StuckBox]) -> Self {
+    fn new(topology: &Topology, boxes: &[CollisionBox]) -> Self {
         let (left, right) = topology.ranges[0].domain();
         let (bottom, top) = topology.ranges[1].domain();
         let mut ends: Vec<f64> = boxes.iter().flat_map(|b| [b.cell.lower[0], b.cell.upper[0]]).collect();
@@ -141,7 +141,7 @@ mod tests {
             cell.lower[band] = 0.0;
             cell.upper[band] = 1.0;
             let pair = Pair { link: 0, part: 0, obstacle: 0, piece: 0 };
-            let boxes = [StuckBox { cell, pair }];
+            let boxes = [CollisionBox { cell, pair }];
             let (mut below, mut above) = (Configuration::zeros(), Configuration::zeros());
             below[band] = -2.0;
             above[band] = 2.0;

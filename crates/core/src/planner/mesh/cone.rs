@@ -67,12 +67,12 @@ pub struct Crossing {
     /// The half-edge that begins at the corner ahead, if the root sees that.
     pub seen: Option<u32>,
     /// The continuation of the cone.
-    pub beyond: Beyond,
+    pub beyond: ConeContinuation,
 }
 
 /// The continuation of a cone behind a triangle.
 #[derive(Debug, Clone, Copy)]
-pub enum Beyond {
+pub enum ConeContinuation {
     /// The whole cone continues through this edge, past the corner ahead.
     Through(u32),
     /// The cone continues on one side of the corner, which lies on one of its bounds.
@@ -92,7 +92,7 @@ pub struct Successor {
 
 /// Directions to look in from a corner.
 #[derive(Debug, Clone, Copy)]
-pub enum Gaze {
+pub enum ViewDirections {
     /// All directions of free space.
     Around,
     /// Directions from a ray to the right to one to the left, less than half a turn apart.
@@ -102,24 +102,24 @@ pub enum Gaze {
 impl Corner {
     /// Returns the directions in which a shortest path from `p` may continue that turns at this corner: from straight
     /// ahead to along the obstacle. `None` if the line from `p` enters the obstacle.
-    pub fn beyond(&self, p: Point) -> Option<Gaze> {
+    pub fn beyond(&self, p: Point) -> Option<ViewDirections> {
         let ahead = Bound { from: p, to: self.at };
         match self.tangency(p) {
             Tangency::None => None,
-            Tangency::Left => Some(Gaze::Between(ahead, self.along(self.left))),
-            Tangency::Right => Some(Gaze::Between(self.along(self.right), ahead)),
-            Tangency::Both => Some(Gaze::Around),
+            Tangency::Left => Some(ViewDirections::Between(ahead, self.along(self.left))),
+            Tangency::Right => Some(ViewDirections::Between(self.along(self.right), ahead)),
+            Tangency::Both => Some(ViewDirections::Around),
         }
     }
 
     /// Returns the directions of lines through the corner that do not enter the obstacle there.
-    pub fn tangents(&self) -> impl Iterator<Item = Gaze> {
+    pub fn tangents(&self) -> impl Iterator<Item = ViewDirections> {
         let away = |from: Point| Bound { from, to: self.at };
         let gazes = match orientation(self.at, self.right, self.left) {
-            Orientation::Collinear => [Some(Gaze::Around), None],
+            Orientation::Collinear => [Some(ViewDirections::Around), None],
             _ => [
-                Some(Gaze::Between(self.along(self.right), away(self.left))),
-                Some(Gaze::Between(away(self.right), self.along(self.left))),
+                Some(ViewDirections::Between(self.along(self.right), away(self.left))),
+                Some(ViewDirections::Between(away(self.right), self.along(self.left))),
             ],
         };
         gazes.into_iter().flatten()
@@ -139,19 +139,19 @@ impl Mesh {
         let corner = self.origin(back);
         let from_right = cone.right.side(corner);
         if from_right == Orientation::Clockwise {
-            return Some(Crossing { entry, seen: None, beyond: Beyond::Through(back) });
+            return Some(Crossing { entry, seen: None, beyond: ConeContinuation::Through(back) });
         }
         let from_left = cone.left.side(corner);
         if from_left == Orientation::CounterClockwise {
-            return Some(Crossing { entry, seen: None, beyond: Beyond::Through(onwards) });
+            return Some(Crossing { entry, seen: None, beyond: ConeContinuation::Through(onwards) });
         }
         let ray = Bound { from: root, to: corner };
         let right = Cone { edge: onwards, right: cone.right, left: ray };
         let left = Cone { edge: back, right: ray, left: cone.left };
         let beyond = match (from_right, from_left) {
-            (Orientation::Collinear, _) => Beyond::One(left),
-            (_, Orientation::Collinear) => Beyond::One(right),
-            _ => Beyond::Two(right, left),
+            (Orientation::Collinear, _) => ConeContinuation::One(left),
+            (_, Orientation::Collinear) => ConeContinuation::One(right),
+            _ => ConeContinuation::Two(right, left),
         };
         Some(Crossing { entry, seen: Some(back), beyond })
     }
@@ -164,9 +164,9 @@ impl Mesh {
             while let Some(crossing) = self.cross(root, &cone) {
                 meet(&crossing, &cone);
                 cone = match crossing.beyond {
-                    Beyond::Through(edge) => Cone { edge, ..cone },
-                    Beyond::One(only) => only,
-                    Beyond::Two(right, left) => {
+                    ConeContinuation::Through(edge) => Cone { edge, ..cone },
+                    ConeContinuation::One(only) => only,
+                    ConeContinuation::Two(right, left) => {
                         stack.push(left);
                         right
                     }
@@ -208,12 +208,12 @@ impl Mesh {
     }
 
     /// Returns the view from a corner into the triangles around it, from right to left, each end of an edge once.
-    pub fn successors(&self, corner: &Corner, gaze: Gaze) -> impl Iterator<Item = Successor> + '_ {
+    pub fn successors(&self, corner: &Corner, gaze: ViewDirections) -> impl Iterator<Item = Successor> + '_ {
         let root = corner.at;
         let mut spoke = Some(corner.first);
         let mut last_seen = None;
         // Between two rays that coincide nothing new is visible.
-        if let Gaze::Between(right, left) = gaze
+        if let ViewDirections::Between(right, left) = gaze
             && !is_left_of(right, left, root)
         {
             spoke = None;
@@ -233,10 +233,10 @@ impl Mesh {
     }
 
     /// Returns the view through an edge opposite to the root, if any of it lies within the gaze.
-    fn successor(&self, root: Point, edge: u32, gaze: Gaze) -> Option<Successor> {
+    fn successor(&self, root: Point, edge: u32, gaze: ViewDirections) -> Option<Successor> {
         let ends = [edge, next(edge)];
         let [x, y] = ends.map(|h| Bound { from: root, to: self.origin(h) });
-        let Gaze::Between(right, left) = gaze else {
+        let ViewDirections::Between(right, left) = gaze else {
             return Some(Successor { cone: Cone { edge, right: x, left: y }, seen: ends.map(Some) });
         };
         let [right_to_x, right_to_y] = [x, y].map(|ray| right.side(ray.to));

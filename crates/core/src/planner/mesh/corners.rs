@@ -1,7 +1,7 @@
 //! Convex corners of obstacles, as free space sees them.
 
 use super::{next, previous};
-use crate::planner::NONE;
+use crate::planner::NO_ENTRY;
 use cplan_geometry::planar::HalfEdges;
 use cplan_geometry::{Orientation, Point, orientation};
 
@@ -49,7 +49,7 @@ impl Corner {
 #[derive(Debug, Clone)]
 pub struct Corners {
     pub list: Vec<Corner>,
-    /// The corner of each half-edge; `NONE` where the sector is at most half a turn.
+    /// The corner of each half-edge; `NO_ENTRY` where the sector is at most half a turn.
     pub of_half_edge: Vec<u32>,
 }
 
@@ -58,13 +58,14 @@ impl Corners {
     pub fn new(vertices: &[Point], edges: &HalfEdges) -> Self {
         let at = |h: u32| vertices[edges.origin[h as usize] as usize];
         let mut list = Vec::new();
-        let mut of_half_edge = vec![NONE; edges.origin.len()];
+        let mut of_half_edge = vec![NO_ENTRY; edges.origin.len()];
         // In the order of the vertices, so that neighbours are close in memory.
-        let mut sides: Vec<u32> = (0..edges.origin.len() as u32).filter(|&h| edges.twin[h as usize] == NONE).collect();
+        let mut sides: Vec<u32> =
+            (0..edges.origin.len() as u32).filter(|&h| edges.twin[h as usize] == NO_ENTRY).collect();
         sides.sort_by_key(|&h| edges.origin[h as usize]);
         for first in sides {
             let mut h = first;
-            while edges.twin[previous(h) as usize] != NONE {
+            while edges.twin[previous(h) as usize] != NO_ENTRY {
                 h = edges.twin[previous(h) as usize];
             }
             let corner = Corner { at: at(first), right: at(next(first)), left: at(previous(h)), first };

@@ -1,25 +1,25 @@
 //! Flipping edges until no triangle has the far corner of a neighbour in its circumcircle.
 
 use super::{next, previous};
-use crate::planner::NONE;
+use crate::planner::NO_ENTRY;
 use cplan_geometry::planar::HalfEdges;
 use cplan_geometry::{Orientation, Point, in_circle, orientation};
 use cplan_interrupt::checkpoint;
 
 /// Greatest number of flips per half-edge. Some two are usual; adversarial point sets could need a number that grows
 /// like the square. With fewer flips the triangulation is slower to walk through, but equally correct.
-const FLIPS: usize = 16;
+const MAX_FLIPS_PER_EDGE: usize = 16;
 
 /// Makes a triangulation the constrained Delaunay triangulation (Lawson 1977): short edges, so that lines of sight cross
 /// few. The boundary stays. Of cocircular corners any triangulation will do.
 pub fn flip(vertices: &[Point], edges: &mut HalfEdges) {
     let at = |v: u32| vertices[v as usize];
-    let mut left = FLIPS * edges.origin.len();
+    let mut left = MAX_FLIPS_PER_EDGE * edges.origin.len();
     let mut stack: Vec<u32> = (0..edges.origin.len() as u32).filter(|&h| h < edges.twin[h as usize]).collect();
     while let Some(h) = stack.pop() {
         checkpoint();
         let g = edges.twin[h as usize];
-        if g == NONE {
+        if g == NO_ENTRY {
             continue;
         }
         let origin = |h: u32| edges.origin[h as usize];
@@ -42,7 +42,7 @@ pub fn flip(vertices: &[Point], edges: &mut HalfEdges) {
         {
             edges.origin[slot as usize] = from;
             edges.twin[slot as usize] = twin;
-            if twin != NONE {
+            if twin != NO_ENTRY {
                 edges.twin[twin as usize] = slot;
             }
         }

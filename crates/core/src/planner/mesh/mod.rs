@@ -6,10 +6,10 @@ mod delaunay;
 mod location;
 mod straight;
 
-pub use cone::{Beyond, Bound, Cone, Crossing};
+pub use cone::{Bound, Cone, ConeContinuation, Crossing};
 pub use corners::{Corner, Tangency};
 
-use super::NONE;
+use super::NO_ENTRY;
 use crate::space::Segment;
 use corners::Corners;
 use cplan_geometry::Point;
@@ -85,7 +85,7 @@ impl Mesh {
     /// Returns the corner in the sector of free space at the origin of a half-edge, if that is convex for the obstacle.
     pub fn corner_at(&self, half_edge: u32) -> Option<u32> {
         let corner = self.corners.of_half_edge[half_edge as usize];
-        (corner != NONE).then_some(corner)
+        (corner != NO_ENTRY).then_some(corner)
     }
 
     /// Returns the right and the left end of a half-edge, as seen from within its triangle.
@@ -106,7 +106,7 @@ impl Mesh {
     /// Returns the half-edge on the other side of the same edge; `None` if it is part of the boundary.
     pub fn twin(&self, half_edge: u32) -> Option<u32> {
         let twin = self.edges.twin[half_edge as usize];
-        (twin != NONE).then_some(twin)
+        (twin != NO_ENTRY).then_some(twin)
     }
 }
 

@@ -1,14 +1,14 @@
 //! Roadmaps: graphs whose nodes are configurations and whose edges are straight motions between them.
 //!
-//! A producer makes a [`Roadmap`] of a space once. A query adds its start and its goals as nodes ([`Asked`]), joins
+//! A producer makes a [`Roadmap`] of a space once. A query adds its start and its goals as nodes ([`QueryGraph`]), joins
 //! them with the nodes that they can reach, and searches the whole graph.
 
 mod nearby;
 mod search;
 
 pub use nearby::Nearby;
-pub use search::{Question, Searched, search};
 pub use search::{RoadmapSearch, SearchOrder};
+pub use search::{SearchProblem, SearchResult, search};
 
 use super::terminals::Terminals;
 use super::{GraphKind, Proposal, Run, Size, Trace};
@@ -21,7 +21,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// A motion between two configurations.
 #[derive(Debug, Clone, Copy)]
-struct Road {
+struct RoadmapEdge {
     length: f64,
     /// Least distance from the boundary of free space; infinite if it is not needed.
     width: f64,
@@ -30,7 +30,7 @@ struct Road {
 /// Configurations and straight motions between them, whose lengths follow a measure.
 #[derive(Debug, Clone)]
 pub struct Roadmap {
-    graph: UnGraph<Point, Road>,
+    graph: UnGraph<Point, RoadmapEdge>,
     measure: Measure,
 }
 
@@ -54,28 +54,28 @@ impl Roadmap {
     pub fn join_of_width(&mut self, a: NodeIndex, b: NodeIndex, width: f64) {
         if self.graph.find_edge(a, b).is_none() {
             let length = self.measure.norm(self.graph[b] - self.graph[a]);
-            self.graph.add_edge(a, b, Road { length, width });
+            self.graph.add_edge(a, b, RoadmapEdge { length, width });
         }
     }
 
     /// Adds a query's start.
-    pub fn asked(mut self, start: Point) -> Asked {
+    pub fn query_graph(mut self, start: Point) -> QueryGraph {
         let start = self.add(start);
-        Asked { roadmap: self, start, goals: BTreeMap::new(), ends: BTreeSet::new() }
+        QueryGraph { roadmap: self, start, goals: BTreeMap::new(), ends: BTreeSet::new() }
     }
 }
 
 /// Returns the run for a search of a roadmap; without a roadmap if the planner gave up before the search.
-pub fn run(kind: GraphKind, outcome: Proposal, asked: Option<&Asked>, expanded: Vec<Configuration>) -> Run {
-    let [nodes, edges] = asked.map_or([0; 2], Asked::size);
-    let drawn = asked.map_or_else(Vec::new, Asked::edges);
+pub fn run(kind: GraphKind, outcome: Proposal, query_graph: Option<&QueryGraph>, expanded: Vec<Configuration>) -> Run {
+    let [nodes, edges] = query_graph.map_or([0; 2], QueryGraph::size);
+    let drawn = query_graph.map_or_else(Vec::new, QueryGraph::edges);
     let trace = Trace::Roads { edges: drawn, expanded, kind };
     Run { outcome, trace, size: Size::Graph { nodes, edges }, note: None }
 }
 
 /// A roadmap with the ends of a query.
 #[derive(Debug, Clone)]
-pub struct Asked {
+pub struct QueryGraph {
     roadmap: Roadmap,
     /// The node of the start.
     pub start: NodeIndex,
@@ -85,7 +85,7 @@ pub struct Asked {
     ends: BTreeSet<NodeIndex>,
 }
 
-impl Asked {
+impl QueryGraph {
     /// Returns the goal's node at a place, a separate node.
     pub fn goal(&mut self, at: Point) -> NodeIndex {
         let roadmap = &mut self.roadmap;
@@ -151,14 +151,14 @@ impl Asked {
     /// Searches the roadmap, and returns the expanded places, in order.
     pub fn search(&self, how: RoadmapSearch, terminals: &Terminals) -> (Option<Vec<NodeIndex>>, Vec<Configuration>) {
         let Roadmap { graph, measure } = &self.roadmap;
-        let question = Question {
+        let question = SearchProblem {
             start: self.start,
             is_goal: |node: NodeIndex| self.ends.contains(&node),
-            cost: |road: &Road| road.length,
+            cost: |road: &RoadmapEdge| road.length,
             ahead: |node: NodeIndex| terminals.distance(*measure, graph[node]),
             behind: |node: NodeIndex| measure.norm(graph[node] - graph[self.start]),
         };
-        let Searched { way, expanded } = search(graph, how, &question);
-        (way, expanded.into_iter().map(|node| graph[node]).collect())
+        let SearchResult { path, expanded } = search(graph, how, &question);
+        (path, expanded.into_iter().map(|node| graph[node]).collect())
     }
 }

@@ -1,6 +1,6 @@
 //! The nearest of many points.
 
-use cplan_geometry::{Ordered, Point};
+use cplan_geometry::{OrderedF64, Point};
 
 /// Points in square buckets, a few in each.
 #[derive(Debug, Clone)]
@@ -17,7 +17,7 @@ pub struct Nearby {
 }
 
 /// Number of points per bucket, if they are spread evenly.
-const IN_BUCKET: f64 = 2.0;
+const POINTS_PER_BUCKET: f64 = 2.0;
 
 impl Nearby {
     /// Builds the buckets. `O(n)`.
@@ -27,7 +27,7 @@ impl Nearby {
         let upper = points.iter().fold(-infinite, |most, p| most.sup(p));
         let extent = if points.is_empty() { [0.0; 2] } else { [upper.x - lower.x, upper.y - lower.y] };
         // There are at most as many buckets as points, however slender the space.
-        let share = IN_BUCKET / points.len().max(1) as f64;
+        let share = POINTS_PER_BUCKET / points.len().max(1) as f64;
         let side = (extent[0] * extent[1] * share).sqrt().max(extent[0].max(extent[1]) * share);
         let side = if side > 0.0 { side } else { 1.0 };
         let shape = extent.map(|extent| (extent / side) as usize + 1);
@@ -63,7 +63,7 @@ impl Nearby {
     /// Returns the `count` points nearest to `p`, nearest first; equals in the order of their addition. About
     /// `O(count)` where points are spread evenly.
     pub fn nearest(&self, p: Point, count: usize) -> Vec<usize> {
-        let mut found: Vec<(Ordered, usize)> = Vec::new();
+        let mut found: Vec<(OrderedF64, usize)> = Vec::new();
         let home = self.place(p);
         // Points beyond this many rings of buckets are at least as far away as the rings are wide; from places outside
         // of all buckets they are even farther.
@@ -73,7 +73,7 @@ impl Nearby {
                     if i.abs_diff(home[0]).max(j.abs_diff(home[1])) == ring {
                         let bucket = i * self.shape[1] + j;
                         let points = &self.order[self.first[bucket]..self.first[bucket + 1]];
-                        found.extend(points.iter().map(|&k| (Ordered((self.points[k] - p).norm()), k)));
+                        found.extend(points.iter().map(|&k| (OrderedF64((self.points[k] - p).norm()), k)));
                     }
                 }
             }

@@ -78,15 +78,15 @@ impl fmt::Display for RoadmapSearch {
 
 /// The result of a search.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Searched {
+pub struct SearchResult {
     /// The route from the start to a goal, in this order for either direction of search; `None` if they are not joined.
-    pub way: Option<Vec<NodeIndex>>,
+    pub path: Option<Vec<NodeIndex>>,
     /// The nodes that were expanded, in that order, the one that ended the search among them.
     pub expanded: Vec<NodeIndex>,
 }
 
 /// The input of a search. Estimates never exceed the true cost, and are consistent: straight distances.
-pub struct Question<G, C, A, B> {
+pub struct SearchProblem<G, C, A, B> {
     /// The node from which the search begins.
     pub start: NodeIndex,
     /// Returns true if a node is a goal.
@@ -101,14 +101,18 @@ pub struct Question<G, C, A, B> {
 
 /// Searches a graph from the start to any goal, or back. `O(n + m)` for `n` nodes and `m` edges breadth and depth
 /// first, `O((n + m) log n)` otherwise. Both count only the expanded part of the graph, except for tables of all nodes.
-pub fn search<N, E, G, C, A, B>(graph: &UnGraph<N, E>, how: RoadmapSearch, question: &Question<G, C, A, B>) -> Searched
+pub fn search<N, E, G, C, A, B>(
+    graph: &UnGraph<N, E>,
+    how: RoadmapSearch,
+    question: &SearchProblem<G, C, A, B>,
+) -> SearchResult
 where
     G: Fn(NodeIndex) -> bool,
     C: Fn(&E) -> f64,
     A: Fn(NodeIndex) -> f64,
     B: Fn(NodeIndex) -> f64,
 {
-    let Question { start, is_goal, cost, ahead, behind } = question;
+    let SearchProblem { start, is_goal, cost, ahead, behind } = question;
     if !how.backward {
         return run(graph, *start, is_goal, how.order, cost, ahead);
     }
@@ -123,12 +127,12 @@ where
     let rest = |node: NodeIndex| if node == hub { nearest } else { behind(node) };
     let mut searched = run(&turned, hub, |node| node == *start, how.order, |cost| *cost, rest);
     searched.expanded.retain(|&node| node != hub);
-    if let Some(way) = &mut searched.way {
-        way.retain(|&node| node != hub);
-        way.reverse();
+    if let Some(path) = &mut searched.path {
+        path.retain(|&node| node != hub);
+        path.reverse();
         // If several goals are in a row, the motion ends at the first one.
-        let end = way.iter().position(|&node| is_goal(node)).map_or(way.len(), |at| at + 1);
-        way.truncate(end);
+        let end = path.iter().position(|&node| is_goal(node)).map_or(path.len(), |at| at + 1);
+        path.truncate(end);
     }
     searched
 }
@@ -140,7 +144,7 @@ fn run<N, E>(
     order: SearchOrder,
     cost: impl Fn(&E) -> f64,
     estimate: impl Fn(NodeIndex) -> f64,
-) -> Searched {
+) -> SearchResult {
     let (guided, priced) = match order {
         SearchOrder::BreadthFirst | SearchOrder::DepthFirst => return walk(graph, from, is_end, order),
         SearchOrder::Dijkstra => (false, true),
@@ -161,8 +165,8 @@ fn run<N, E>(
     };
     // An end has no remaining cost, whatever rounding gives.
     let rest = |node: NodeIndex| if guided && !is_end(node) { estimate(node) } else { 0.0 };
-    let way = astar(graph, from, ends_at, passing, rest).map(|(_, way)| way);
-    Searched { way, expanded }
+    let path = astar(graph, from, ends_at, passing, rest).map(|(_, path)| path);
+    SearchResult { path, expanded }
 }
 
 /// Searches breadth or depth first.
@@ -171,38 +175,38 @@ fn walk<N, E>(
     from: NodeIndex,
     is_end: impl Fn(NodeIndex) -> bool,
     order: SearchOrder,
-) -> Searched {
-    enum Walker<B, D> {
+) -> SearchResult {
+    enum Traversal<B, D> {
         Breadth(B),
         Depth(D),
     }
     let mut walker = match order {
-        SearchOrder::DepthFirst => Walker::Depth(Dfs::new(graph, from)),
-        _ => Walker::Breadth(Bfs::new(graph, from)),
+        SearchOrder::DepthFirst => Traversal::Depth(Dfs::new(graph, from)),
+        _ => Traversal::Breadth(Bfs::new(graph, from)),
     };
     let mut parents: Vec<Option<NodeIndex>> = vec![None; graph.node_count()];
     let mut expanded = Vec::new();
     loop {
         checkpoint();
         let next = match &mut walker {
-            Walker::Breadth(bfs) => bfs.next(graph),
-            Walker::Depth(dfs) => dfs.next(graph),
+            Traversal::Breadth(bfs) => bfs.next(graph),
+            Traversal::Depth(dfs) => dfs.next(graph),
         };
-        let Some(node) = next else { return Searched { way: None, expanded } };
+        let Some(node) = next else { return SearchResult { path: None, expanded } };
         expanded.push(node);
         if is_end(node) {
-            let mut way: Vec<_> = std::iter::successors(Some(node), |at| parents[at.index()]).collect();
-            way.reverse();
-            return Searched { way: Some(way), expanded };
+            let mut path: Vec<_> = std::iter::successors(Some(node), |at| parents[at.index()]).collect();
+            path.reverse();
+            return SearchResult { path: Some(path), expanded };
         }
         for neighbor in graph.neighbors(node).filter(|&neighbor| neighbor != from) {
             let parent = &mut parents[neighbor.index()];
             match &walker {
                 // The first predecessor has put it on the queue.
-                Walker::Breadth(_) => *parent = parent.or(Some(node)),
+                Traversal::Breadth(_) => *parent = parent.or(Some(node)),
                 // The last predecessor has put it on top of the stack.
-                Walker::Depth(dfs) if !dfs.discovered.is_visited(&neighbor) => *parent = Some(node),
-                Walker::Depth(_) => {}
+                Traversal::Depth(dfs) if !dfs.discovered.is_visited(&neighbor) => *parent = Some(node),
+                Traversal::Depth(_) => {}
             }
         }
     }
@@ -239,13 +243,13 @@ mod tests {
             (p[0] - q[0]).hypot(p[1] - q[1])
         }
 
-        fn searched(&self, how: RoadmapSearch) -> Searched {
+        fn searched(&self, how: RoadmapSearch) -> SearchResult {
             let mut graph = UnGraph::new_undirected();
             let _: Vec<NodeIndex> = self.places.iter().map(|_| graph.add_node(())).collect();
             for &[a, b] in &self.edges {
                 graph.add_edge(NodeIndex::new(a), NodeIndex::new(b), self.apart(a, b));
             }
-            let question = Question {
+            let question = SearchProblem {
                 start: NodeIndex::new(0),
                 is_goal: |node: NodeIndex| self.goals.contains(&node.index()),
                 cost: |length: &f64| *length,
@@ -283,22 +287,22 @@ mod tests {
         /// A route is found if and only if there is one, along edges, with the length and the number of edges that its
         /// order promises, both backward and forward. No node is expanded twice.
         #[test]
-        fn each_order_keeps_its_promise_both_ways(case in cases()) {
+        fn each_order_finds_what_it_claims_in_both_directions(case in cases()) {
             let to_goal = |all: &[Vec<f64>]| case.goals.iter().map(|&goal| all[0][goal]).fold(f64::INFINITY, f64::min);
             let shortest = to_goal(&case.least(|a, b| case.apart(a, b)));
             let fewest = to_goal(&case.least(|_, _| 1.0));
             let ways = SearchOrder::ALL.into_iter().flat_map(|order| [false, true].map(|backward| (order, backward)));
             for (order, backward) in ways {
-                let Searched { way, expanded } = case.searched(RoadmapSearch { order, backward });
+                let SearchResult { path, expanded } = case.searched(RoadmapSearch { order, backward });
                 let mut once = expanded.clone();
                 once.sort_unstable();
                 once.dedup();
                 prop_assert_eq!(once.len(), expanded.len());
-                prop_assert_eq!(way.is_some(), shortest.is_finite(), "{:?} {}", order, backward);
-                let Some(way) = way else { continue };
-                prop_assert!(way[0].index() == 0 && case.goals.contains(&way[way.len() - 1].index()));
+                prop_assert_eq!(path.is_some(), shortest.is_finite(), "{:?} {}", order, backward);
+                let Some(path) = path else { continue };
+                prop_assert!(path[0].index() == 0 && case.goals.contains(&path[path.len() - 1].index()));
                 let mut length = 0.0;
-                for pair in way.windows(2) {
+                for pair in path.windows(2) {
                     let [a, b] = [pair[0].index(), pair[1].index()];
                     prop_assert!(case.edges.iter().any(|&edge| edge == [a, b] || edge == [b, a]));
                     length += case.apart(a, b);
@@ -308,7 +312,7 @@ mod tests {
                     prop_assert!((length - shortest).abs() < 1e-9, "{:?} {}: {} {}", order, backward, length, shortest);
                 }
                 if order == SearchOrder::BreadthFirst {
-                    prop_assert_eq!(way.len() - 1, fewest as usize);
+                    prop_assert_eq!(path.len() - 1, fewest as usize);
                 }
             }
         }

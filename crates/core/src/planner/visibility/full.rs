@@ -2,7 +2,7 @@
 
 use super::VisibilityMap;
 use crate::planner::mesh::{Cone, Mesh};
-use crate::planner::roadmap::{Asked, Roadmap};
+use crate::planner::roadmap::{QueryGraph, Roadmap};
 use crate::planner::terminals::Terminals;
 use crate::space::{Measure, Segment};
 use cplan_geometry::{Orientation, Point};
@@ -10,7 +10,7 @@ use cplan_interrupt::checkpoint;
 use petgraph::graph::NodeIndex;
 
 /// Greatest number of corners of free space for the whole graph, which may have as many arcs as half its square.
-const MOST_VERTICES: usize = 1500;
+const MAX_VERTICES: usize = 1500;
 
 impl VisibilityMap {
     /// Returns the graph of all corners of free space, including those at joint limits, the start and the goals. Two
@@ -21,45 +21,45 @@ impl VisibilityMap {
     ///
     /// # Errors
     /// More corners than the graph is made for.
-    pub(super) fn full(&self, measure: Measure, terminals: &Terminals) -> Result<Asked, String> {
+    pub(super) fn full(&self, measure: Measure, terminals: &Terminals) -> Result<QueryGraph, String> {
         let mesh = &self.mesh;
         let vertices = mesh.vertices();
-        if vertices.len() > MOST_VERTICES {
+        if vertices.len() > MAX_VERTICES {
             let count = vertices.len();
             return Err(format!(
-                "the full visibility graph is made of up to {MOST_VERTICES} corners, and free space has {count}; use --graph reduced, or a \
+                "the full visibility graph is made of up to {MAX_VERTICES} corners, and free space has {count}; use --graph reduced, or a \
                  greater --margin"
             ));
         }
         let mut roadmap = Roadmap::new(measure);
         let nodes: Vec<NodeIndex> = vertices.iter().map(|&at| roadmap.add(at)).collect();
-        let mut asked = roadmap.asked(terminals.start);
-        let start = asked.start;
+        let mut query_graph = roadmap.query_graph(terminals.start);
+        let start = query_graph.start;
         for (&root, node) in vertices.iter().zip(&nodes).chain([(&terminals.start, &start)]) {
             checkpoint();
-            let sight = Sight { mesh, terminals, root };
+            let sight = CornerView { mesh, terminals, root };
             let (mut seen, mut goals) = (Vec::new(), Vec::new());
             sight.look(&mut seen, &mut goals);
             // Each arc is found from both ends.
             let joined = seen.into_iter().map(|vertex| nodes[vertex as usize]).filter(|other| other < node);
-            joined.for_each(|other| asked.join(*node, other));
+            joined.for_each(|other| query_graph.join(*node, other));
             for part in goals {
-                let goal = asked.goal(part.nearest(measure, root));
-                asked.join(*node, goal);
+                let goal = query_graph.goal(part.nearest(measure, root));
+                query_graph.join(*node, goal);
             }
         }
-        Ok(asked)
+        Ok(query_graph)
     }
 }
 
 /// The view from a place.
-struct Sight<'a> {
+struct CornerView<'a> {
     mesh: &'a Mesh,
     terminals: &'a Terminals,
     root: Point,
 }
 
-impl Sight<'_> {
+impl CornerView<'_> {
     /// Adds the numbers of the visible vertices, and the visible parts of goals.
     fn look(&self, seen: &mut Vec<u32>, goals: &mut Vec<Segment>) {
         let Self { mesh, terminals, root } = *self;

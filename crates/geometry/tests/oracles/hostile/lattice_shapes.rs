@@ -112,7 +112,7 @@ fn padded(dice: &mut Dice, shape: &Shape<i128>, unit: f64) -> Shape<i128> {
 }
 
 #[test]
-fn named_ways_to_touch() {
+fn kinds_of_contact() {
     let square: Vec<Corner> = vec![(0, 0), (4, 0), (4, 4), (0, 4)];
     let meets = |other: &[Corner]| {
         let verdicts = PLACES.map(|(_, unit)| shape(&square, unit).check(&shape(other, unit)));

@@ -5,10 +5,10 @@ use cplan_handling::Recording;
 
 /// Largest deviation of a motion from its path, in each joint, radians or metres: a thousand times the rounding of
 /// either, and the tolerance of blends.
-pub(super) const NEAR: f64 = 1e-6;
+pub(super) const PATH_TOLERANCE: f64 = 1e-6;
 
 /// Number of samples per piece of the motion.
-const LOOKS: u8 = 4;
+const SAMPLES_PER_PIECE: u8 = 4;
 
 /// Checks that a motion follows a path from beginning to end. Its deviation may be that of cut corners: half of the
 /// greatest stated `radius`, or zero without a statement. Samples the whole motion.
@@ -20,14 +20,15 @@ pub(super) fn follows(path: &Path, recording: &Recording, radius: Option<f64>) -
     let longest = path.segments().map(|(a, b)| (b - a).norm()).fold(0.0, f64::max);
     let largest = q.iter().map(|q| q.amax()).fold(0.0, f64::max);
     // The middle of a parabola is halfway between its corner and the middle of its ends.
-    let within = NEAR + largest * f64::EPSILON * 16.0 + radius.map_or(0.0, |radius| radius.clamp(0.0, longest) / 2.0);
+    let within =
+        PATH_TOLERANCE + largest * f64::EPSILON * 16.0 + radius.map_or(0.0, |radius| radius.clamp(0.0, longest) / 2.0);
     let last = q.len().saturating_sub(2);
     let off = |at: Configuration, leg: usize| to_leg(at, q[leg], q[(leg + 1).min(q.len() - 1)]);
     // Where legs are close to each other, or turn back, the motion may be on any of several.
     let (mut legs, mut before) = (vec![0], q[0]);
     for (sample, piece) in recording.pieces().iter().enumerate() {
-        for look in 0..=LOOKS {
-            let at = piece.at(f64::from(look) / f64::from(LOOKS));
+        for look in 0..=SAMPLES_PER_PIECE {
+            let at = piece.at(f64::from(look) / f64::from(SAMPLES_PER_PIECE));
             // Corners may be passed between two places, but only nearby.
             let near = 2.0 * within + (at - before).norm();
             let (mut found, mut next): (Vec<usize>, usize) = (Vec::new(), 0);

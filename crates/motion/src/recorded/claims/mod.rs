@@ -5,7 +5,7 @@
 mod follow;
 mod steps;
 
-pub use steps::{step_claims_kept, task_claims_kept};
+pub use steps::{false_step_claims, false_task_claims};
 
 use super::collision::{CollisionCheck, check_collision};
 use cplan_core::check::{Rejection, certify};
@@ -17,11 +17,11 @@ use std::fmt::Display;
 use thiserror::Error;
 
 /// Relative difference allowed between a stated and a recomputed number: a sum with as many terms as waypoints.
-const AGAIN: f64 = 1e-9;
+const NUMBER_TOLERANCE: f64 = 1e-9;
 
 /// Difference allowed between a stated and a recomputed time, seconds: far above the rounding of clocks, far below the
 /// precision of grippers.
-const TIME: f64 = 1e-6;
+const TIME_TOLERANCE: f64 = 1e-6;
 
 /// A claim that is false.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
@@ -63,7 +63,7 @@ impl Ledger {
     /// Checks that a bound is not above a length or a time, and that the stated gap is their ratio minus 1.
     fn gap(&mut self, at: &str, length: f64, lower_bound: Option<f64>, gap: Option<f64>) {
         let Some(bound) = lower_bound else { return };
-        if bound.is_nan() || bound > length * (1.0 + AGAIN) {
+        if bound.is_nan() || bound > length * (1.0 + NUMBER_TOLERANCE) {
             self.note(
                 &format!("{at}lower_bound"),
                 format!("stated as {bound}, but a motion of length {length} exists"),
@@ -71,7 +71,7 @@ impl Ledger {
         }
         if bound > 0.0 {
             let is = length / bound - 1.0;
-            self.number(&format!("{at}gap"), gap, is, AGAIN * (1.0 + is.abs()));
+            self.number(&format!("{at}gap"), gap, is, NUMBER_TOLERANCE * (1.0 + is.abs()));
         }
     }
 
@@ -88,14 +88,14 @@ impl Ledger {
             return self.note("path", "has no waypoint".into());
         };
         let path = Path::new(path.to_vec());
-        self.number("length", length, path.length(), AGAIN * (1.0 + path.length()));
+        self.number("length", length, path.length(), NUMBER_TOLERANCE * (1.0 + path.length()));
         if let Some(BlendsClaim { count, largest_radius }) = blends {
             let corners = path.waypoints().len().saturating_sub(2);
             if count > corners {
                 self.note("blends.count", format!("stated as {count}, but the path has {corners} corners"));
             }
             let longest = path.segments().map(|(a, b)| (b - a).norm()).fold(0.0, f64::max);
-            if !(0.0..=longest * (1.0 + AGAIN)).contains(&largest_radius) {
+            if !(0.0..=longest * (1.0 + NUMBER_TOLERANCE)).contains(&largest_radius) {
                 let why = format!("stated as {largest_radius}, but the longest straight piece is {longest}");
                 self.note("blends.largest_radius", why);
             }
@@ -106,7 +106,7 @@ impl Ledger {
         let ends = [(first, 0, "begins"), (last, recording.positions().len() - 1, "ends")];
         for (end, sample, what) in ends {
             let at = recording.positions()[sample];
-            if (end - at).amax() > follow::NEAR {
+            if (end - at).amax() > follow::PATH_TOLERANCE {
                 self.note("path", format!("{what} at ({}, {}), the motion at ({}, {})", end[0], end[1], at[0], at[1]));
             }
         }
@@ -170,7 +170,7 @@ fn nearer(
     pair: cplan_core::model::Pair,
 ) -> Option<(f64, cplan_core::model::Pair)> {
     // The difference that two methods of computing a distance may have.
-    let stated = stated - AGAIN * stated.abs() - AGAIN * f64::EPSILON.sqrt();
+    let stated = stated - NUMBER_TOLERANCE * stated.abs() - NUMBER_TOLERANCE * f64::EPSILON.sqrt();
     if seen < stated {
         return Some((seen, pair));
     }
@@ -186,7 +186,7 @@ fn nearer(
 /// that the path itself is free and as long as stated, that no obstacle is nearer than the stated `clearance`, and that
 /// bounds and gaps agree with lengths. It does not check that lower bounds are valid.
 #[must_use]
-pub fn claims_kept<'a>(
+pub fn false_claims<'a>(
     scene: impl Into<TimedScene<'a>>,
     recording: &Recording,
     claims: &Claims,
@@ -223,7 +223,7 @@ impl Ledger {
             self.same("units", &units.join(", "), &is);
         }
         if let Some(duration) = recording.duration() {
-            self.number("duration", claims.duration, duration, TIME);
+            self.number("duration", claims.duration, duration, TIME_TOLERANCE);
         }
     }
 
@@ -233,7 +233,7 @@ impl Ledger {
         match claim.metric(speeds) {
             Some(metric) => {
                 let length = metric.length(&Path::new(path.to_vec()));
-                self.number("optimum.length", Some(claim.length), length, AGAIN * (1.0 + length));
+                self.number("optimum.length", Some(claim.length), length, NUMBER_TOLERANCE * (1.0 + length));
             }
             None => self.note("optimum.metric", format!("\"{}\" is none", claim.metric)),
         }
@@ -241,7 +241,7 @@ impl Ledger {
     }
 
     fn clearance_of_path(&mut self, scene: &Scene, path: Path, stated: f64) {
-        let asked = stated - AGAIN * stated.abs() - AGAIN * f64::EPSILON.sqrt();
+        let asked = stated - NUMBER_TOLERANCE * stated.abs() - NUMBER_TOLERANCE * f64::EPSILON.sqrt();
         if let Err(Rejection::TooClose(nearest)) = certify(scene, path, asked.max(0.0)) {
             let (pair, distance) = (scene.describe(nearest.contact.pair), nearest.contact.separation.distance);
             self.note(

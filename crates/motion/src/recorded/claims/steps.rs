@@ -1,16 +1,16 @@
 //! The check of a result's claims about the steps of a task.
 
-use super::{FalseClaim, Ledger, TIME};
-use crate::recorded::replay::{AT, angle_between};
+use super::{FalseClaim, Ledger, TIME_TOLERANCE};
+use crate::recorded::replay::{PLACE_TOLERANCE, angle_between};
 use crate::recorded::wrist::turn_resolution;
-use crate::recorded::{Happening, ReplayedStep};
+use crate::recorded::{GripperEvent, ReplayedStep};
 use cplan_core::space::Configuration;
 use cplan_geometry::Point;
 use cplan_handling::{Action, Claims, EventClaim, RecordedStep, Recording, Task, TimedScene};
 
 /// Returns the false claims of a result about the step with this `index`, given its replay.
 #[must_use]
-pub fn step_claims_kept(
+pub fn false_step_claims(
     task: &Task,
     recording: &Recording,
     replayed: &ReplayedStep,
@@ -41,9 +41,9 @@ pub fn step_claims_kept(
         }
     }
     let [begin, arrival, end] = replayed.times;
-    ledger.number("begin", claims.begin, begin, TIME);
-    ledger.number("arrival", claims.arrival, arrival, TIME);
-    ledger.number("end", claims.end, end, TIME);
+    ledger.number("begin", claims.begin, begin, TIME_TOLERANCE);
+    ledger.number("arrival", claims.arrival, arrival, TIME_TOLERANCE);
+    ledger.number("end", claims.end, end, TIME_TOLERANCE);
     if let Some(path) = &claims.path {
         ledger.path(scene, &motion, path, claims.length, claims.blends);
     }
@@ -56,11 +56,11 @@ pub fn step_claims_kept(
 /// Returns the false claims of a result about the whole task: times and places of gripper events, the steps of the
 /// samples, and general claims. `happened` lists the actual events.
 #[must_use]
-pub fn task_claims_kept(
+pub fn false_task_claims(
     task: &Task,
     recording: &Recording,
     recorded: &[RecordedStep],
-    happened: &[Happening],
+    happened: &[GripperEvent],
     claims: &Claims,
 ) -> Vec<FalseClaim> {
     let mut ledger = Ledger::default();
@@ -81,7 +81,7 @@ pub fn task_claims_kept(
     let lengths: Option<Vec<f64>> = steps.iter().map(|step| step.length).collect();
     if let Some(lengths) = lengths.filter(|lengths| !lengths.is_empty()) {
         let sum = lengths.iter().fold(0.0, |sum, length| sum + length);
-        ledger.number("length", claims.length, sum, super::AGAIN * (1.0 + sum));
+        ledger.number("length", claims.length, sum, super::NUMBER_TOLERANCE * (1.0 + sum));
     }
     if let Some(stated) = &claims.task.step_of_sample {
         let first = |step: usize| recorded.get(step).map_or(recording.positions().len(), |step| *step.samples.start());
@@ -117,7 +117,7 @@ impl Ledger {
         }
     }
 
-    fn events(&mut self, task: &Task, stated: &[EventClaim], happened: &[Happening]) {
+    fn events(&mut self, task: &Task, stated: &[EventClaim], happened: &[GripperEvent]) {
         if stated.len() != happened.len() {
             self.note("events", format!("there are {}, but the gripper acts {} times", stated.len(), happened.len()));
         }
@@ -128,13 +128,13 @@ impl Ledger {
             self.same("object", &event.object, &task.objects[is.object].name);
             self.same("step", &event.step, &is.step);
             self.same("cycle", &event.cycle, &is.cycle);
-            self.number("time", Some(event.time), is.time, TIME);
+            self.number("time", Some(event.time), is.time, TIME_TOLERANCE);
             self.place("tip", event.tip, is.tip);
             match (event.pose, is.pose) {
                 (Some((at, angle)), Some(pose)) => {
                     self.place("pose.at", at, pose.translation);
                     let is = pose.rotation.angle();
-                    if angle_between(angle, is) > AT {
+                    if angle_between(angle, is) > PLACE_TOLERANCE {
                         self.note("pose.angle", format!("stated as {angle}, but it is {is}"));
                     }
                 }
@@ -147,7 +147,7 @@ impl Ledger {
     }
 
     fn place(&mut self, claim: &str, [x, y]: [f64; 2], is: Point) {
-        if (Point::new(x, y) - is).norm() > AT {
+        if (Point::new(x, y) - is).norm() > PLACE_TOLERANCE {
             self.note(claim, format!("stated as ({x}, {y}) m, but it is ({}, {}) m", is.x, is.y));
         }
     }

@@ -73,7 +73,7 @@ pub enum Fault {
 
 /// The point at which a record departs from the sequence of its task.
 #[derive(Debug, Clone, PartialEq, Error)]
-pub enum Departure {
+pub enum OrderDeviation {
     /// Another step was required.
     #[error("steps[{index}] is step {number} (cycle {cycle}), but the world requires {expected}")]
     Order {
@@ -114,13 +114,15 @@ pub enum Departure {
     },
 }
 
-impl Departure {
+impl OrderDeviation {
     /// Returns the number of recorded steps before it.
     #[must_use]
     pub fn index(&self) -> usize {
         match *self {
-            Departure::Order { index, .. } | Departure::Overlap { index, .. } | Departure::Moves { index, .. } => index,
-            Departure::Missing { count, .. } => count,
+            OrderDeviation::Order { index, .. }
+            | OrderDeviation::Overlap { index, .. }
+            | OrderDeviation::Moves { index, .. } => index,
+            OrderDeviation::Missing { count, .. } => count,
         }
     }
 }

@@ -8,23 +8,25 @@ mod fault;
 mod order;
 mod state;
 
-pub use fault::{Departure, Fault};
+pub use fault::{Fault, OrderDeviation};
 
-use super::{CollisionCheck, Excess, Limit, TurnContact, WristTurn, check_collision, limits_kept, torques_kept};
+use super::{
+    CollisionCheck, Limit, LimitViolation, TurnContact, WristTurn, check_collision, limit_violations, torque_violations,
+};
 use cplan_core::model::{Goal, Scene};
 use cplan_core::space::{Configuration, JointRange};
 use cplan_geometry::{Interval, Point, Pose};
-use cplan_handling::{Action, Course, RecordedStep, RecordedTurn, Recording, Step, Task, TimedScene};
-use order::{Matched, matched};
+use cplan_handling::{Action, ObstacleTrajectory, RecordedStep, RecordedTurn, Recording, Step, Task, TimedScene};
+use order::{MatchedStep, matched};
 use state::{State, stroke_seconds};
 
 /// Largest difference between an actual and a required place, metres or radians: a thousand times the error of inverse
 /// kinematics, and below the repeatability of any arm.
-pub(super) const AT: f64 = 1e-6;
+pub(super) const PLACE_TOLERANCE: f64 = 1e-6;
 
 /// Largest amount by which times may be too short, seconds: far above the rounding of clocks and rests too short to be
 /// sampled, far below the precision of grippers.
-const SHORT: f64 = 1e-6;
+const TIME_TOLERANCE: f64 = 1e-6;
 
 /// A turn of the wrist that was judged.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -37,7 +39,7 @@ pub struct ReplayedTurn {
 
 /// A gripper event in a step.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Happening {
+pub struct GripperEvent {
     /// The step's number in the world file, from 1.
     pub step: usize,
     /// Number of its repetition, from 1.
@@ -64,7 +66,7 @@ pub struct ReplayedStep<'a> {
     /// but which leaves the arm in contact, the world at that time.
     pub scene: Scene,
     /// The trajectories of its moving obstacles, on a clock that begins with the motion.
-    pub courses: Vec<Course>,
+    pub courses: Vec<ObstacleTrajectory>,
     /// The object that is picked or placed.
     pub object: Option<usize>,
     /// The object that is carried during the motion.
@@ -75,12 +77,12 @@ pub struct ReplayedStep<'a> {
     /// motion or the end of the record.
     pub times: [f64; 3],
     /// The gripper event, if there is one.
-    pub event: Option<Happening>,
+    pub event: Option<GripperEvent>,
     /// The check of the motion among the obstacles of the scene; moments are those of the whole recording.
     pub collision_check: CollisionCheck,
     /// Joint limits that the motion violates. These are the joints' own limits, even if the step requires only a share
     /// of them.
-    pub broken: Vec<Excess>,
+    pub broken: Vec<LimitViolation>,
     /// The turn of the wrist after the motion. Also `None` if a turn was recorded without a payload, which is a fault.
     pub turn: Option<ReplayedTurn>,
     /// Differences from the required step.
@@ -93,8 +95,8 @@ pub struct Replay<'a> {
     task: &'a Task,
     recording: &'a Recording,
     recorded: &'a [RecordedStep],
-    matched: Vec<Matched<'a>>,
-    departure: Option<Departure>,
+    matched: Vec<MatchedStep<'a>>,
+    departure: Option<OrderDeviation>,
     next: usize,
     state: State,
 }
@@ -104,20 +106,20 @@ pub struct Replay<'a> {
 /// task:
 ///
 /// - Each motion from rest to rest, by [`check_collision`] with the workspace's clearance in the scene of its moment,
-///   and by [`limits_kept`]. Objects are where previous steps have left them, and the load has the pose in which it was
+///   and by [`limit_violations`]. Objects are where previous steps have left them, and the load has the pose in which it was
 ///   taken. Link 2 may touch the object that it takes and the one that it has just released; payloads may rest on their
 ///   supports. The state after the last step is judged, too.
 /// - Moving obstacles, at their places on the clock of the record, from its first sample. Moving objects must be picked
 ///   within their windows, and the resting arm must stay free between motions.
 /// - The end of each step: the tip is at the grasp, and the object or the arm at its target, within a micrometre. Turns
-///   start at the object's orientation, take as long as the wrist needs, and are free ([`super::given_turn`]). The arm
+///   start at the object's orientation, take as long as the wrist needs, and are free ([`super::judge_given_turn`]). The arm
 ///   rests for the dwell, the turn, and the stroke of the tool, which must be free at all its heights.
 ///
 /// `O(n)` for `n` samples, plus the checks of motions.
 #[must_use]
 pub fn replay<'a>(task: &'a Task, recording: &'a Recording, recorded: &'a [RecordedStep]) -> Replay<'a> {
     let (matched, departure) = matched(task, recording, recorded);
-    Replay { task, recording, recorded, matched, departure, next: 0, state: State::at_first(task) }
+    Replay { task, recording, recorded, matched, departure, next: 0, state: State::initial(task) }
 }
 
 impl Replay<'_> {
@@ -137,7 +139,7 @@ impl Replay<'_> {
 
     /// Returns the point where the record departs from the sequence of the task, or `None` if it is the whole task.
     #[must_use]
-    pub fn departure(&self) -> Option<&Departure> {
+    pub fn departure(&self) -> Option<&OrderDeviation> {
         self.departure.as_ref()
     }
 }
@@ -167,15 +169,16 @@ impl<'a> Iterator for Replay<'a> {
         let timed = TimedScene { scene: &scene, courses: &courses };
         let mut collision_check =
             shifted(check_collision(timed, &motion, task.workspace.clearance), *recorded.samples.start());
-        let mut broken = limits_kept(&task.arm.joints, &motion);
-        broken.extend(torques_kept(&scene, &motion));
+        let mut broken = limit_violations(&task.arm.joints, &motion);
+        broken.extend(torque_violations(&scene, &motion));
         broken.iter_mut().for_each(|excess| excess.moment.sample += recorded.samples.start());
         let mut object = carried;
         let (turn, lowered);
         match &step.action {
             Action::Pick { object: picked, grasp, when, .. } => {
                 object = Some(*picked);
-                let is_in_time = |[from, to]: &Interval| from - SHORT <= times[1] && times[1] <= to + SHORT;
+                let is_in_time =
+                    |[from, to]: &Interval| from - TIME_TOLERANCE <= times[1] && times[1] <= to + TIME_TOLERANCE;
                 if self.state.stop(task, *picked, times[1]) && !(when.is_empty() || when.iter().any(is_in_time)) {
                     faults.push(Fault::When { time: times[1] });
                 }
@@ -205,7 +208,7 @@ impl<'a> Iterator for Replay<'a> {
             + object.map_or(0.0, |object| stroke_seconds(task, object));
         let standing = || self.recording.part(*recorded.samples.end()..=*recorded.samples.end());
         // A moving obstacle may hit the resting arm.
-        if task.has_movers()
+        if task.has_moving_obstacles()
             && matches!(collision_check, CollisionCheck::Free { .. })
             && let Some(standing) = self.recording.part(*recorded.samples.end()..=self.next_begins(index))
         {
@@ -241,7 +244,7 @@ impl<'a> Iterator for Replay<'a> {
             let after = self.state.scene(task, released.filter(|_| is_last));
             let then = self.state.courses(task, times[1]);
             if is_last && broken.iter().all(|excess| excess.limit != Limit::Torque) {
-                let mut held = torques_kept(&after, &standing);
+                let mut held = torque_violations(&after, &standing);
                 held.iter_mut().for_each(|excess| excess.moment.sample += recorded.samples.end());
                 broken.extend(held);
             }
@@ -251,7 +254,7 @@ impl<'a> Iterator for Replay<'a> {
                 (scene, courses, collision_check) = (after, then, shifted(found, *recorded.samples.end()));
             }
         }
-        if let Some(stood) = matched.rest.filter(|stood| *stood < asked - SHORT) {
+        if let Some(stood) = matched.rest.filter(|stood| *stood < asked - TIME_TOLERANCE) {
             faults.push(Fault::Rest { stood, asked });
         }
         let seconds = motion.duration().unwrap_or(0.0);
@@ -260,7 +263,7 @@ impl<'a> Iterator for Replay<'a> {
             let turning = pose.and(recorded.turn).map_or(0.0, |turn| turn.seconds);
             let lowering = stroke_seconds(task, object) / 2.0;
             let (number, cycle, tip) = (step.number, step.cycle, task.arm.tip_at(to));
-            Happening { step: number, cycle, object, time: (times[1] + turning + lowering).min(times[2]), tip, pose }
+            GripperEvent { step: number, cycle, object, time: (times[1] + turning + lowering).min(times[2]), tip, pose }
         });
         Some(ReplayedStep {
             step,
@@ -282,7 +285,7 @@ impl<'a> Iterator for Replay<'a> {
 
 /// Returns true if two configurations are equal up to whole turns of joints on a circle.
 fn same(task: &Task, a: Configuration, b: Configuration) -> bool {
-    task.arm.topology().displacement(a, b).amax() <= AT
+    task.arm.topology().displacement(a, b).amax() <= PLACE_TOLERANCE
 }
 
 /// Returns the distance of a motion's end from the goal of a move.
@@ -292,7 +295,7 @@ fn missed(task: &Task, q: Configuration, goal: &Goal) -> Option<Fault> {
         Goal::Tip(_) | Goal::Area(_) => {
             let is = task.arm.tip_at(q);
             let off = (is - goal.nearest_tip(is)?).norm();
-            (off > AT).then_some(Fault::Tip { off })
+            (off > PLACE_TOLERANCE).then_some(Fault::Tip { off })
         }
     }
 }

@@ -1,12 +1,12 @@
 //! The match of recorded steps with those of the task.
 
-use super::Departure;
+use super::OrderDeviation;
 use cplan_core::space::Configuration;
 use cplan_handling::{Item, RecordedStep, Recording, Step, Task};
 
 /// A step of the task at its place in the record.
 #[derive(Debug, Clone)]
-pub(super) struct Matched<'a> {
+pub(super) struct MatchedStep<'a> {
     pub step: &'a Step,
     /// Objects that are supplied before it.
     pub renewed: Vec<usize>,
@@ -19,7 +19,7 @@ pub(super) fn matched<'a>(
     task: &'a Task,
     recording: &Recording,
     recorded: &[RecordedStep],
-) -> (Vec<Matched<'a>>, Option<Departure>) {
+) -> (Vec<MatchedStep<'a>>, Option<OrderDeviation>) {
     let mut order = Order { items: &task.items, item: 0, open: Vec::new(), half: None, renewed: Vec::new() };
     let mut all = Vec::new();
     let mut last = 0;
@@ -27,27 +27,27 @@ pub(super) fn matched<'a>(
         let step = match order.take(record) {
             Ok(step) => step,
             Err(expected) => {
-                let departure = Departure::Order { index, number: record.number, cycle: record.cycle, expected };
+                let departure = OrderDeviation::Order { index, number: record.number, cycle: record.cycle, expected };
                 return (all, Some(departure));
             }
         };
         let first = *record.samples.start();
         if first < last {
-            return (all, Some(Departure::Overlap { index, first, last }));
+            return (all, Some(OrderDeviation::Overlap { index, first, last }));
         }
         match stands(recording, last, first) {
-            Ok(rest) => all.last_mut().into_iter().for_each(|before: &mut Matched| before.rest = Some(rest)),
-            Err(sample) => return (all, Some(Departure::Moves { index, sample })),
+            Ok(rest) => all.last_mut().into_iter().for_each(|before: &mut MatchedStep| before.rest = Some(rest)),
+            Err(sample) => return (all, Some(OrderDeviation::Moves { index, sample })),
         }
-        all.push(Matched { step, renewed: std::mem::take(&mut order.renewed), rest: None });
+        all.push(MatchedStep { step, renewed: std::mem::take(&mut order.renewed), rest: None });
         last = *record.samples.end();
     }
     if let Some(expected) = order.expected() {
-        return (all, Some(Departure::Missing { count: recorded.len(), expected }));
+        return (all, Some(OrderDeviation::Missing { count: recorded.len(), expected }));
     }
     match stands(recording, last, recording.positions().len() - 1) {
         Ok(rest) => all.last_mut().into_iter().for_each(|before| before.rest = Some(rest)),
-        Err(sample) => return (all, Some(Departure::Moves { index: recorded.len(), sample })),
+        Err(sample) => return (all, Some(OrderDeviation::Moves { index: recorded.len(), sample })),
     }
     (all, None)
 }
@@ -81,7 +81,7 @@ struct Order<'a> {
 
 impl<'a> Order<'a> {
     /// Advances to the next item with a step.
-    fn settle(&mut self) {
+    fn advance_past_done(&mut self) {
         while self.open.is_empty() && self.half.is_none() {
             match self.items.get(self.item) {
                 Some(Item::Renew(objects)) => self.renewed.extend(objects),
@@ -94,7 +94,7 @@ impl<'a> Order<'a> {
 
     /// Returns the steps that may come next; empty at the end.
     fn candidates(&mut self) -> Vec<&'a Step> {
-        self.settle();
+        self.advance_past_done();
         match (self.half, self.items.get(self.item)) {
             (Some([_, place]), _) => vec![place],
             (None, _) if !self.open.is_empty() => self.open.iter().map(|pair| &pair[0]).collect(),

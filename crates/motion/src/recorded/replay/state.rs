@@ -1,11 +1,11 @@
 //! The places of all objects between the steps of a record.
 
-use super::super::given_turn;
-use super::{AT, Fault, ReplayedTurn, SHORT, angle_between};
+use super::super::judge_given_turn;
+use super::{Fault, PLACE_TOLERANCE, ReplayedTurn, TIME_TOLERANCE, angle_between};
 use cplan_core::model::{Grip, Scene};
 use cplan_core::space::Configuration;
 use cplan_geometry::{Point, Pose};
-use cplan_handling::{Action, Course, Holding, Object, Payload, RecordedTurn, Step, Task};
+use cplan_handling::{Action, Holding, Object, ObstacleTrajectory, Payload, RecordedTurn, Step, Task};
 
 /// The places of the objects, and the load.
 #[derive(Debug, Clone)]
@@ -20,9 +20,9 @@ pub(super) struct State {
 }
 
 impl State {
-    pub fn at_first(task: &Task) -> Self {
-        let poses = task.objects.iter().map(Object::standing_at_first).collect();
-        Self { poses, moving: task.moving_at_first().collect(), held: None, released: None }
+    pub fn initial(task: &Task) -> Self {
+        let poses = task.objects.iter().map(Object::initial_static_pose).collect();
+        Self { poses, moving: task.initially_moving().collect(), held: None, released: None }
     }
 
     pub fn renew(&mut self, task: &Task, objects: &[usize]) {
@@ -61,7 +61,7 @@ impl State {
     }
 
     /// Returns the trajectories of the moving obstacles, on a clock that begins at a time of the task's.
-    pub fn courses(&self, task: &Task, begin: f64) -> Vec<Course> {
+    pub fn courses(&self, task: &Task, begin: f64) -> Vec<ObstacleTrajectory> {
         task.courses_since(&self.moving, begin)
     }
 
@@ -81,7 +81,7 @@ impl State {
         let supports = supports.iter().chain(then).copied().collect();
         self.held = Some(Payload { object, grip, supports });
         let off = (tip - lies.point(grasp)).norm();
-        (off > AT).then_some(Fault::Tip { off })
+        (off > PLACE_TOLERANCE).then_some(Fault::Tip { off })
     }
 
     /// Releases the load with the arm at `q`. Returns the differences from the required place.
@@ -93,10 +93,12 @@ impl State {
         self.released = Some(object);
         let mut faults = Vec::new();
         let off = (pose.translation - at).norm();
-        if off > AT {
+        if off > PLACE_TOLERANCE {
             faults.push(Fault::Origin { off });
         }
-        if let Some(off) = angle.map(|angle| angle_between(pose.rotation.angle(), angle)).filter(|off| *off > AT) {
+        if let Some(off) =
+            angle.map(|angle| angle_between(pose.rotation.angle(), angle)).filter(|off| *off > PLACE_TOLERANCE)
+        {
             faults.push(Fault::Angle { off });
         }
         faults
@@ -126,7 +128,7 @@ impl State {
         match task.wrist {
             Some(wrist) => {
                 let least = least_seconds((turn.to - turn.from).abs(), wrist.velocity, wrist.acceleration);
-                if turn.seconds < least - SHORT {
+                if turn.seconds < least - TIME_TOLERANCE {
                     faults.push(Fault::TooFast { seconds: turn.seconds, least });
                 }
             }
@@ -141,9 +143,9 @@ impl State {
             faults.push(Fault::Nothing);
             return None;
         };
-        let verdict = given_turn(task, &workspace, payload, point, q, [turn.from, turn.to]);
+        let verdict = judge_given_turn(task, &workspace, payload, point, q, [turn.from, turn.to]);
         let off = angle_between(turn.from, angle);
-        if off > AT {
+        if off > PLACE_TOLERANCE {
             faults.push(Fault::Turn { off });
         }
         payload.grip = Grip::Level { angle: angle + (turn.to - turn.from), point };
@@ -161,11 +163,11 @@ pub(super) fn stroke_seconds(task: &Task, object: usize) -> f64 {
 
 /// Returns the least seconds for a distance from rest to rest: up to the top speed, at top speed, and down; or, if the
 /// distance is too short, up and down.
-fn least_seconds(way: f64, velocity: f64, acceleration: f64) -> f64 {
+fn least_seconds(distance: f64, velocity: f64, acceleration: f64) -> f64 {
     let ramps = velocity * velocity / acceleration;
-    if way > ramps {
-        2.0 * velocity / acceleration + (way - ramps) / velocity
+    if distance > ramps {
+        2.0 * velocity / acceleration + (distance - ramps) / velocity
     } else {
-        2.0 * (way / acceleration).sqrt()
+        2.0 * (distance / acceleration).sqrt()
     }
 }

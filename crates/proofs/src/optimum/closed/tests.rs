@@ -118,7 +118,7 @@ fn apart(a: &[Point], b: &[Point]) -> f64 {
 impl Case {
     /// Returns lines between all walls of the slices, and to their copies a turn away, and one line between arbitrary
     /// values.
-    fn lines(&self, closed: &mut Closed) -> Vec<[Configuration; 2]> {
+    fn lines(&self, closed: &mut SecondLinkWalls) -> Vec<[Configuration; 2]> {
         let [before, after] = self.rows.map(|q1| closed.walls(q1));
         let mut ends = Vec::new();
         for (left, right) in before.iter().flat_map(|left| after.iter().map(move |right| (left, right))) {
@@ -149,10 +149,10 @@ proptest! {
 
     /// A good part of the lines must be called closed.
     #[test]
-    fn what_is_called_closed_is_closed_all_along(cases in prop::collection::vec(case(), 60)) {
+    fn reported_closed_motions_collide_everywhere(cases in prop::collection::vec(case(), 60)) {
         let (mut lines, mut closed_lines) = (0, 0);
         for case in &cases {
-            let mut closed = Closed::new(&case.scene, case.clearance);
+            let mut closed = SecondLinkWalls::new(&case.scene, case.clearance);
             for line in case.lines(&mut closed) {
                 if closed.pairs.is_empty() {
                     continue;

@@ -7,10 +7,10 @@ use roxmltree::{Document, Node, ParsingOptions};
 use std::collections::HashMap;
 
 /// Greatest depth of nested nodes, and greatest number of nodes of the scene.
-const DEEPEST: usize = 64;
-const MOST_NODES: usize = 1 << 16;
+const MAX_NODE_DEPTH: usize = 64;
+const MAX_NODES: usize = 1 << 16;
 /// Greatest number of vertices of all instances of geometries.
-const MOST_POINTS: usize = 1 << 24;
+const MAX_POINTS: usize = 1 << 24;
 
 /// Reads the vertices of all geometries of the scene, metres.
 pub(super) fn read(bytes: &[u8]) -> Result<Vec<Point3<f64>>, String> {
@@ -86,7 +86,7 @@ impl<'a, 'i> Scene<'a, 'i> {
     /// Reads nodes and geometries of a node. `pose` maps its coordinates to those of the file.
     fn children(&mut self, node: Node<'a, 'i>, pose: &Matrix4<f64>, depth: usize) -> Result<(), String> {
         self.nodes += 1;
-        if depth > DEEPEST || self.nodes > MOST_NODES {
+        if depth > MAX_NODE_DEPTH || self.nodes > MAX_NODES {
             return Err("a node contains itself, or too many nodes".into());
         }
         for child in node.children().filter(Node::is_element) {
@@ -125,7 +125,7 @@ impl<'a, 'i> Scene<'a, 'i> {
                     numbers.len()
                 ));
             }
-            if self.points.len() + numbers.len() / stride > MOST_POINTS {
+            if self.points.len() + numbers.len() / stride > MAX_POINTS {
                 return Err("its scene contains too many meshes".into());
             }
             self.points.extend(numbers.chunks(stride).map(|p| pose.transform_point(&Point3::new(p[0], p[1], p[2]))));

@@ -4,7 +4,7 @@ mod dae;
 mod obj;
 mod stl;
 
-use crate::quantity::LARGEST;
+use crate::quantity::MAX_LENGTH;
 use crate::source::read_bounded;
 use crate::urdf::document::Document;
 use cplan_xacro::packages;
@@ -31,12 +31,12 @@ impl Mesh {
 }
 
 /// The reason why a mesh cannot be read, with a hint.
-pub(super) struct Unread {
+pub(super) struct UnreadableMesh {
     pub message: String,
     pub cure: &'static str,
 }
 
-impl From<String> for Unread {
+impl From<String> for UnreadableMesh {
     fn from(message: String) -> Self {
         let cure = "correct the path, put the package folder beside the URDF or name its place in ROS_PACKAGE_PATH, and \
                     convert other formats to STL; or let bars between the joints stand in for the links, in the world \
@@ -53,7 +53,7 @@ impl From<String> for Unread {
 /// # Errors
 /// The reason with the searched places: the file is missing, the URDF is not a file, or the mesh has an unknown format,
 /// is damaged, or is too large.
-pub(super) fn read(filename: &str, scale: [f64; 3], document: &Document) -> Result<Mesh, Unread> {
+pub(super) fn read(filename: &str, scale: [f64; 3], document: &Document) -> Result<Mesh, UnreadableMesh> {
     let extension = Path::new(filename).extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default();
     if !["stl", "dae", "obj"].contains(&extension.as_str()) {
         let message =
@@ -71,24 +71,24 @@ pub(super) fn read(filename: &str, scale: [f64; 3], document: &Document) -> Resu
     };
     let Mesh { points, edges } = mesh.map_err(|e| format!("mesh {}: {e}", path.display()))?;
     let scaled: Vec<_> = points.iter().map(|p| Point3::new(p.x * scale[0], p.y * scale[1], p.z * scale[2])).collect();
-    match scaled.iter().position(|p| !p.iter().all(|c| c.abs() <= LARGEST)) {
+    match scaled.iter().position(|p| !p.iter().all(|c| c.abs() <= MAX_LENGTH)) {
         None => Ok(Mesh { points: scaled, edges }),
         Some(far) => Err(too_far(&points[far], scale, &path)),
     }
 }
 
 /// Returns the error about a vertex that is not finite after scaling, or too far for any arm.
-fn too_far(vertex: &Point3<f64>, scale: [f64; 3], path: &Path) -> Unread {
+fn too_far(vertex: &Point3<f64>, scale: [f64; 3], path: &Path) -> UnreadableMesh {
     let [x, y, z] = vertex.coords.into();
     let [a, b, c] = scale;
     let what = if vertex.iter().all(|c| c.is_finite()) { "too large" } else { "not finite" };
     let message = format!(
-        "mesh {}: a vertex is {what}: ({x:?}, {y:?}, {z:?}) with scale=\"{a:?} {b:?} {c:?}\" (at most {LARGEST:e} m)",
+        "mesh {}: a vertex is {what}: ({x:?}, {y:?}, {z:?}) with scale=\"{a:?} {b:?} {c:?}\" (at most {MAX_LENGTH:e} m)",
         path.display()
     );
     let cure =
         "give the scale that converts its numbers to metres, such as 0.001 for millimetres, or export the mesh again";
-    Unread { message, cure }
+    UnreadableMesh { message, cure }
 }
 
 /// Returns the file of a mesh.

@@ -5,13 +5,14 @@ use nalgebra::Point3;
 use std::io::Cursor;
 
 /// Number of bytes of a binary STL before its triangles, and of each triangle.
-const HEADER: usize = 84;
-const TRIANGLE: usize = 50;
+const HEADER_BYTES: usize = 84;
+const TRIANGLE_BYTES: usize = 50;
 
 /// Reads the triangles.
 pub(super) fn read(mut bytes: Vec<u8>) -> Result<Mesh, String> {
-    let count = bytes.get(80..HEADER).and_then(|c| c.try_into().ok()).map(u32::from_le_bytes);
-    let binary = count.is_some_and(|n| bytes.len() as u64 == HEADER as u64 + TRIANGLE as u64 * u64::from(n));
+    let count = bytes.get(80..HEADER_BYTES).and_then(|c| c.try_into().ok()).map(u32::from_le_bytes);
+    let binary =
+        count.is_some_and(|n| bytes.len() as u64 == HEADER_BYTES as u64 + TRIANGLE_BYTES as u64 * u64::from(n));
     let mesh = if binary {
         // Exporters begin binary headers with "solid" too, by which readers recognise text; otherwise the header has no
         // meaning.
@@ -33,7 +34,7 @@ pub(super) fn read(mut bytes: Vec<u8>) -> Result<Mesh, String> {
 /// first one.)
 fn text(text: &str) -> Result<Mesh, String> {
     /// The lines of a facet.
-    const FACET: [&str; 7] = ["facet normal", "outer loop", "vertex", "vertex", "vertex", "endloop", "endfacet"];
+    const FACET_LINES: [&str; 7] = ["facet normal", "outer loop", "vertex", "vertex", "vertex", "endloop", "endfacet"];
     let mut mesh = Mesh::default();
     // The next line of a facet; `None` outside of solids.
     let mut next: Option<usize> = None;
@@ -43,18 +44,18 @@ fn text(text: &str) -> Result<Mesh, String> {
         next = match next {
             None if *first == "solid" => Some(0),
             Some(0) if *first == "endsolid" => None,
-            Some(k) if words.join(" ").starts_with(FACET[k]) => {
-                let numbers = &words[FACET[k].split(' ').count()..];
+            Some(k) if words.join(" ").starts_with(FACET_LINES[k]) => {
+                let numbers = &words[FACET_LINES[k].split(' ').count()..];
                 let parsed: Vec<f64> =
                     numbers.iter().filter_map(|word| word.parse::<f32>().ok().map(f64::from)).collect();
-                match (FACET[k], &parsed[..]) {
+                match (FACET_LINES[k], &parsed[..]) {
                     ("vertex", &[x, y, z]) if numbers.len() == 3 => mesh.points.push(Point3::new(x, y, z)),
                     ("facet normal", _) if numbers.len() == 3 => {}
                     ("outer loop" | "endloop", _) if numbers.is_empty() => {}
                     ("endfacet", _) if numbers.is_empty() => mesh.close_face(mesh.points.len() - 3),
                     _ => return Err(format!("the STL is broken: line {}: {:?}", number + 1, line.trim())),
                 }
-                Some((k + 1) % FACET.len())
+                Some((k + 1) % FACET_LINES.len())
             }
             _ => return Err(format!("the STL is broken: line {}: {:?}", number + 1, line.trim())),
         };

@@ -1,7 +1,7 @@
 //! Configuration spaces as GeoJSON (RFC 7946), with joint values as longitudes and latitudes.
 
 use super::{CSpace, CSpaces, Values};
-use cplan_motion::line_a_field;
+use cplan_motion::field_per_line;
 use serde_json::{Value, json};
 
 /// Returns a `FeatureCollection`. `kind` is the kind of each feature, and `space` the number of its configuration
@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 pub fn text(spaces: &CSpaces) -> String {
     let CSpaces { name, planner, status, axes, spaces } = spaces;
     let features: Vec<Value> = spaces.iter().enumerate().flat_map(|(number, space)| features(number, space)).collect();
-    line_a_field(&json!({
+    field_per_line(&json!({
         "type": "FeatureCollection",
         "name": name, "planner": planner, "status": status, "axes": axes,
         "features": features,

@@ -18,7 +18,7 @@ use cplan_engine::{Detail, Motion, Plan};
 use cplan_geometry::Point;
 use cplan_handling::Task;
 use cplan_motion::CertifiedCurve;
-use cplan_motion::line_a_field;
+use cplan_motion::field_per_line;
 use cplan_solver::{Answer, Space};
 use cplan_tasks::TaskAnswer;
 use schemars::JsonSchema;
@@ -76,7 +76,7 @@ pub struct CSpace {
     /// Goals: both ends of a segment, which are the same for a single goal.
     pub goals: Vec<[Values; 2]>,
     /// Paths of the arm, in unwrapped values; empty if there is no path.
-    pub paths: Vec<Way>,
+    pub paths: Vec<PathData>,
     /// The planner's polygons, from its last attempt.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub free: Option<FreeRegion>,
@@ -118,7 +118,7 @@ pub struct ObstacleRegion {
 
 /// A path.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct Way {
+pub struct PathData {
     /// Name of the planner, or the step of a task.
     pub name: String,
     /// Waypoints, with straight segments between them.
@@ -170,7 +170,7 @@ impl CSpaces {
     /// Returns a JSON object, with one line per field.
     #[must_use]
     pub fn json(&self) -> String {
-        line_a_field(self)
+        field_per_line(self)
     }
 
     /// Returns the values of the first grid as a matrix in CSV, if there is a grid.
@@ -207,7 +207,7 @@ impl CSpace {
         let numbers = (0..scene.workspace().obstacles.len()).chain(scene.self_obstacles());
         let names = numbers.map(|number| scene.obstacle(number).name.clone());
         let grown = || {
-            let margin = MARGIN * PICTURE_TOLERANCE * scene.arm().reach();
+            let margin = MAX_GROWTH * PICTURE_TOLERANCE * scene.arm().reach();
             (contours(scene), Proves::Outer { margin })
         };
         let exact = if is_exact { cspace::exact_c_obstacles(scene) } else { None };
@@ -245,7 +245,7 @@ impl CSpace {
         let motion = answer.outcome.found().into_iter();
         let space = Self {
             goals: problem.goals().pieces().iter().map(|goal| goal.ends().map(Values::from)).collect(),
-            paths: motion.map(|motion| Way::of(answer.method.to_string(), &motion.timed.curve)).collect(),
+            paths: motion.map(|motion| PathData::of(answer.method.to_string(), &motion.timed.curve)).collect(),
             free,
             proof: answer.outcome.infeasible().map(boxes_of).unwrap_or_default(),
             ..Self::of_scene(scene, problem.start(), is_exact)
@@ -297,9 +297,9 @@ impl CSpace {
 
 /// Largest growth of obstacles, as a multiple of the tolerance of pictures. It is the sum of the margin itself, twice
 /// the flattening error, and two margins more around shapes with many corners (see [`cspace::c_obstacles`]).
-const MARGIN: f64 = 5.0;
+const MAX_GROWTH: f64 = 5.0;
 
-impl Way {
+impl PathData {
     fn of(name: String, curve: &CertifiedCurve) -> Self {
         let values = |path: &Path| all(path.waypoints());
         Self { name, waypoints: values(curve.curve().path()), outline: values(&curve.outline()) }
@@ -321,7 +321,7 @@ fn spaces_of_task(task: &Task, answer: &TaskAnswer, is_exact: bool) -> Vec<CSpac
         });
         let name = format!("{}. {}", leg.step.number, leg.step.action.describe(&task.objects));
         spaces[number].goals.push([path.goal().into(); 2]);
-        spaces[number].paths.push(Way::of(name, curve));
+        spaces[number].paths.push(PathData::of(name, curve));
     }
     if let Some(fails) = answer.failed() {
         let proofs = fails.ik_solutions.iter().filter_map(|to| to.proof.as_ref());
@@ -343,7 +343,7 @@ fn pairs(pairs: &[[Configuration; 2]]) -> Vec<[Values; 2]> {
 }
 
 fn boxes_of(proof: &CheckedProof) -> Vec<[Values; 2]> {
-    proof.stuck().iter().map(|stuck| [stuck.cell.lower, stuck.cell.upper]).collect()
+    proof.collision_boxes().iter().map(|stuck| [stuck.cell.lower, stuck.cell.upper]).collect()
 }
 
 fn polygons(polygons: &[Polygon]) -> Polygons {

@@ -8,7 +8,7 @@ use std::io::Read;
 
 /// Bytes of the largest chunk once it is decompressed. Recorders begin a new chunk after some megabytes; the bound stops files
 /// that claim more than fits into memory.
-const LARGEST_CHUNK: u64 = 256 << 20;
+const MAX_CHUNK_BYTES: u64 = 256 << 20;
 
 /// Calls `visit` with the channel, the log time in nanoseconds and the content of each message, in the order of the file.
 ///
@@ -54,8 +54,8 @@ fn decompressed(header: ChunkHeader, data: &[u8]) -> McapResult<(ChunkHeader, Co
     if header.compression.is_empty() {
         return Ok((header, Cow::Borrowed(data)));
     }
-    if size > LARGEST_CHUNK {
-        return Err(wrong(format!("a chunk of {size} bytes is larger than {} MiB", LARGEST_CHUNK >> 20)));
+    if size > MAX_CHUNK_BYTES {
+        return Err(wrong(format!("a chunk of {size} bytes is larger than {} MiB", MAX_CHUNK_BYTES >> 20)));
     }
     let mut content = Vec::new();
     match header.compression.as_str() {

@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use std::rc::Rc;
 
 /// Types that show a motion and do not state it, as cplan's own recordings have them.
-const SHOWN: [&str; 3] =
+const DISPLAY_TYPES: [&str; 3] =
     ["tf2_msgs/msg/TFMessage", "visualization_msgs/msg/MarkerArray", "sensor_msgs/msg/PointCloud2"];
 
 /// The messages of one type on one topic.
@@ -123,7 +123,7 @@ pub(super) fn choose(
     let (others, unused): (Vec<Topic>, Vec<Topic>) = topics.into_iter().partition(|other| other.kind.is_some());
     let mut notes: Vec<String> = others.iter().map(|other| not_judged(other, &topic)).collect();
     let mut unused: Vec<String> =
-        unused.into_iter().filter(|t| !SHOWN.contains(&t.schema.as_str())).map(|t| t.name).collect();
+        unused.into_iter().filter(|t| !DISPLAY_TYPES.contains(&t.schema.as_str())).map(|t| t.name).collect();
     unused.dedup();
     if !unused.is_empty() {
         notes.push(format!("unused topics: {}", quoted(unused)));

@@ -2,60 +2,60 @@
 
 use super::diagram::{Chord, Diagram};
 use cplan_core::planner::mesh::Mesh;
-use cplan_core::planner::roadmap::{Asked, Roadmap};
+use cplan_core::planner::roadmap::{QueryGraph, Roadmap};
 use cplan_core::planner::terminals::Terminals;
 use cplan_core::space::{Measure, Metric};
-use cplan_geometry::{Ordered, Point};
+use cplan_geometry::{OrderedF64, Point};
 use cplan_interrupt::checkpoint;
 use petgraph::graph::NodeIndex;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Ends of arcs that are nearer than this are one, radians or metres: where bisectors meet at a small angle, rounding moves
 /// the place by the root of that of coordinates.
-const SAME: f64 = 1e-7;
+const JOIN_DISTANCE: f64 = 1e-7;
 
 /// Chords nearer to the boundary than this are no ways: they lead into its corners, or through where obstacles touch.
-pub(super) const NARROW: f64 = SAME;
+pub(super) const MIN_CHORD_CLEARANCE: f64 = JOIN_DISTANCE;
 
 /// Chords and nodes that are tried where a configuration is joined to the diagram.
-const TRIED: usize = 12;
+const MAX_TRIED_CONNECTIONS: usize = 12;
 
 /// The chords in a window, as a graph.
 #[derive(Debug, Clone)]
-pub(super) struct Ways {
+pub(super) struct ChordGraph {
     roadmap: Roadmap,
     points: Vec<Point>,
     chords: Vec<([NodeIndex; 2], Chord)>,
 }
 
-impl Ways {
+impl ChordGraph {
     /// Builds the roadmap of the chords that lie in free space.
     pub fn new(mesh: &Mesh, chords: impl Iterator<Item = Chord>) -> Self {
-        let mut ways =
+        let mut graph =
             Self { roadmap: Roadmap::new(Measure::from(Metric::Euclidean)), points: Vec::new(), chords: Vec::new() };
         let mut places: BTreeMap<[i64; 2], Vec<NodeIndex>> = BTreeMap::new();
         let mut known = BTreeSet::new();
         for chord in chords {
             checkpoint();
             let [a, b] = chord.ends.ends();
-            if (a - b).norm() < SAME || !mesh.is_clear(a, b) {
+            if (a - b).norm() < JOIN_DISTANCE || !mesh.is_clear(a, b) {
                 continue;
             }
-            let ends = [a, b].map(|end| ways.node(&mut places, end));
+            let ends = [a, b].map(|end| graph.node(&mut places, end));
             if ends[0] != ends[1] && known.insert([ends[0].min(ends[1]), ends[0].max(ends[1])]) {
-                ways.roadmap.join_of_width(ends[0], ends[1], chord.width);
-                ways.chords.push((ends, chord));
+                graph.roadmap.join_of_width(ends[0], ends[1], chord.width);
+                graph.chords.push((ends, chord));
             }
         }
-        ways
+        graph
     }
 
     /// Returns the node at a place, up to rounding.
     fn node(&mut self, places: &mut BTreeMap<[i64; 2], Vec<NodeIndex>>, at: Point) -> NodeIndex {
-        let cell = [at.x, at.y].map(|value| (value / SAME).floor() as i64);
+        let cell = [at.x, at.y].map(|value| (value / JOIN_DISTANCE).floor() as i64);
         let around = (-1..=1).flat_map(|i| (-1..=1).map(move |j| [cell[0] + i, cell[1] + j]));
         let found = around.filter_map(|cell| places.get(&cell)).flatten();
-        if let Some(node) = found.copied().find(|node| (self.points[node.index()] - at).norm() < SAME) {
+        if let Some(node) = found.copied().find(|node| (self.points[node.index()] - at).norm() < JOIN_DISTANCE) {
             return node;
         }
         let node = self.roadmap.add(at);
@@ -65,36 +65,36 @@ impl Ways {
     }
 
     /// Returns the roadmap with a query's ends.
-    pub fn asked(&self, mesh: &Mesh, diagram: &Diagram, terminals: &Terminals) -> Asked {
-        let mut asked = self.roadmap.clone().asked(terminals.start);
-        let start = asked.start;
+    pub fn query_graph(&self, mesh: &Mesh, diagram: &Diagram, terminals: &Terminals) -> QueryGraph {
+        let mut query_graph = self.roadmap.clone().query_graph(terminals.start);
+        let start = query_graph.start;
         let mut ends = vec![start];
-        ends.extend(terminals.places(mesh).map(|at| asked.goal(at)));
+        ends.extend(terminals.places(mesh).map(|at| query_graph.goal(at)));
         ends.sort_unstable();
         ends.dedup();
         // Where each chord is met: how far along it, and the node there.
-        let mut met: BTreeMap<usize, Vec<(Ordered, NodeIndex)>> = BTreeMap::new();
+        let mut met: BTreeMap<usize, Vec<(OrderedF64, NodeIndex)>> = BTreeMap::new();
         for &end in &ends {
             checkpoint();
             // Without obstacles, or with start and goal in the same place, the end is already on the roadmap.
-            let is_there = self.chords.is_empty() || (asked.at(end) - terminals.start).norm() < SAME;
-            if end != start && is_there && mesh.is_clear(terminals.start, asked.at(end)) {
-                asked.join(start, end);
+            let is_there = self.chords.is_empty() || (query_graph.at(end) - terminals.start).norm() < JOIN_DISTANCE;
+            if end != start && is_there && mesh.is_clear(terminals.start, query_graph.at(end)) {
+                query_graph.join(start, end);
             }
-            self.retract(mesh, diagram, end, &mut asked, &mut met);
+            self.retract(mesh, diagram, end, &mut query_graph, &mut met);
         }
         for (chord, mut nodes) in met {
             let [first, last] = self.chords[chord].0;
-            nodes.extend([(Ordered(f64::NEG_INFINITY), first), (Ordered(f64::INFINITY), last)]);
+            nodes.extend([(OrderedF64(f64::NEG_INFINITY), first), (OrderedF64(f64::INFINITY), last)]);
             nodes.sort_unstable();
             for pair in nodes.windows(2) {
-                let [a, b] = [pair[0].1, pair[1].1].map(|node| asked.at(node));
+                let [a, b] = [pair[0].1, pair[1].1].map(|node| query_graph.at(node));
                 if a == b || mesh.is_clear(a, b) {
-                    asked.join_of_width(pair[0].1, pair[1].1, diagram.clearance(a, b));
+                    query_graph.join_of_width(pair[0].1, pair[1].1, diagram.clearance(a, b));
                 }
             }
         }
-        asked
+        query_graph
     }
 
     /// Joins an end to the diagram: to the chord that the line away from the boundary meets, or else to nearby nodes.
@@ -103,31 +103,32 @@ impl Ways {
         mesh: &Mesh,
         diagram: &Diagram,
         end: NodeIndex,
-        asked: &mut Asked,
-        met: &mut BTreeMap<usize, Vec<(Ordered, NodeIndex)>>,
+        query_graph: &mut QueryGraph,
+        met: &mut BTreeMap<usize, Vec<(OrderedF64, NodeIndex)>>,
     ) {
-        let at = asked.at(end);
+        let at = query_graph.at(end);
         if let Some(there) = diagram.retracted(at).filter(|there| mesh.is_clear(at, *there)) {
             let measure = Measure::from(Metric::Euclidean);
             let distance = |k: usize| self.chords[k].1.ends.distance(measure, there);
             let is_met = |&k: &usize| self.chords[k].1.ends.ends().iter().any(|&p| mesh.is_clear(there, p));
             if let Some(chord) = nearest(self.chords.len(), distance).into_iter().find(is_met) {
                 let (nodes, Chord { ends, .. }) = self.chords[chord];
-                let is_it =
-                    |node: &NodeIndex| (asked.at(*node) - there).norm() < SAME && mesh.is_clear(at, asked.at(*node));
+                let is_it = |node: &NodeIndex| {
+                    (query_graph.at(*node) - there).norm() < JOIN_DISTANCE && mesh.is_clear(at, query_graph.at(*node))
+                };
                 if let Some(node) = nodes.into_iter().find(is_it) {
-                    return asked.join(end, node);
+                    return query_graph.join(end, node);
                 }
-                let node = asked.add(there);
-                asked.join(end, node);
+                let node = query_graph.add(there);
+                query_graph.join(end, node);
                 let [from, to] = ends.ends();
                 let along = (there - from).dot(&(to - from));
-                return met.entry(chord).or_default().push((Ordered(along), node));
+                return met.entry(chord).or_default().push((OrderedF64(along), node));
             }
         }
         for node in nearest(self.points.len(), |k| (self.points[k] - at).norm()) {
             if mesh.is_clear(at, self.points[node]) {
-                asked.join_of_width(end, NodeIndex::new(node), diagram.clearance(at, self.points[node]));
+                query_graph.join_of_width(end, NodeIndex::new(node), diagram.clearance(at, self.points[node]));
             }
         }
     }
@@ -135,10 +136,10 @@ impl Ways {
 
 /// Returns the indices of the nearest of `count` things, nearest first.
 fn nearest(count: usize, distance: impl Fn(usize) -> f64) -> Vec<usize> {
-    let mut order: Vec<(Ordered, usize)> = (0..count).map(|k| (Ordered(distance(k)), k)).collect();
-    if count > TRIED {
-        order.select_nth_unstable(TRIED);
-        order.truncate(TRIED);
+    let mut order: Vec<(OrderedF64, usize)> = (0..count).map(|k| (OrderedF64(distance(k)), k)).collect();
+    if count > MAX_TRIED_CONNECTIONS {
+        order.select_nth_unstable(MAX_TRIED_CONNECTIONS);
+        order.truncate(MAX_TRIED_CONNECTIONS);
     }
     order.sort_unstable();
     order.into_iter().map(|(_, k)| k).collect()

@@ -11,7 +11,7 @@ use super::{
 use std::collections::BTreeMap;
 
 /// Smallest bend that counts as a corner, radians. Rounding bends corners that users place on straight sides.
-const STRAIGHT: f64 = 1e-7;
+const MIN_BEND: f64 = 1e-7;
 
 /// Returns what remains of each piece when each corner of the union moves inwards by `distance`, as convex shapes.
 ///
@@ -20,7 +20,7 @@ const STRAIGHT: f64 = 1e-7;
 /// by the hull of its corners. In both cases, all points deeper than `distance` remain. Rounded outlines lose radius
 /// first.
 #[must_use]
-pub fn drawn_in(pieces: &[Convex], distance: f64) -> Vec<Vec<Convex>> {
+pub fn inset_union(pieces: &[Convex], distance: f64) -> Vec<Vec<Convex>> {
     let (all, together) = within(pieces, distance);
     let left = |piece: &Convex| match piece.radius() {
         0.0 => {
@@ -28,22 +28,22 @@ pub fn drawn_in(pieces: &[Convex], distance: f64) -> Vec<Vec<Convex>> {
             together.of(piece.core()).unwrap_or_else(|| hull_of(piece.core()))
         }
         radius if radius >= distance => vec![piece.grown(-distance)],
-        radius => drawn_in(&[piece.grown(-radius)], distance - radius).concat(),
+        radius => inset_union(&[piece.grown(-radius)], distance - radius).concat(),
     };
     all.iter().map(|parts| parts.iter().flat_map(left).collect()).collect()
 }
 
 /// Returns true if every corner stays inside the union and no corner belongs to two rings or to one ring twice.
 #[must_use]
-pub fn can_be_drawn_in(pieces: &[Convex], distance: f64) -> bool {
+pub fn can_inset_union(pieces: &[Convex], distance: f64) -> bool {
     let (_, together) = within(pieces, distance);
     !together.touches && !together.leaves
 }
 
 /// Cuts the pieces from corner to corner, and computes where their corners move.
-fn within(pieces: &[Convex], distance: f64) -> (Vec<Vec<Convex>>, Moved) {
+fn within(pieces: &[Convex], distance: f64) -> (Vec<Vec<Convex>>, MovedCorners) {
     let all = corner_to_corner(pieces);
-    let mut together = Moved::new(all.iter().flatten().filter(is_sharp), distance);
+    let mut together = MovedCorners::new(all.iter().flatten().filter(is_sharp), distance);
     let tree = BoxTree::new(pieces.iter().map(Convex::bounds).collect());
     let mut found = Vec::new();
     for [corner, to] in together.to.values_mut() {
@@ -130,7 +130,7 @@ fn key(p: Point) -> Key {
 }
 
 /// New positions of the corners of pieces.
-struct Moved {
+struct MovedCorners {
     /// New positions by corner and its successor in the piece. Corners that pieces surround completely stay and are not
     /// listed.
     to: BTreeMap<[Key; 2], [Point; 2]>,
@@ -148,16 +148,16 @@ struct Corner {
     /// Keys of the corners of its pieces.
     parts: Vec<[Key; 2]>,
     /// Bisector of the sides, with the cosine and the sine of half the angle between them. `None` if the sides coincide.
-    way: Option<(Vector, [f64; 2])>,
+    inward: Option<(Vector, [f64; 2])>,
 }
 
 impl Corner {
     fn is_straight(&self) -> bool {
-        self.way.is_some_and(|(_, [cosine, _])| cosine.abs() < STRAIGHT / 2.0)
+        self.inward.is_some_and(|(_, [cosine, _])| cosine.abs() < MIN_BEND / 2.0)
     }
 }
 
-impl Moved {
+impl MovedCorners {
     /// Computes the moves for pieces that are cut from corner to corner.
     fn new<'a>(pieces: impl IntoIterator<Item = &'a Convex>, distance: f64) -> Self {
         let mut sectors: BTreeMap<[Key; 2], [Point; 3]> = BTreeMap::new();
@@ -178,7 +178,7 @@ impl Moved {
                 parts.push([key(at), key(last)]);
                 last = sector[2];
             }
-            corners.push(Corner { at, next, last, parts, way: inwards(at, next, last) });
+            corners.push(Corner { at, next, last, parts, inward: inwards(at, next, last) });
         }
         let number = |of: fn(&Corner) -> Point| -> BTreeMap<[Key; 2], usize> {
             corners.iter().enumerate().map(|(k, corner)| ([key(corner.at), key(of(corner))], k)).collect()
@@ -198,22 +198,22 @@ impl Moved {
                 if !corners[at].is_straight() {
                     let along =
                         |(_, [cosine, sine]): (Vector, [f64; 2])| (corners[at].at, distance * cosine, distance * sine);
-                    return corners[at].way.map(along);
+                    return corners[at].inward.map(along);
                 }
             }
             None
         };
         let mut to = BTreeMap::new();
         for (k, corner) in corners.iter().enumerate() {
-            let moved = match corner.way {
+            let moved = match corner.inward {
                 None => corner.at,
-                Some((way, _)) if !corner.is_straight() => corner.at + way * distance,
+                Some((inward, _)) if !corner.is_straight() => corner.at + inward * distance,
                 // As far inside as the line between the neighbouring bends at that place.
-                Some((way, _)) => ahead(k, false).zip(ahead(k, true)).map_or(corner.at, |(from, to)| {
+                Some((inward, _)) => ahead(k, false).zip(ahead(k, true)).map_or(corner.at, |(from, to)| {
                     let [behind, before] = [&from, &to].map(|end| (corner.at - end.0).norm());
                     let [start, end] = [from.1, behind + before - to.1];
                     let share = ((behind - start) / (end - start)).clamp(0.0, 1.0);
-                    corner.at + way * (from.2 + share * (to.2 - from.2))
+                    corner.at + inward * (from.2 + share * (to.2 - from.2))
                 }),
             };
             to.extend(corner.parts.iter().map(|part| (*part, [corner.at, moved])));
@@ -247,8 +247,8 @@ impl Moved {
 fn inwards(corner: Point, first: Point, last: Point) -> Option<(Vector, [f64; 2])> {
     let unit = |v: Vector| v.try_normalize(0.0);
     let [first, last] = [unit(first - corner)?, unit(last - corner)?];
-    let way = unit(perpendicular(first - last))?;
-    Some((way, [first.dot(&way), cross(first, way)]))
+    let inward = unit(perpendicular(first - last))?;
+    Some((inward, [first.dot(&inward), cross(first, inward)]))
 }
 
 #[cfg(test)]
@@ -271,19 +271,19 @@ mod tests {
 
     #[test]
     fn corners_move_halfway_between_sides() {
-        let left = drawn_in(&[rectangle([0., 0.], [4., 1.])], 0.1 * 2f64.sqrt());
+        let left = inset_union(&[rectangle([0., 0.], [4., 1.])], 0.1 * 2f64.sqrt());
         let corners = points(&[[0.1, 0.1], [3.9, 0.1], [3.9, 0.9], [0.1, 0.9]]);
         let is_near = |p: &Point| corners.iter().any(|corner| (p - corner).norm() < 1e-12);
         assert!(matches!(&left[..], [one] if one.len() == 1 && one[0].core().iter().all(is_near)), "{left:?}");
         let disc = [Convex::point(Point::zeros()).grown(0.3)];
-        let radii = [0.1, 0.4].map(|by| drawn_in(&disc, by)[0][0].radius());
+        let radii = [0.1, 0.4].map(|by| inset_union(&disc, by)[0][0].radius());
         assert_eq!(radii, [0.3 - 0.1, 0.0]);
     }
 
     /// Pieces of a bar with another bar on top. A side of the first continues beyond the second at both ends.
     #[test]
     fn pieces_go_on_adjoining() {
-        let left = drawn_in(&[rectangle([0., 0.], [4., 1.]), rectangle([1., 1.], [2., 2.])], 0.1 * 2f64.sqrt());
+        let left = inset_union(&[rectangle([0., 0.], [4., 1.]), rectangle([1., 1.], [2., 2.])], 0.1 * 2f64.sqrt());
         let within = [[0.11, 0.5], [1.11, 1.0], [1.89, 1.0], [1.5, 1.89], [0.5, 0.89], [1.11, 0.95], [3., 0.89]];
         let without = [[0.09, 0.5], [1.09, 1.0], [1.91, 1.0], [1.5, 1.91], [0.5, 0.91], [1.09, 0.95], [3., 0.91]];
         for (all, is_covered) in [(within, true), (without, false)] {
@@ -314,20 +314,22 @@ mod tests {
         let outer = points(&[[1.34375, 0.0], [-0.58984375, 1.0224609375], [-0.818359375, -1.4169921875]]);
         let hole = points(&[[0.2, 0.0], [0.14, 0.14], [0.0, 0.6982421875], [-0.14, 0.14], [-0.2, 0.0], [0.0, -0.2]]);
         let pieces = Polygon::new(outer, vec![hole]).unwrap().convex_pieces();
-        assert!(can_be_drawn_in(&pieces, 0.01) && !can_be_drawn_in(&pieces, 0.019));
+        assert!(can_inset_union(&pieces, 0.01) && !can_inset_union(&pieces, 0.019));
         let is_in = |corner: &Point| covers(std::slice::from_ref(&pieces), *corner);
-        assert!(drawn_in(&pieces, 0.019).iter().flatten().flat_map(Convex::core).all(is_in));
+        assert!(inset_union(&pieces, 0.019).iter().flatten().flat_map(Convex::core).all(is_in));
     }
 
     #[test]
-    fn what_is_too_fine_stays() {
+    fn too_fine_parts_stay() {
         // A triangle whose corners would cross.
         let small = Convex::trusted(points(&[[0., 0.], [1., 0.], [0.5, 0.8]]), 0.0);
-        let left = drawn_in(std::slice::from_ref(&small), 2.0);
+        let left = inset_union(std::slice::from_ref(&small), 2.0);
         assert_eq!(left, [[small]]);
         // A needle with coincident sides.
         let needle = Convex::trusted(points(&[[0., 0.], [1., 0.], [1., 1e-200]]), 0.0);
-        assert!(drawn_in(&[needle], 0.01)[0].iter().flat_map(Convex::core).all(|p| p.x.is_finite() && p.y.is_finite()));
+        assert!(
+            inset_union(&[needle], 0.01)[0].iter().flat_map(Convex::core).all(|p| p.x.is_finite() && p.y.is_finite())
+        );
     }
 
     /// Corners around the origin, on a grid in which midpoints of sides are exact.
@@ -363,7 +365,7 @@ mod tests {
         /// For a polygon with a hole, the result is the polygon whose rings are moved. However thin the polygon, its
         /// deep points remain.
         #[test]
-        fn it_is_what_moved_rings_surround(
+        fn the_inset_equals_the_moved_rings(
             outer in star([1.0, 3.0]), hole in star([0.2, 0.7]), some in any::<[u8; 2]>(), by in 0.0..0.03f64,
             at in prop::collection::vec((-3.0..3.0f64, -3.0..3.0f64), 60),
         ) {
@@ -371,8 +373,8 @@ mod tests {
             let polygon = Polygon::new(given[0].clone(), vec![given[1].clone()]);
             prop_assume!(polygon.is_ok());
             let pieces = polygon.unwrap().convex_pieces();
-            let is_too_fine = !can_be_drawn_in(&pieces, by) || !turns_over_nothing(&pieces, by);
-            let left = drawn_in(&pieces, by);
+            let is_too_fine = !can_inset_union(&pieces, by) || !turns_over_nothing(&pieces, by);
+            let left = inset_union(&pieces, by);
             let clockwise: Vec<Point> = hole.iter().rev().copied().collect();
             let own = [outer, clockwise];
             let moved = own.clone().map(|ring| by_angles(&ring, by));
@@ -420,7 +422,7 @@ mod tests {
         let mut corners: Vec<Point> = comb.collect();
         corners.reverse();
         let pieces = SimplePolygon::new(corners).unwrap().convex_pieces();
-        let left = drawn_in(&pieces, 0.01);
+        let left = inset_union(&pieces, 0.01);
         assert!(left.iter().flatten().count() >= teeth, "{}", left.len());
         for (at, is_covered) in
             [([100.5, 1.98], true), ([100.5, 1.995], false), ([100.0, 0.98], true), ([100.0, 0.995], false)]

@@ -5,10 +5,10 @@ use crate::space::{Configuration, Segment};
 use cplan_geometry::Point;
 
 /// Greatest number of configurations that are checked before the search gives up.
-const MOST_LOOKS: usize = 1000;
+const MAX_CHECKED_CONFIGURATIONS: usize = 1000;
 
 /// Greatest number of halvings of a segment.
-const MOST_HALVINGS: u32 = 20;
+const MAX_HALVINGS: u32 = 20;
 
 /// Share of the lengths involved by which the depth of a collision must exceed the motion: far above the rounding of
 /// either.
@@ -40,7 +40,7 @@ impl Scene {
             let q = segment.at(middle);
             let obstructions = self.obstructions(q);
             looks += 1;
-            if obstructions.is_empty() || looks > MOST_LOOKS {
+            if obstructions.is_empty() || looks > MAX_CHECKED_CONFIGURATIONS {
                 return None;
             }
             let [a, b] = [from, to].map(|share| segment.at(share) - q);
@@ -52,7 +52,7 @@ impl Scene {
             });
             match lasting {
                 Some(lasting) => blocked.push((from, to, lasting)),
-                None if halvings == MOST_HALVINGS => return None,
+                None if halvings == MAX_HALVINGS => return None,
                 None => waiting.extend([(middle, to, halvings + 1), (from, middle, halvings + 1)]),
             }
         }

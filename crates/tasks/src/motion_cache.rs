@@ -9,9 +9,9 @@ use cplan_core::space::{Configuration, Path};
 use cplan_geometry::Pose;
 use cplan_handling::{Payload, Step, Task};
 use cplan_motion::recorded::{WristTurn, wrist_turn};
-use cplan_motion::{Timed, TorqueLimit, single};
+use cplan_motion::{TimedMotion, TorqueLimit, single};
 use cplan_proofs::{Connectivity, slab_connectivity};
-use cplan_solver::{Answer, BoundedPath, LARGE_PROOF, Options, Unknown, solve};
+use cplan_solver::{Answer, BoundedPath, LARGE_PROOF_BOXES, Options, Unknown, solve};
 use cplan_text::{counted, listed};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -48,7 +48,7 @@ impl Refusal {
 
     /// Creates a refusal by a proof that there is no path.
     fn barred(proof: CheckedProof) -> Self {
-        let stuck = proof.stuck();
+        let stuck = proof.collision_boxes();
         let reason = format!(
             "there is no path: colliding configurations separate start and goal (proven, {})",
             counted(stuck.len(), "box")
@@ -65,7 +65,7 @@ fn distinct(numbers: impl Iterator<Item = usize>) -> Vec<usize> {
 /// A motion with the turn and the stroke that follow it.
 #[derive(Debug, Clone)]
 pub(super) struct Motion {
-    pub timed: Arc<Timed>,
+    pub timed: Arc<TimedMotion>,
     pub turn: Option<(WristTurn, f64)>,
     pub stroke: Option<ToolStroke>,
 }
@@ -79,54 +79,54 @@ impl Motion {
 }
 
 /// Knowledge about a motion's path before it is planned.
-enum Way {
+enum PathStatus {
     /// The certified straight path. No path is shorter in any metric.
     Straight(CertifiedPath),
     /// Not straight; other paths are not ruled out.
-    Open,
+    Undecided,
     /// There is no path.
-    Barred(Refusal),
+    Infeasible(Refusal),
 }
 
 /// Number of slabs after which the planner has to decide whether there is a path: some milliseconds.
-const SLABS: usize = 2_000;
+const DECISION_SLABS: usize = 2_000;
 
 /// Number of attempts with a subset of the objects before all of them are included.
-const TRIES: usize = 3;
+const ATTEMPTS_AMONG_FEW: usize = 3;
 
 /// Samples per segment when collecting the objects that a path hits.
-const LOOKS: u32 = 16;
+const SAMPLES_PER_SEGMENT: u32 = 16;
 
 /// The data that determines a scene, as bits.
 type SceneKey = Vec<u64>;
 
 /// Share by which paths may be longer than the shortest.
-const GAP: f64 = 0.01;
+const PATH_GAP: f64 = 0.01;
 
 /// A scene by number, with start and end of the path.
-type WayKey = (usize, [u64; 4]);
+type PathKey = (usize, [u64; 4]);
 
 /// Plans motions and caches them: a motion is planned once among the same relevant obstacles. Tasks that differ only in
 /// their items can share a cache.
-pub(super) struct Legs {
+pub(super) struct MotionCache {
     options: Options,
     /// Numbers of scenes, as far as they matter for the motion.
     numbers: BTreeMap<SceneKey, usize>,
-    ways: BTreeMap<WayKey, Way>,
+    path_statuses: BTreeMap<PathKey, PathStatus>,
     /// Paths among the workspace's own obstacles and some of the objects.
     fewer: BTreeMap<(SceneKey, [u64; 4]), Result<CertifiedPath, Refusal>>,
     /// Motions by path and speed.
-    motions: BTreeMap<(WayKey, u64), Result<Arc<Timed>, Refusal>>,
+    motions: BTreeMap<(PathKey, u64), Result<Arc<TimedMotion>, Refusal>>,
     /// Complete scenes, for answers.
     scenes: BTreeMap<SceneKey, Arc<Scene>>,
 }
 
-impl Legs {
+impl MotionCache {
     pub fn new(options: &Options) -> Self {
         Self {
             options: of_legs(options),
             numbers: BTreeMap::new(),
-            ways: BTreeMap::new(),
+            path_statuses: BTreeMap::new(),
             fewer: BTreeMap::new(),
             motions: BTreeMap::new(),
             scenes: BTreeMap::new(),
@@ -139,8 +139,8 @@ impl Legs {
     }
 
     /// Returns the number of paths examined so far, including those of motions.
-    pub fn looked_at(&self) -> usize {
-        self.ways.len()
+    pub fn examined_paths(&self) -> usize {
+        self.path_statuses.len()
     }
 
     /// Returns the scene of a motion. The same state of the world gives the same scene.
@@ -151,7 +151,7 @@ impl Legs {
 
     /// Returns the motion to a candidate's target with the turn and the stroke there.
     pub fn motion(&mut self, task: &Task, from: &State, candidate: &Candidate) -> Result<Motion, Refusal> {
-        let key = self.way(task, from, candidate)?;
+        let key = self.path_key(task, from, candidate)?;
         let speed = candidate.step.speed;
         let known = self.motions.get(&(key, speed.to_bits())).cloned();
         let timed = known.unwrap_or_else(|| {
@@ -169,13 +169,13 @@ impl Legs {
         task: &Task,
         from: &State,
         candidate: &Candidate,
-        key: WayKey,
-    ) -> Result<Arc<Timed>, Refusal> {
+        key: PathKey,
+    ) -> Result<Arc<TimedMotion>, Refusal> {
         let scene = from.scene(task, candidate.step.action.picked());
-        let path = match &self.ways[&key] {
-            _ if !self.options.planner.method().optimises() => path(&scene, from.q, candidate.to, &self.options)?,
-            Way::Straight(path) => path.clone(),
-            Way::Open | Way::Barred(_) => self.shortest(task, from, candidate, &scene)?,
+        let path = match &self.path_statuses[&key] {
+            _ if !self.options.planner.method().optimizes() => path(&scene, from.q, candidate.to, &self.options)?,
+            PathStatus::Straight(path) => path.clone(),
+            PathStatus::Undecided | PathStatus::Infeasible(_) => self.shortest(task, from, candidate, &scene)?,
         };
         let timed = self.options.drive.along(&scene, &path, candidate.step.speed);
         timed.map(Arc::new).map_err(|error| Refusal::new(error.to_string(), false))
@@ -209,7 +209,7 @@ impl Legs {
     /// Checks that nothing known rules out the motion to a candidate's target, or the turn there. This finds most
     /// reasons, in a small part of the time that planning the motion takes.
     pub fn promising(&mut self, task: &Task, from: &State, candidate: &Candidate) -> Result<(), Refusal> {
-        let key = self.way(task, from, candidate)?;
+        let key = self.path_key(task, from, candidate)?;
         if let Some(Err(refusal)) = self.motions.get(&(key, candidate.step.speed.to_bits())) {
             return Err(refusal.clone());
         }
@@ -218,17 +218,17 @@ impl Legs {
     }
 
     /// Examines the path to a candidate's target, and refuses it if it is ruled out.
-    fn way(&mut self, task: &Task, from: &State, candidate: &Candidate) -> Result<WayKey, Refusal> {
-        let left = from.left(task, candidate, candidate.to);
+    fn path_key(&mut self, task: &Task, from: &State, candidate: &Candidate) -> Result<PathKey, Refusal> {
+        let left = from.after_step(task, candidate, candidate.to);
         if left.is_done(task) {
             // No later motion will begin there.
             let left = left.scene(task, from.released);
-            unobstructed(&left, candidate.to, "after it")?;
-            let held = TorqueLimit::held_at(&left, candidate.to);
+            require_unobstructed(&left, candidate.to, "after it")?;
+            let held = TorqueLimit::check_holding_at(&left, candidate.to);
             held.map_err(|error| Refusal::new(format!("after it {error}"), false))?;
-        } else if left.is_unsettled(task) {
+        } else if left.needs_renewal(task) {
             // The next motion begins among other objects.
-            unobstructed(&left.scene(task, None), candidate.to, "after it")?;
+            require_unobstructed(&left.scene(task, None), candidate.to, "after it")?;
         }
         let carried = from.held.as_ref().map(|held| task.objects[held.object].carried_heights());
         let own = || task.arm.links.iter().flat_map(|link| &link.parts).map(|part| part.heights);
@@ -238,10 +238,10 @@ impl Legs {
         let number = *self.numbers.entry(key).or_insert(next);
         let (q, to) = (from.q, candidate.to);
         let key = (number, [q[0], q[1], to[0], to[1]].map(f64::to_bits));
-        let look = || way(&from.scene(task, candidate.step.action.picked()), q, to);
-        match self.ways.entry(key).or_insert_with(look) {
-            Way::Barred(refusal) => Err(refusal.clone()),
-            Way::Straight(_) | Way::Open => Ok(key),
+        let look = || path_key(&from.scene(task, candidate.step.action.picked()), q, to);
+        match self.path_statuses.entry(key).or_insert_with(look) {
+            PathStatus::Infeasible(refusal) => Err(refusal.clone()),
+            PathStatus::Straight(_) | PathStatus::Undecided => Ok(key),
         }
     }
 
@@ -255,7 +255,7 @@ impl Legs {
     ) -> Result<(WristTurn, f64), Refusal> {
         let unproven = |reason: &str| Refusal::new(reason, false);
         // The object is no obstacle to itself: it has no pose before its release, or after its grasp.
-        let left = from.left(task, candidate, candidate.to);
+        let left = from.after_step(task, candidate, candidate.to);
         let with = if left.held.is_some() { &left } else { from };
         let Some(held @ Payload { grip: Grip::Level { point, .. }, .. }) = &with.held else {
             return Err(unproven("the tool holds no object to turn"));
@@ -264,13 +264,13 @@ impl Legs {
             return Err(unproven("the arm has no wrist that could turn the object"));
         };
         let found = wrist_turn(task, &task.obstacles(&with.poses), held, *point, candidate.to, turn);
-        let way = found.ok_or_else(|| unproven("the object cannot be turned there, in either direction"))?;
-        let turning = single((way.to - way.from).abs(), wrist.velocity, wrist.acceleration);
-        Ok((way, turning.last().map_or(0.0, |[seconds, ..]| *seconds)))
+        let path_key = found.ok_or_else(|| unproven("the object cannot be turned there, in either direction"))?;
+        let turning = single((path_key.to - path_key.from).abs(), wrist.velocity, wrist.acceleration);
+        Ok((path_key, turning.last().map_or(0.0, |[seconds, ..]| *seconds)))
     }
 
     /// Returns a lower bound on the seconds that a turn takes.
-    pub fn least_turn(task: &Task, [from, to]: [f64; 2]) -> f64 {
+    pub fn min_turn_seconds(task: &Task, [from, to]: [f64; 2]) -> f64 {
         let ahead = (to - from).rem_euclid(std::f64::consts::TAU);
         let least = ahead.min(std::f64::consts::TAU - ahead);
         task.wrist.map_or(0.0, |wrist| rest_to_rest(least, wrist.velocity, wrist.acceleration))
@@ -280,16 +280,16 @@ impl Legs {
 /// Returns the options for planning the motions of a task. Tasks bound durations instead of path lengths, and a
 /// somewhat longer path permits faster motions.
 pub(super) fn of_legs(options: &Options) -> Options {
-    let planner = options.planner.with_gap(options.planner.gap().unwrap_or(GAP));
+    let planner = options.planner.with_gap(options.planner.gap().unwrap_or(PATH_GAP));
     Options { planner, bounded: false, ..*options }
 }
 
 /// Distance, radians and metres, at which neighbours of an IK solution are checked as well. IK solutions are rounded,
 /// so a collision is certain only if the neighbours collide, too.
-const BESIDE: f64 = 1e-9;
+const NEIGHBOR_DISTANCE: f64 = 1e-9;
 
 /// Refuses a configuration with collisions. `when` states in words when the arm is there.
-pub(super) fn unobstructed(scene: &Scene, q: Configuration, when: &str) -> Result<(), Refusal> {
+pub(super) fn require_unobstructed(scene: &Scene, q: Configuration, when: &str) -> Result<(), Refusal> {
     let hits = scene.obstructions(q);
     if hits.is_empty() {
         return Ok(());
@@ -297,7 +297,13 @@ pub(super) fn unobstructed(scene: &Scene, q: Configuration, when: &str) -> Resul
     let words: Vec<String> = hits.iter().map(|hit| scene.explain(hit)).collect();
     let blockers = Blockers::AtEnd(distinct(hits.iter().map(|hit| hit.contact.pair.obstacle)));
     let certain = scene.inner();
-    let beside = [[0.0, 0.0], [BESIDE, 0.0], [-BESIDE, 0.0], [0.0, BESIDE], [0.0, -BESIDE]];
+    let beside = [
+        [0.0, 0.0],
+        [NEIGHBOR_DISTANCE, 0.0],
+        [-NEIGHBOR_DISTANCE, 0.0],
+        [0.0, NEIGHBOR_DISTANCE],
+        [0.0, -NEIGHBOR_DISTANCE],
+    ];
     let is_proven = beside.iter().all(|&by| !certain.obstructions(q + Configuration::from(by)).is_empty());
     Err(Refusal { blockers, ..Refusal::new(format!("{when} {}", listed(&words)), is_proven) })
 }
@@ -315,7 +321,7 @@ fn among_few(
         hits.filter_map(|obstacle| obstacle.checked_sub(own)).collect::<Vec<_>>()
     };
     let mut among: BTreeSet<usize> = BTreeSet::new();
-    for _ in 0..TRIES {
+    for _ in 0..ATTEMPTS_AMONG_FEW {
         let found = match plan(&among) {
             Ok(found) => found.path().clone(),
             Err(refusal) if refusal.proven => return Some(Err(refusal)),
@@ -326,8 +332,8 @@ fn among_few(
         }
         let before = among.len();
         for ends in found.waypoints().windows(2) {
-            for part in 0..=LOOKS {
-                among.extend(hit_at(ends[0].lerp(&ends[1], f64::from(part) / f64::from(LOOKS))));
+            for part in 0..=SAMPLES_PER_SEGMENT {
+                among.extend(hit_at(ends[0].lerp(&ends[1], f64::from(part) / f64::from(SAMPLES_PER_SEGMENT))));
             }
         }
         if among.len() == before {
@@ -337,7 +343,7 @@ fn among_few(
     None
 }
 
-/// Returns the problem of a motion and the planner's answer, planned again as [`Legs`] does. `None` if the path is
+/// Returns the problem of a motion and the planner's answer, planned again as [`MotionCache`] does. `None` if the path is
 /// straight.
 pub(super) fn planned_again(
     scene: &Scene,
@@ -350,7 +356,7 @@ pub(super) fn planned_again(
         let answer = solve(&problem, options, &mut |_| {});
         (problem, answer)
     };
-    if !options.planner.method().optimises() {
+    if !options.planner.method().optimizes() {
         return Some(asked(scene.clone()));
     }
     if straight(scene, from, to).is_some() {
@@ -387,23 +393,23 @@ fn straight(scene: &Scene, from: Configuration, to: Configuration) -> Option<Cer
 }
 
 /// Examines the path from one configuration to another by inexpensive checks.
-fn way(scene: &Scene, from: Configuration, to: Configuration) -> Way {
-    let ends = unobstructed(scene, from, "at its beginning")
+fn path_key(scene: &Scene, from: Configuration, to: Configuration) -> PathStatus {
+    let ends = require_unobstructed(scene, from, "at its beginning")
         .map_err(|refusal| Refusal { blockers: Blockers::Unknown, ..refusal })
-        .and_then(|()| unobstructed(scene, to, "at its end"));
+        .and_then(|()| require_unobstructed(scene, to, "at its end"));
     if let Err(refusal) = ends {
-        return Way::Barred(refusal);
+        return PathStatus::Infeasible(refusal);
     }
     let clearance = scene.workspace().clearance;
     if let Some(path) = straight(scene, from, to) {
-        return Way::Straight(path);
+        return PathStatus::Straight(path);
     }
     let goal = to.into();
-    match slab_connectivity(scene, from, &goal, clearance, SLABS, LARGE_PROOF) {
-        Connectivity::Disconnected(proof) => {
-            proof.checked(scene, from, &goal, clearance).map_or(Way::Open, |proof| Way::Barred(Refusal::barred(proof)))
-        }
-        _ => Way::Open,
+    match slab_connectivity(scene, from, &goal, clearance, DECISION_SLABS, LARGE_PROOF_BOXES) {
+        Connectivity::Disconnected(proof) => proof
+            .checked(scene, from, &goal, clearance)
+            .map_or(PathStatus::Undecided, |proof| PathStatus::Infeasible(Refusal::barred(proof))),
+        _ => PathStatus::Undecided,
     }
 }
 

@@ -6,7 +6,7 @@ use crate::evidence::{Barrier, Slice, Wall};
 use cplan_core::check::{Deviation, Posture};
 use cplan_core::model::{Pair, Scene};
 use cplan_core::space::Configuration;
-use cplan_geometry::Ordered;
+use cplan_geometry::OrderedF64;
 
 impl Strips<'_> {
     /// Returns all slices that were examined, with the walls and barriers found. Where link 1 collides in a strip, the
@@ -45,6 +45,6 @@ fn found_closed(walls: &[FoundWall], pairs: &[Pair]) -> Vec<Wall> {
 /// Returns the pair of link 1 that overlaps most at a value of joint 1.
 fn deepest(scene: &Scene, q1: f64) -> Option<Pair> {
     let posture = Posture::new(scene, Configuration::new(q1, scene.arm().joints[1].range.domain().0));
-    let distance = |pair: &Pair| Ordered(posture.bound(*pair, Deviation::Box([0.0; 2])).here.distance);
+    let distance = |pair: &Pair| OrderedF64(posture.bound(*pair, Deviation::Box([0.0; 2])).here.distance);
     scene.pairs().iter().filter(|pair| pair.link == 0).min_by_key(|pair| distance(pair)).copied()
 }

@@ -1,6 +1,6 @@
 //! The live page with the program inside: no server, threads or files, and work cannot be interrupted.
 
-use super::{Desk, Files, Host, Message, Reply, Request, Spent};
+use super::{Files, Host, LiveSession, Message, Reply, Request, TimeSpent};
 use cplan_interrupt::Interrupt;
 use serde::Deserialize;
 use std::sync::Arc;
@@ -18,48 +18,48 @@ enum Order {
         /// Time that a plan may take.
         seconds: f64,
         /// The state that the page already has, in which case it receives nothing.
-        held: Option<Held>,
+        held: Option<NumberedText>,
     },
     /// Handle a request of the ordinary protocol.
     Take {
         request: Request,
         #[serde(default)]
-        spent: Spent,
+        spent: TimeSpent,
     },
 }
 
 /// A text and its number.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Held {
+struct NumberedText {
     base: u64,
     text: String,
 }
 
 /// The program of one page.
 #[derive(Default)]
-pub struct Alone {
-    desk: Option<Desk>,
+pub struct StandalonePage {
+    desk: Option<LiveSession>,
 }
 
-impl Alone {
-    /// Executes an order and passes its results to `tell`.
-    pub fn take(&mut self, order: &str, tell: &mut dyn FnMut(Message)) {
+impl StandalonePage {
+    /// Executes an order and passes its results to `send`.
+    pub fn take(&mut self, order: &str, send: &mut dyn FnMut(Message)) {
         let failed = |error: String| Message::from(&Reply::Failed { id: 0, error });
         match (serde_json::from_str(order), &mut self.desk) {
-            (Err(error), _) => tell(failed(format!("no order: {error}"))),
-            (Ok(Order::Take { request, spent }), Some(desk)) => desk.take(&request, &Interrupt::new(), spent, tell),
-            (Ok(Order::Take { .. }), None) => tell(failed("no world is open".into())),
+            (Err(error), _) => send(failed(format!("no order: {error}"))),
+            (Ok(Order::Take { request, spent }), Some(desk)) => desk.take(&request, &Interrupt::new(), spent, send),
+            (Ok(Order::Take { .. }), None) => send(failed("no world is open".into())),
             (Ok(Order::Open { id, files, seconds, held }), place) => {
                 let is_new = held.is_none();
                 match opened(files, seconds, held) {
                     Ok(desk) => {
                         if is_new {
-                            tell(Message::from(&desk.world(id, true)));
+                            send(Message::from(&desk.world(id, true)));
                         }
                         *place = Some(desk);
                     }
-                    Err(error) => tell(Message::from(&Reply::Failed { id, error })),
+                    Err(error) => send(Message::from(&Reply::Failed { id, error })),
                 }
             }
         }
@@ -70,11 +70,11 @@ impl Alone {
 ///
 /// # Errors
 /// The defects of the files.
-fn opened(files: Files, seconds: f64, held: Option<Held>) -> Result<Desk, String> {
+fn opened(files: Files, seconds: f64, held: Option<NumberedText>) -> Result<LiveSession, String> {
     let time = Duration::try_from_secs_f64(seconds).map_err(|error| format!("seconds: {error}"))?;
     let host = Host::brought(files, time)?;
-    let mut desk = Desk::new(Arc::new(host));
-    held.map_or(Ok(()), |Held { base, text }| desk.hold(base, &text))?;
+    let mut desk = LiveSession::new(Arc::new(host));
+    held.map_or(Ok(()), |NumberedText { base, text }| desk.hold(base, &text))?;
     Ok(desk)
 }
 
@@ -87,7 +87,7 @@ mod tests {
     const WORLD: &str = include_str!("../../../workspaces/shelf.toml");
 
     /// Returns the messages as JSON.
-    fn told(alone: &mut Alone, order: &Value) -> Vec<Value> {
+    fn replies_to(alone: &mut StandalonePage, order: &Value) -> Vec<Value> {
         let mut replies = Vec::new();
         alone.take(&order.to_string(), &mut |message| match message {
             Message::Text(text) => replies.push(serde_json::from_str(&text).unwrap()),
@@ -107,11 +107,11 @@ mod tests {
     }
 
     #[test]
-    fn it_tells_the_world_and_plans_in_it() {
-        let mut alone = Alone::default();
-        let world = told(&mut alone, &open(Value::Null));
+    fn the_page_receives_the_world_and_a_plan() {
+        let mut alone = StandalonePage::default();
+        let world = replies_to(&mut alone, &open(Value::Null));
         assert_eq!((world.len(), &world[0]["kind"], &world[0]["base"]), (1, &json!("world"), &json!(1)));
-        let replies = told(&mut alone, &plan(1, "nothing"));
+        let replies = replies_to(&mut alone, &plan(1, "nothing"));
         let last = replies.last().unwrap();
         assert_eq!(
             (&last["verdict"], &last["done"], &last["certified"]),
@@ -121,32 +121,32 @@ mod tests {
 
     #[test]
     fn it_goes_on_where_another_one_ended() {
-        let mut alone = Alone::default();
+        let mut alone = StandalonePage::default();
         let other = WORLD.replace("name = \"", "name = \"other ");
-        assert!(told(&mut alone, &open(json!({ "base": 5, "text": other }))).is_empty());
-        let last = told(&mut alone, &plan(5, "nothing")).pop().unwrap();
+        assert!(replies_to(&mut alone, &open(json!({ "base": 5, "text": other }))).is_empty());
+        let last = replies_to(&mut alone, &plan(5, "nothing")).pop().unwrap();
         assert!(last["toml"].as_str().unwrap().contains("other ") && last["verdict"] == "found");
     }
 
     #[test]
-    fn what_took_too_long_is_shown_without_a_plan_or_not_at_all() {
-        let mut alone = Alone::default();
-        told(&mut alone, &open(Value::Null));
-        let shown = told(&mut alone, &plan(1, "plan")).pop().unwrap();
+    fn late_answers_have_no_plan() {
+        let mut alone = StandalonePage::default();
+        replies_to(&mut alone, &open(Value::Null));
+        let shown = replies_to(&mut alone, &plan(1, "plan")).pop().unwrap();
         assert_eq!((&shown["verdict"], shown["view"].is_object()), (&json!("unknown"), true));
         assert!(shown["reason"].as_str().unwrap().contains("not decided within"));
-        let late = told(&mut alone, &plan(1, "all")).pop().unwrap();
+        let late = replies_to(&mut alone, &plan(1, "all")).pop().unwrap();
         assert_eq!((&late["verdict"], &late["view"], &late["done"]), (&json!("unknown"), &Value::Null, &json!(true)));
     }
 
     #[test]
-    fn what_makes_no_sense_is_said_so() {
-        let mut alone = Alone::default();
+    fn invalid_orders_are_reported() {
+        let mut alone = StandalonePage::default();
         let error = |replies: Vec<Value>| replies[0]["error"].as_str().unwrap().to_owned();
-        assert_eq!(error(told(&mut alone, &plan(1, "nothing"))), "no world is open");
-        assert!(error(told(&mut alone, &json!({ "do": "sing" }))).starts_with("no order: "));
+        assert_eq!(error(replies_to(&mut alone, &plan(1, "nothing"))), "no world is open");
+        assert!(error(replies_to(&mut alone, &json!({ "do": "sing" }))).starts_with("no order: "));
         let mut wrong = open(Value::Null);
         wrong["files"]["world"] = json!("image = \"den.yaml\"");
-        assert!(error(told(&mut alone, &wrong)).contains("world.toml"));
+        assert!(error(replies_to(&mut alone, &wrong)).contains("world.toml"));
     }
 }

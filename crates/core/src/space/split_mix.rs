@@ -7,9 +7,9 @@ use super::{Configuration, Topology};
 /// Sebastiano Vigna's SplitMix64: 64 bits of state. Implemented here so that no library release can change the numbers
 /// of a seed.
 #[derive(Debug, Clone)]
-pub struct Draws(u64);
+pub struct SplitMix64(u64);
 
-impl Draws {
+impl SplitMix64 {
     /// Starts the sequence of a seed.
     #[must_use]
     pub fn new(seed: u64) -> Self {
@@ -54,7 +54,7 @@ mod tests {
 
     #[test]
     fn the_published_sequence() {
-        let mut draws = Draws::new(1_234_567);
+        let mut draws = SplitMix64::new(1_234_567);
         let numbers: Vec<u64> = (0..5).map(|_| draws.bits()).collect();
         let published = [
             6_457_827_717_110_365_317,
@@ -68,7 +68,7 @@ mod tests {
 
     #[test]
     fn units_fill_the_interval_evenly() {
-        let mut draws = Draws::new(7);
+        let mut draws = SplitMix64::new(7);
         let mut counts = [0_i32; 10];
         for _ in 0..100_000 {
             let unit = draws.unit();

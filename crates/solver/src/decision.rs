@@ -2,37 +2,37 @@
 
 use super::ladder::explain;
 use super::subdivision::certified;
-use super::thinned::Thinned;
+use super::thinned::ThinnedProblem;
 use cplan_core::check::{CertifiedPath, CheckedProof, Disconnection};
 use cplan_core::model::{MotionProblem, Outcome, Pair};
 use cplan_proofs::{Connectivity, connectivity, slab_connectivity, slimmed};
 
 /// Number of slabs that decide all but contrived questions. A few thousand take some milliseconds.
-const SLABS: usize = 10_000;
+const MAX_SLABS: usize = 10_000;
 
 /// Initial budgets of slabs and boxes, before both get their full budgets. Either may need ten times as many where the
 /// other succeeds soon: slabs along a slanted passage that is narrowly closed, boxes in a narrow passage.
-const AT_FIRST: [usize; 2] = [1000, 4000];
+const INITIAL_BUDGETS: [usize; 2] = [1000, 4000];
 
 /// A proof of more boxes than this is large: where slabs have only such a one, boxes that are halved need fewer, as where obstacles overlap little all
 /// along a slanted line, which slabs tile with boxes as narrow as themselves.
-pub const LARGE_PROOF: usize = 10_000;
+pub const LARGE_PROOF_BOXES: usize = 10_000;
 
 /// Largest number of boxes of a proof, if no smaller proof is found.
-const LARGEST_PROOF: usize = 200_000;
+const MAX_PROOF_BOXES: usize = 200_000;
 
 /// Least number of boxes in the search for a smaller proof than that of slabs: twice the most that any of some thousand
 /// random proofs took.
-const BOXES_FOR_SMALLER: usize = 100_000;
+const MIN_BOXES_FOR_SMALLER_PROOF: usize = 100_000;
 
 /// With more pairs of shapes than this, questions are first decided with fewer of them: ...
 const MANY_PAIRS: usize = 4096;
 
 /// ... with those that a lattice leaves whose spacing is this share of the arm's reach, one lattice after the other.
-const LATTICES: [f64; 2] = [1.0 / 128.0, 1.0 / 1024.0];
+const LATTICE_SPACINGS: [f64; 2] = [1.0 / 128.0, 1.0 / 1024.0];
 
 /// Largest product of pairs and slabs, and of pairs and boxes, in such a scene: about a second of work each.
-const LOOKS: [usize; 2] = [4_000_000, 40_000_000];
+const MAX_WORK_PER_SEARCH: [usize; 2] = [4_000_000, 40_000_000];
 
 /// Decides `problem` by [`slab_connectivity`], and if slabs leave it undecided by [`connectivity`], with at most
 /// `boxes` boxes and no more slabs. The answer is a path, pulled taut in the channel of free boxes, or a proof. Both
@@ -53,58 +53,65 @@ const LOOKS: [usize; 2] = [4_000_000, 40_000_000];
 pub fn decide(problem: &MotionProblem, boxes: usize) -> Outcome<CertifiedPath, CheckedProof> {
     let pairs = |problem: &MotionProblem| problem.scene().pairs().len();
     if pairs(problem) <= MANY_PAIRS {
-        let for_smaller = (boxes >= AT_FIRST[1]).then_some(BOXES_FOR_SMALLER.max(boxes));
-        let limits = Limits { slabs: SLABS.min(boxes), boxes, for_smaller };
-        return asked(problem, problem, &|pair| pair, limits);
+        let for_smaller = (boxes >= INITIAL_BUDGETS[1]).then_some(MIN_BOXES_FOR_SMALLER_PROOF.max(boxes));
+        let limits = DecisionBudget { slabs: MAX_SLABS.min(boxes), boxes, for_smaller };
+        return decide_within(problem, problem, &|pair| pair, limits);
     }
-    let limited = |asked: &MotionProblem| {
-        let [slabs, boxes] = LOOKS.map(|looks| boxes.min(SLABS).min(looks / pairs(asked).max(1)));
-        Limits { slabs, boxes, for_smaller: Some(BOXES_FOR_SMALLER.min(LOOKS[1] / pairs(asked).max(1))) }
+    let limited = |decide_within: &MotionProblem| {
+        let [slabs, boxes] =
+            MAX_WORK_PER_SEARCH.map(|looks| boxes.min(MAX_SLABS).min(looks / pairs(decide_within).max(1)));
+        DecisionBudget {
+            slabs,
+            boxes,
+            for_smaller: Some(MIN_BOXES_FOR_SMALLER_PROOF.min(MAX_WORK_PER_SEARCH[1] / pairs(decide_within).max(1))),
+        }
     };
-    for lattice in LATTICES {
-        let thinned = Thinned::new(problem, lattice * problem.scene().arm().reach());
-        let decided = asked(problem, &thinned.problem, &|pair| thinned.in_truth(pair), limited(&thinned.problem));
+    for lattice in LATTICE_SPACINGS {
+        let thinned = ThinnedProblem::new(problem, lattice * problem.scene().arm().reach());
+        let decided =
+            decide_within(problem, &thinned.problem, &|pair| thinned.original_pair(pair), limited(&thinned.problem));
         if !matches!(decided, Outcome::Unknown(_)) {
             return decided;
         }
     }
-    asked(problem, problem, &|pair| pair, limited(problem))
+    decide_within(problem, problem, &|pair| pair, limited(problem))
 }
 
 /// Budgets of a decision.
 #[derive(Clone, Copy)]
-struct Limits {
+struct DecisionBudget {
     slabs: usize,
     boxes: usize,
     /// Number of boxes for a smaller proof, if slabs find a large one. `None` if the caller cannot wait for that.
     for_smaller: Option<usize>,
 }
 
-/// Decides `some`, which is `problem` or has some of its pieces, by slabs and boxes. `in_truth` maps its pairs to those
+/// Decides `some`, which is `problem` or has some of its pieces, by slabs and boxes. `original_pair` maps its pairs to those
 /// of `problem`.
-fn asked(
+fn decide_within(
     problem: &MotionProblem,
     some: &MotionProblem,
-    in_truth: &dyn Fn(Pair) -> Pair,
-    limits: Limits,
+    original_pair: &dyn Fn(Pair) -> Pair,
+    limits: DecisionBudget,
 ) -> Outcome<CertifiedPath, CheckedProof> {
     let (scene, start, goals) = (some.scene(), some.start(), some.goals());
     let clearance = scene.workspace().clearance;
-    let by_boxes = |boxes: usize| judged(problem, in_truth, connectivity(scene, start, goals, clearance, boxes));
+    let by_boxes =
+        |boxes: usize| checked_answer(problem, original_pair, connectivity(scene, start, goals, clearance, boxes));
     let by_slabs = |slabs: usize, most: usize| slab_connectivity(scene, start, goals, clearance, slabs, most);
-    let proof = if limits.for_smaller.is_some() { LARGE_PROOF } else { LARGE_PROOF.min(4 * limits.boxes) };
+    let proof = if limits.for_smaller.is_some() { LARGE_PROOF_BOXES } else { LARGE_PROOF_BOXES.min(4 * limits.boxes) };
     let either = |slabs: usize, boxes: usize| match (by_slabs(slabs, proof), limits.for_smaller) {
         // There is no path, but slabs need too many boxes to state it.
         (Connectivity::Undecided { closed: true, .. }, Some(for_smaller)) => match by_boxes(for_smaller) {
-            Outcome::Unknown(_) => judged(problem, in_truth, by_slabs(slabs, LARGEST_PROOF)),
+            Outcome::Unknown(_) => checked_answer(problem, original_pair, by_slabs(slabs, MAX_PROOF_BOXES)),
             known => known,
         },
-        (answer, _) => match judged(problem, in_truth, answer) {
+        (answer, _) => match checked_answer(problem, original_pair, answer) {
             Outcome::Unknown(_) => by_boxes(boxes),
             known => known,
         },
     };
-    let [slabs, boxes] = AT_FIRST;
+    let [slabs, boxes] = INITIAL_BUDGETS;
     match either(limits.slabs.min(slabs), limits.boxes.min(boxes)) {
         Outcome::Unknown(_) if limits.slabs > slabs || limits.boxes > boxes => either(limits.slabs, limits.boxes),
         decided => decided,
@@ -112,9 +119,9 @@ fn asked(
 }
 
 /// Checks a search's answer.
-fn judged(
+fn checked_answer(
     problem: &MotionProblem,
-    in_truth: &dyn Fn(Pair) -> Pair,
+    original_pair: &dyn Fn(Pair) -> Pair,
     answer: Connectivity,
 ) -> Outcome<CertifiedPath, CheckedProof> {
     match answer {
@@ -122,7 +129,7 @@ fn judged(
             |rejection| Outcome::Unknown(format!("its path is not certified: {}", explain(problem.scene(), rejection))),
             Outcome::Found,
         ),
-        Connectivity::Disconnected(proof) => checked(problem, proof.of_pairs(in_truth)).map_or_else(
+        Connectivity::Disconnected(proof) => checked(problem, proof.of_pairs(original_pair)).map_or_else(
             || Outcome::Unknown("the proposed proof of infeasibility does not hold".into()),
             Outcome::Infeasible,
         ),
@@ -134,11 +141,11 @@ fn judged(
 
 /// Returns the proof without superfluous boxes, if it passes the independent check.
 pub(super) fn checked(problem: &MotionProblem, proof: Disconnection) -> Option<CheckedProof> {
-    slimmed(&proof, |some| held(problem, some))
+    slimmed(&proof, |some| if_checked(problem, some))
 }
 
 /// Returns the proof, if it passes the independent check.
-fn held(problem: &MotionProblem, proof: Disconnection) -> Option<CheckedProof> {
+fn if_checked(problem: &MotionProblem, proof: Disconnection) -> Option<CheckedProof> {
     let clearance = problem.scene().workspace().clearance;
     proof.checked(problem.scene(), problem.start(), problem.goals(), clearance).ok()
 }

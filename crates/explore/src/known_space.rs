@@ -1,6 +1,6 @@
 //! The configurations of a grid that are known to be free.
 
-use super::reach::{Closed, straight_motions};
+use super::reach::{BlockedMoves, straight_motions};
 use super::survey::Survey;
 use cplan_core::cspace::{Grid, Proves};
 use cplan_core::model::{Arm, Scene};
@@ -12,24 +12,24 @@ use cplan_interrupt::checkpoint;
 /// Each blocked configuration has such a cell as its witness, and is examined again only when that cell changes. So all
 /// updates of an exploration together cost a few examinations per configuration, plus reading the map.
 #[derive(Debug)]
-pub struct Known {
+pub struct KnownSpace {
     /// The middles of its cells are the configurations.
     pub grid: Grid,
     /// Steps between free middles that are not free themselves.
-    pub closed: Closed,
+    pub closed: BlockedMoves,
     /// The configurations for which each map cell is the witness.
     waiting: Vec<Vec<u32>>,
     clearance: f64,
 }
 
-impl Known {
+impl KnownSpace {
     /// Creates the grid for the current map, with `cells` configurations along the two axes.
     #[must_use]
     pub fn new(survey: &Survey, arm: &Arm, cells: [usize; 2], clearance: f64) -> Self {
         let count = cells[0] * cells[1];
         let grid = Grid { topology: arm.topology(), proves: Proves::Sampled, cells, blocked: vec![true; count] };
         let waiting = vec![Vec::new(); survey.map().cells.len()];
-        let mut known = Self { grid, closed: Closed::new(), waiting, clearance };
+        let mut known = Self { grid, closed: BlockedMoves::new(), waiting, clearance };
         known.look_at(survey, arm, (0..count as u32).collect());
         known
     }

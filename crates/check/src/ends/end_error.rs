@@ -5,13 +5,13 @@ use crate::arm::Arm;
 use crate::decimal::Decimal;
 use crate::domain::{Axis, Range};
 use crate::error::CheckError;
-use crate::free::{Chain, On};
+use crate::free::{Attachment, Chain};
 use crate::interval::{BITS, Interval, Point, length, minus};
 use crate::world::Goal;
 use num_bigint::BigInt;
 
 /// Maximum error of a motion at its start or goal, radians or metres: `10^-5`.
-const MISSED: u32 = 5;
+const END_TOLERANCE_DECIMALS: u32 = 5;
 
 impl End {
     /// Describes the end in words, with the distance of a motion's first or last knot from it.
@@ -34,9 +34,9 @@ impl End {
 /// If it misses by too much.
 pub fn missed(what: &str, off: &BigInt) -> Result<String, CheckError> {
     let is_within = |digits: &u32| Interval::from(&Decimal::power_of_ten(*digits)).lower >= *off;
-    match (MISSED..50).rev().find(is_within) {
+    match (END_TOLERANCE_DECIMALS..50).rev().find(is_within) {
         Some(digits) => Ok(format!(", within 1e-{digits},")),
-        None => CheckError::fails(format!("the motion misses the {what} by more than 1e-{MISSED}")),
+        None => CheckError::fails(format!("the motion misses the {what} by more than 1e-{END_TOLERANCE_DECIMALS}")),
     }
 }
 
@@ -70,7 +70,7 @@ impl Arm {
 
     /// Returns the position of the tip.
     fn tip_at(&self, at: &[&Decimal; 2]) -> Point {
-        Chain::from(self).point_at(&On::Link(1), &self.tip.shape.points[0], &at.map(Interval::from))
+        Chain::from(self).point_at(&Attachment::Link(1), &self.tip.shape.points[0], &at.map(Interval::from))
     }
 
     /// Returns an upper bound on the difference between a joint's value and a target range. Whole turns of a continuous

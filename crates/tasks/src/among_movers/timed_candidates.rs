@@ -1,27 +1,27 @@
 //! Possible next steps among moving obstacles, and their times.
 
 use super::super::least_time::least_time;
-use super::super::legs::Refusal;
+use super::super::motion_cache::Refusal;
 use super::super::state::{Candidate, State};
 use super::passing::{Passage, passages};
 use cplan_core::check::Posture;
 use cplan_core::model::Scene;
 use cplan_core::space::Configuration;
 use cplan_geometry::Interval;
-use cplan_handling::{Action, Course, Step, Task, TimedScene};
-use cplan_motion::{SHORTEST_INTERVAL, nanoseconds, nearest_within, not_after, not_before, seconds};
-use cplan_movers::Movers;
+use cplan_handling::{Action, ObstacleTrajectory, Step, Task, TimedScene};
+use cplan_motion::{MIN_INTERVAL, nanoseconds, nearest_within, round_down, round_up, seconds};
+use cplan_movers::MovingObstacles;
 
 /// Largest number of arrival intervals for each IK solution.
-const MOST_ARRIVALS: usize = 3;
+const MAX_ARRIVALS: usize = 3;
 
 /// Least time, seconds, between the last arrival and the moment for which the arm waits: shorter pauses cannot be
 /// represented.
-const EARLY: f64 = 2.0 * SHORTEST_INTERVAL;
+const MIN_WAIT: f64 = 2.0 * MIN_INTERVAL;
 
 /// A candidate for the next step. All times are on the clock of the task.
 #[derive(Debug, Clone)]
-pub(super) struct Way<'a> {
+pub(super) struct TimedCandidate<'a> {
     pub candidate: Candidate<'a>,
     /// Interval in which the motion may arrive.
     pub arrival: Interval,
@@ -51,34 +51,34 @@ pub(super) struct Reason<'a> {
 /// Candidates for the next step, and the reasons why other steps cannot be done.
 #[derive(Default)]
 pub(super) struct Choices<'a> {
-    pub ways: Vec<Way<'a>>,
+    pub ways: Vec<TimedCandidate<'a>>,
     pub refused: Vec<Reason<'a>>,
 }
 
 /// A state and the time at which it is reached.
 #[derive(Clone, Copy)]
-pub(super) struct Here<'a, 's> {
+pub(super) struct TimedState<'a, 's> {
     pub task: &'a Task,
     pub state: &'s State,
     pub time: f64,
 }
 
-impl<'a> Here<'a, '_> {
+impl<'a> TimedState<'a, '_> {
     /// Returns the scene during the motion of a step, and its trajectories on a clock that begins with it.
-    pub fn scene(&self, step: &Step) -> (Scene, Vec<Course>) {
+    pub fn scene(&self, step: &Step) -> (Scene, Vec<ObstacleTrajectory>) {
         let scene = self.state.scene(self.task, step.action.picked());
         (scene, self.task.courses_since(&self.state.moving, self.time))
     }
 
     /// Returns the scene when the arm stands at the end of a candidate's step, and its trajectories on a clock that
     /// begins at `time`.
-    pub fn standing(&self, candidate: &Candidate, time: f64) -> (Scene, Vec<Course>) {
-        let left = self.state.left(self.task, candidate, candidate.to);
+    pub fn scene_at_rest(&self, candidate: &Candidate, time: f64) -> (Scene, Vec<ObstacleTrajectory>) {
+        let left = self.state.after_step(self.task, candidate, candidate.to);
         (left.scene(self.task, self.state.released), self.task.courses_since(&left.moving, time))
     }
 
-    fn movers<'m>(&self, scene: &'m Scene, courses: &'m [Course]) -> Movers<'m> {
-        Movers::new(TimedScene { scene, courses }, self.task.workspace.clearance)
+    fn movers<'m>(&self, scene: &'m Scene, courses: &'m [ObstacleTrajectory]) -> MovingObstacles<'m> {
+        MovingObstacles::new(TimedScene { scene, courses }, self.task.workspace.clearance)
     }
 
     /// Returns all candidates for the next step.
@@ -117,17 +117,24 @@ impl<'a> Here<'a, '_> {
     }
 
     /// Returns the same pick at another moment, with the nearest IK solution.
-    pub fn at_moment(&self, way: &Way<'a>, moment: Moment) -> Option<Way<'a>> {
-        let object = way.candidate.step.action.picked()?;
-        let (scene, courses) = self.scene(way.candidate.step);
+    pub fn at_moment(&self, choice: &TimedCandidate<'a>, moment: Moment) -> Option<TimedCandidate<'a>> {
+        let object = choice.candidate.step.action.picked()?;
+        let (scene, courses) = self.scene(choice.candidate.step);
         let movers = self.movers(&scene, &courses);
-        let ways = self.passing(&movers, way.candidate.step, object, moment);
-        let far = |other: &Way| self.task.arm.topology().distance(other.candidate.to, way.candidate.to);
+        let ways = self.passing(&movers, choice.candidate.step, object, moment);
+        let far = |other: &TimedCandidate| self.task.arm.topology().distance(other.candidate.to, choice.candidate.to);
         ways.into_iter().min_by(|a, b| far(a).total_cmp(&far(b)))
     }
 
     /// Adds the candidates for picking a moving object at the places where it may be.
-    fn pick(&self, movers: &Movers, step: &'a Step, object: usize, passages: &[Passage], ways: &mut Vec<Way<'a>>) {
+    fn pick(
+        &self,
+        movers: &MovingObstacles,
+        step: &'a Step,
+        object: usize,
+        passages: &[Passage],
+        ways: &mut Vec<TimedCandidate<'a>>,
+    ) {
         for passage in passages {
             let [mut since, _] = passage.times;
             for time in passage.moments() {
@@ -150,42 +157,48 @@ impl<'a> Here<'a, '_> {
 
     /// Returns the candidates of a pick at a moment.
     fn candidates(&self, step: &Step, object: usize, time: f64) -> Vec<Candidate<'a>> {
-        let stopped = self.state.stopped(self.task, object, time);
+        let stopped = self.state.at_pick(self.task, object, time);
         let same = |other: &Step| (other.number, other.cycle) == (step.number, step.cycle);
         let all = stopped.candidates(self.task).into_iter().filter(|candidates| same(candidates.step));
         all.flat_map(|candidates| candidates.ways).collect()
     }
 
     /// Returns the candidates for picking an object at a moment, after waiting for it.
-    fn passing(&self, movers: &Movers, step: &Step, object: usize, moment: Moment) -> Vec<Way<'a>> {
-        let way = |(branch, candidate): (usize, Candidate<'a>)| {
+    fn passing(&self, movers: &MovingObstacles, step: &Step, object: usize, moment: Moment) -> Vec<TimedCandidate<'a>> {
+        let choice = |(branch, candidate): (usize, Candidate<'a>)| {
             let [safe, stays] = self.safe(movers, &candidate);
             let stays_until = moment.time + step.dwell;
             let before = safe.into_iter().find(|[from, to]| *from <= moment.time && moment.time <= *to)?;
             stays.into_iter().find(|[from, to]| *from <= moment.time && stays_until <= *to)?;
-            let arrival = [not_before(before[0]), moment.time - EARLY];
+            let arrival = [round_up(before[0]), moment.time - MIN_WAIT];
             let is_in_time = arrival[0].max(self.soonest(&candidate)) <= arrival[1];
             // An earlier moment may be found for it.
             let ends = moment.since + step.dwell;
-            is_in_time.then_some(Way { candidate, arrival, moment: Some(moment), branch, ends })
+            is_in_time.then_some(TimedCandidate { candidate, arrival, moment: Some(moment), branch, ends })
         };
-        self.candidates(step, object, moment.time).into_iter().enumerate().filter_map(way).collect()
+        self.candidates(step, object, moment.time).into_iter().enumerate().filter_map(choice).collect()
     }
 
     /// Adds the candidates that arrive at a target within an interval, and stay there as long as the step requires. The
     /// arrival intervals begin and end at whole nanoseconds inside it.
-    fn arrivals(&self, movers: &Movers, candidate: &Candidate<'a>, within: Interval, ways: &mut Vec<Way<'a>>) {
+    fn arrivals(
+        &self,
+        movers: &MovingObstacles,
+        candidate: &Candidate<'a>,
+        within: Interval,
+        ways: &mut Vec<TimedCandidate<'a>>,
+    ) {
         let [safe, stays] = self.safe(movers, candidate);
         let (dwell, soonest) = (candidate.step.dwell, self.soonest(candidate));
         let both = |a: &Interval| {
             let within = [a[0].max(within[0]), a[1].min(within[1])];
-            let common = |b: &Interval| [not_before(within[0].max(b[0])), not_after(within[1].min(b[1] - dwell))];
+            let common = |b: &Interval| [round_up(within[0].max(b[0])), round_down(within[1].min(b[1] - dwell))];
             stays.iter().map(common).collect::<Vec<_>>()
         };
-        let arrivals = safe.iter().flat_map(both).filter(|[from, to]| from.max(soonest) <= *to).take(MOST_ARRIVALS);
+        let arrivals = safe.iter().flat_map(both).filter(|[from, to]| from.max(soonest) <= *to).take(MAX_ARRIVALS);
         ways.extend(arrivals.map(|arrival| {
             let ends = arrival[0].max(soonest) + dwell;
-            Way { candidate: *candidate, arrival, moment: None, branch: 0, ends }
+            TimedCandidate { candidate: *candidate, arrival, moment: None, branch: 0, ends }
         }));
     }
 
@@ -196,8 +209,8 @@ impl<'a> Here<'a, '_> {
 
     /// Returns the times at which no moving obstacle is at a candidate's target: first for the arriving arm, and then
     /// for the arm standing there after the step's event.
-    fn safe(&self, movers: &Movers, candidate: &Candidate) -> [Vec<Interval>; 2] {
-        let (after, courses) = self.standing(candidate, self.time);
+    fn safe(&self, movers: &MovingObstacles, candidate: &Candidate) -> [Vec<Interval>; 2] {
+        let (after, courses) = self.scene_at_rest(candidate, self.time);
         let then = self.movers(&after, &courses);
         [movers, &then].map(|movers| {
             let mut safe = movers.safe_intervals(&Posture::new(movers.scene(), candidate.to));

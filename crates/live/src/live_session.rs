@@ -1,7 +1,7 @@
 //! The session of one page: a text, edited by the page, and the answers to its requests.
 
 use super::Host;
-use super::answer::{Answering, Deadlines, Spent, refused, time_up};
+use super::answer::{Answering, Deadlines, TimeSpent, refused, time_up};
 use super::blocked;
 use super::contours::Contours;
 use super::document::Document;
@@ -10,7 +10,8 @@ use super::menus;
 use super::options::Options;
 use super::pace::Pace;
 use super::protocol::{
-    About, AnswerReply, Ask, Begin, Files, JointReply, Message, Pair, PieceReply, Reply, Request, WorldReply,
+    AnswerReply, Begin, ErrorSubject, Files, JointReply, Message, Pair, PieceReply, PlanRequest, Reply, Request,
+    WorldReply,
 };
 use cplan_core::model::{Arm, inverse, within};
 use cplan_core::space::{Configuration, JointRange};
@@ -21,10 +22,10 @@ use cplan_world::{LoadedScene, Overrides};
 use std::sync::Arc;
 
 /// Number of bisection steps towards a place that the tip does not reach.
-const BISECTIONS: usize = 24;
+const REACH_BISECTIONS: usize = 24;
 
 /// A page's text, and the world that it describes.
-pub struct Desk {
+pub struct LiveSession {
     /// Initial state of the program.
     own: Arc<Host>,
     /// Initial state of the page.
@@ -37,7 +38,7 @@ pub struct Desk {
     pace: Pace,
 }
 
-impl Desk {
+impl LiveSession {
     /// Creates the session of a new page, with the host's own world.
     #[must_use]
     pub fn new(host: Arc<Host>) -> Self {
@@ -63,9 +64,9 @@ impl Desk {
         Ok(())
     }
 
-    /// Handles a request, and passes the messages for the page to `tell`.
-    pub fn take(&mut self, request: &Request, interrupt: &Interrupt, spent: Spent, tell: &mut dyn FnMut(Message)) {
-        let mut reply = |reply: Reply| tell(Message::from(&reply));
+    /// Handles a request, and passes the messages for the page to `send`.
+    pub fn take(&mut self, request: &Request, interrupt: &Interrupt, spent: TimeSpent, send: &mut dyn FnMut(Message)) {
+        let mut reply = |reply: Reply| send(Message::from(&reply));
         match request {
             Request::Open { id, files } => reply(match self.open(files.as_ref(), spent) {
                 Ok(()) => self.world(*id, true),
@@ -74,7 +75,7 @@ impl Desk {
             Request::Plan(ask) => self.plan(ask, interrupt, spent, &mut reply),
             Request::Load { id, text, options } => self.load(*id, text, options, (interrupt, spent), &mut reply),
             Request::Download { ask, format } => match self.download(ask, format, interrupt, spent) {
-                Ok((name, content)) => tell(Message::file(ask.id, &name, &content)),
+                Ok((name, content)) => send(Message::file(ask.id, &name, &content)),
                 Err(error) => reply(Reply::Failed { id: ask.id, error }),
             },
         }
@@ -117,7 +118,7 @@ impl Desk {
     ///
     /// # Errors
     /// The reason, with the place.
-    fn open(&mut self, files: Option<&Files>, spent: Spent) -> Result<(), String> {
+    fn open(&mut self, files: Option<&Files>, spent: TimeSpent) -> Result<(), String> {
         let own = Arc::clone(&self.own);
         let host = match files {
             None => Arc::clone(&own),
@@ -137,8 +138,8 @@ impl Desk {
         id: u64,
         text: &str,
         options: &str,
-        (interrupt, spent): (&Interrupt, Spent),
-        tell: &mut dyn FnMut(Reply),
+        (interrupt, spent): (&Interrupt, TimeSpent),
+        send: &mut dyn FnMut(Reply),
     ) {
         // Newer requests do not stop it, because they may refer to the text that it loads.
         let deadlines = Deadlines::new(&Interrupt::new(), spent, self.host.time);
@@ -147,26 +148,32 @@ impl Desk {
             Ok((document, scene)) => {
                 (self.document, self.scene) = (document, scene);
                 self.base += 1;
-                tell(self.world(id, false));
-                let ask =
-                    Ask { id, base: self.base, is_final: true, state: None, options: options.to_owned(), think: false };
-                self.plan(&ask, interrupt, spent, tell);
+                send(self.world(id, false));
+                let ask = PlanRequest {
+                    id,
+                    base: self.base,
+                    is_final: true,
+                    state: None,
+                    options: options.to_owned(),
+                    think: false,
+                };
+                self.plan(&ask, interrupt, spent, send);
             }
-            Err(error) => tell(Reply::Failed { id, error }),
+            Err(error) => send(Reply::Failed { id, error }),
         }
     }
 
     /// Plans, and reports the answer; reports nothing if it was interrupted.
-    fn plan(&self, ask: &Ask, interrupt: &Interrupt, spent: Spent, tell: &mut dyn FnMut(Reply)) {
+    fn plan(&self, ask: &PlanRequest, interrupt: &Interrupt, spent: TimeSpent, send: &mut dyn FnMut(Reply)) {
         let begun = Instant::now();
         let id = ask.id;
-        let mut tell = |mut answer: AnswerReply| {
+        let mut send = |mut answer: AnswerReply| {
             (answer.id, answer.is_final) = (id, ask.is_final);
             answer.figures.milliseconds = begun.elapsed().as_secs_f64() * 1e3;
-            tell(Reply::Answer(Box::new(answer)));
+            send(Reply::Answer(Box::new(answer)));
         };
-        if let Ok(answer) = self.answer(ask, interrupt, spent, &mut tell) {
-            tell(AnswerReply { done: true, ..answer });
+        if let Ok(answer) = self.answer(ask, interrupt, spent, &mut send) {
+            send(AnswerReply { done: true, ..answer });
         }
     }
 
@@ -174,29 +181,29 @@ impl Desk {
     /// can take long.
     fn answer(
         &self,
-        ask: &Ask,
+        ask: &PlanRequest,
         interrupt: &Interrupt,
-        spent: Spent,
-        tell: &mut dyn FnMut(AnswerReply),
+        spent: TimeSpent,
+        send: &mut dyn FnMut(AnswerReply),
     ) -> Result<AnswerReply, Interrupted> {
         let deadlines = Deadlines::new(interrupt, spent, self.host.time);
         let options = match Options::parse(&ask.options) {
             Ok(options) => options,
-            Err(error) => return Ok(refused(About::Options, error)),
+            Err(error) => return Ok(refused(ErrorSubject::Options, error)),
         };
         let text = match self.text(ask) {
             Ok(text) => text,
-            Err(error) => return Ok(refused(About::World, error)),
+            Err(error) => return Ok(refused(ErrorSubject::World, error)),
         };
         let source = self.host.world.with_text(text.as_str());
         let loaded = match deadlines.show.run(|| self.scene.edited(&self.host.urdf, source)) {
             Ok(Ok(loaded)) => loaded,
             Ok(Err(error)) => return Ok(blocked::unread(&error)),
-            Err(stopped) => return deadlines.late(stopped),
+            Err(stopped) => return deadlines.timed_out(stopped),
         };
         let options = match options.within(&loaded.scene) {
             Ok(options) => options,
-            Err(error) => return Ok(refused(About::Options, error)),
+            Err(error) => return Ok(refused(ErrorSubject::Options, error)),
         };
         let toml = ask.is_final.then_some(text);
         let (contours, think) = (&self.contours, ask.think);
@@ -205,8 +212,8 @@ impl Desk {
             return answering.task(loaded);
         }
         match loaded.clone().problem(&Overrides::default()) {
-            Ok(problem) if ask.is_final => answering.in_full(problem, tell),
-            Ok(problem) => answering.quick(problem, &self.pace),
+            Ok(problem) if ask.is_final => answering.full_answer(problem, send),
+            Ok(problem) => answering.quick_answer(problem, &self.pace),
             Err(error) => {
                 let start = ask.state.as_ref().and_then(|state| self.begin(state.start));
                 answering.blocked(&loaded, &error, start.or_else(|| self.document.start()))
@@ -220,10 +227,10 @@ impl Desk {
     /// The reason, for display.
     fn download(
         &self,
-        ask: &Ask,
+        ask: &PlanRequest,
         format: &str,
         interrupt: &Interrupt,
-        spent: Spent,
+        spent: TimeSpent,
     ) -> Result<(String, Vec<u8>), String> {
         let text = self.text(ask)?;
         if format == "toml" {
@@ -241,7 +248,7 @@ impl Desk {
     }
 
     /// Returns the text of the world that the page shows.
-    fn text(&self, ask: &Ask) -> Result<String, String> {
+    fn text(&self, ask: &PlanRequest) -> Result<String, String> {
         if ask.base != self.base {
             return Err(format!("the page shows world {}, but this is world {}", ask.base, self.base));
         }
@@ -270,7 +277,7 @@ fn follow(arm: &Arm, tip: Point, near: Configuration) -> Configuration {
     }
     let from = arm.tip_at(near);
     let (mut best, mut low, mut high) = (near, 0.0, 1.0);
-    for _ in 0..BISECTIONS {
+    for _ in 0..REACH_BISECTIONS {
         let middle = f64::midpoint(low, high);
         match reached(from + (tip - from) * middle) {
             Some(q) => (best, low) = (q, middle),

@@ -1,9 +1,9 @@
 //! The blocking obstacles of a motion that does not exist, and the configuration where it gets stuck.
 
-use super::arm::{self, UNREACHED};
+use super::arm::{self, UNREACHED_LOOK};
 use super::axes::Frame;
 use super::chart::Chart;
-use super::color::{BARRED, WHITE};
+use super::color::{BLOCKED, WHITE};
 use super::figure::{Item, Pen, Step, Style};
 use super::key::{Key, Sign};
 use super::shapes;
@@ -14,14 +14,14 @@ use cplan_geometry::Point;
 use serde::{Serialize, Serializer};
 
 /// Dashes of blocking obstacles.
-const DASH: &[f64] = &[7.0, 3.0];
+const BLOCKING_DASH: &[f64] = &[7.0, 3.0];
 
 /// Width of their outlines, in pixels.
-const WIDTH: f64 = 3.0;
+const OUTLINE_WIDTH: f64 = 3.0;
 
 /// The blocking obstacles, and the narrowest place.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Stuck {
+pub struct BlockingView {
     /// Numbers of the blocking obstacles.
     pub blockers: Vec<usize>,
     /// The configuration where the arm gets stuck, and the place in the plane.
@@ -36,11 +36,11 @@ fn pair<S: Serializer>(at: &Option<(Configuration, Point)>, serializer: S) -> Re
 
 /// Draws the outlines of the blocking obstacles, the arm where it gets stuck, and the place.
 #[must_use]
-pub fn in_workspace(stuck: &Stuck, of: &Arm, world: &WorldView, frame: &Frame) -> Vec<Item> {
+pub fn in_workspace(stuck: &BlockingView, of: &Arm, world: &WorldView, frame: &Frame) -> Vec<Item> {
     let blockers = stuck.blockers.iter().filter_map(|&number| world.obstacles.get(number));
     let mut items: Vec<Item> = blockers.map(|obstacle| shapes::marked(frame, obstacle, pen())).collect();
     if let Some((at, point)) = stuck.at {
-        items.extend(arm::items(frame, of, world.payload.as_ref(), at, &UNREACHED));
+        items.extend(arm::items(frame, of, world.payload.as_ref(), at, &UNREACHED_LOOK));
         items.extend(cross(frame.at(point.x, point.y)));
     }
     items
@@ -48,23 +48,23 @@ pub fn in_workspace(stuck: &Stuck, of: &Arm, world: &WorldView, frame: &Frame) -
 
 /// Draws the configuration where the arm gets stuck.
 #[must_use]
-pub fn in_cspace(stuck: &Stuck, chart: &Chart) -> Vec<Item> {
+pub fn in_cspace(stuck: &BlockingView, chart: &Chart) -> Vec<Item> {
     stuck.at.iter().flat_map(|(at, _)| cross(chart.place(*at))).collect()
 }
 
 /// Returns the legend of the marks.
 #[must_use]
-pub fn keys(stuck: &Stuck) -> Vec<Key> {
-    let blocking = (!stuck.blockers.is_empty()).then(|| (Sign::Dashed(BARRED), "in the way".to_owned()));
+pub fn keys(stuck: &BlockingView) -> Vec<Key> {
+    let blocking = (!stuck.blockers.is_empty()).then(|| (Sign::Dashed(BLOCKED), "in the way".to_owned()));
     let place = stuck.at.map(|_| {
-        let pen = Pen { color: BARRED, width: 1.2, dash: &[] };
+        let pen = Pen { color: BLOCKED, width: 1.2, dash: &[] };
         (Sign::Line(pen), "x: where it gets stuck, and the arm there".to_owned())
     });
     blocking.into_iter().chain(place).collect()
 }
 
 fn pen() -> Style {
-    Style::line(BARRED, WIDTH).dashed(DASH)
+    Style::line(BLOCKED, OUTLINE_WIDTH).dashed(BLOCKING_DASH)
 }
 
 /// Draws a cross on white.
@@ -77,5 +77,5 @@ fn cross([x, y]: [f64; 2]) -> Vec<Item> {
             Step::Line([x + r, y - r]),
         ]
     };
-    vec![Item::Outline(strokes(7.5), Style::line(WHITE, 6.0)), Item::Outline(strokes(6.0), Style::line(BARRED, 2.6))]
+    vec![Item::Outline(strokes(7.5), Style::line(WHITE, 6.0)), Item::Outline(strokes(6.0), Style::line(BLOCKED, 2.6))]
 }

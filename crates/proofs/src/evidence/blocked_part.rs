@@ -11,7 +11,7 @@ const ROUNDING: f64 = 1e-12;
 
 /// Least share of the segment that a test must cover. If a test covers less, the search stops: the shapes come apart
 /// there.
-const LEAST: f64 = 1e-12;
+const MIN_TEST_SHARE: f64 = 1e-12;
 
 /// Returns the part of a straight motion, around its middle, along which a pair is proven to be nearer than
 /// `clearance`, or to overlap. Two shares of the motion describe the part. There are at most `looks` tests in either
@@ -50,7 +50,7 @@ pub(super) fn held(scene: &Scene, pair: Pair, ends: [Configuration; 2], clearanc
             if covered >= 0.5 {
                 return 0.5;
             }
-            if step < LEAST {
+            if step < MIN_TEST_SHARE {
                 break;
             }
         }
