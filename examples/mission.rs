@@ -46,7 +46,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             ),
         ];
         for (how, legs) in &missions {
-            println!("  {how:<34} {}", legs.iter().map(told).collect::<Vec<_>>().join("; "));
+            println!("  {how:<34} {}", legs.iter().map(output).collect::<Vec<_>>().join("; "));
         }
         println!("  sweeps, published and on the follower's map of 5 minutes:");
         for (field, count) in alves::rows_among(&is_solid) {
@@ -83,7 +83,7 @@ fn harmonic(floor: &Floor, map: &Occupancy, below: f64) -> Vec<Leg> {
 }
 
 /// Describes a leg.
-fn told(leg: &Leg) -> String {
+fn output(leg: &Leg) -> String {
     let how = match leg.ending {
         Ending::Reached => "reached".to_owned(),
         Ending::Trapped(distance) => format!("trapped {distance:.2} m before it"),

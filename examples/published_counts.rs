@@ -34,7 +34,7 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
     let scales = if small { 0..1 } else { 0..SCALES.len() };
     let mut as_said = true;
     let groups = [([0, 1], search::gauss_seidel(), OF_GAUSS_SEIDEL), ([2, 3], search::over_relaxation(), OF_SOR)];
-    for (relaxations, choices, said) in groups {
+    for (relaxations, choices, report) in groups {
         let names = relaxations.map(|of| RELAXATIONS[of]);
         println!("{} and {}, before preferences, 100 x 100 cells, all tables", names[0], names[1]);
         let tried: Vec<(Choice, Tally)> = choices
@@ -45,11 +45,11 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
                 (choice, tally)
             })
             .collect();
-        as_said &= search::best(&tried) == Some(&said);
-        println!("most is explained by: {said}\n");
+        as_said &= search::best(&tried) == Some(&report);
+        println!("most is explained by: {report}\n");
         for scale in scales.clone() {
             println!("all stages, {0} x {0} cells: published and found", SCALES[scale]);
-            for (table, tally) in TABLES.iter().zip(maps.all(relaxations, &said, scale)) {
+            for (table, tally) in TABLES.iter().zip(maps.all(relaxations, &report, scale)) {
                 println!("  {}", table.title);
                 for (name, counts) in names.iter().zip(tally.0.chunks(3)) {
                     let shown = |(printed, found): &(usize, Option<usize>)| {

@@ -45,7 +45,7 @@ fuzz_target!(|bytes: &[u8]| {
     let folder = any[0].parent().expect("in a folder");
     let certificate = folder.join("certificate.json");
     let judged = |robot: &str, world: &str| match check_files(&folder.join(robot), &folder.join(world), &certificate) {
-        Ok(said) => said,
+        Ok(report) => report,
         Err(why) => why.to_string(),
     };
     for (robot, world) in [

@@ -108,8 +108,8 @@ fn is_certified(urdf: &Path, world: &Path, certificate: &Path) {
     let problem = Problem::load(urdf, world).unwrap();
     let plan = cplan::plan(&problem, &Options::default()).unwrap();
     std::fs::write(certificate, plan.certificate(&Overrides::default(), None).unwrap()).unwrap();
-    let said = check_files(urdf, world, certificate).unwrap_or_else(|why| panic!("{}: {why}", urdf.display()));
-    println!("  {said}");
+    let report = check_files(urdf, world, certificate).unwrap_or_else(|why| panic!("{}: {why}", urdf.display()));
+    println!("  {report}");
 }
 
 #[test]

@@ -12,11 +12,11 @@ fn shipped_worlds_have_the_stated_outcome() {
     files.sort();
     for file in &files {
         let text = std::fs::read_to_string(file).unwrap();
-        let said = |key: &str| text.lines().find_map(|line| line.strip_prefix(key)).map(str::trim).expect(key);
-        let problem = Problem::load(root.join(format!("robots/{}.urdf", said("# robot:"))), file).unwrap();
+        let report = |key: &str| text.lines().find_map(|line| line.strip_prefix(key)).map(str::trim).expect(key);
+        let problem = Problem::load(root.join(format!("robots/{}.urdf", report("# robot:"))), file).unwrap();
         let plan = plan(&problem, &Options::default()).unwrap();
         let name = file.file_stem().unwrap().to_string_lossy();
-        match (said("# expect:"), plan.outcome()) {
+        match (report("# expect:"), plan.outcome()) {
             ("found", Outcome::Found(_)) => {
                 let timing = plan.timing().expect("something moves");
                 assert!(timing.free_until.is_none() && timing.clearance.is_some_and(|kept| kept > 0.0), "{name}");

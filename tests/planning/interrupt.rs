@@ -22,7 +22,7 @@ fn options(method: Method) -> Options {
 }
 
 /// Returns the content of an answer without the times.
-fn said(answer: &Answer) -> (Proposal, String) {
+fn report(answer: &Answer) -> (Proposal, String) {
     let verdict = match &answer.outcome {
         Outcome::Found(path) => format!("{:?}", path.path().waypoints()),
         Outcome::Infeasible(proof) => format!("{:?}", proof.collision_boxes()),
@@ -50,13 +50,13 @@ fn a_stopped_plan_prints_and_writes_nothing() {
         let problem = problem(world);
         for method in Method::ALL {
             let begun = Instant::now();
-            let expected = said(&solve(&problem, &options(method), &mut |_| ()));
+            let expected = report(&solve(&problem, &options(method), &mut |_| ()));
             let took = begun.elapsed();
             let mut stopped = 0;
             for part in 0..6 {
                 let deadline = Instant::now() + took.mul_f64(f64::from(part) / 5.0);
                 match Interrupt::new().by(deadline).run(|| solve(&problem, &options(method), &mut |_| ())) {
-                    Ok(answer) => assert_eq!(said(&answer), expected, "{world} {method}"),
+                    Ok(answer) => assert_eq!(report(&answer), expected, "{world} {method}"),
                     Err(why) => {
                         assert_eq!(why, Interrupted::TimeUp);
                         stopped += 1;

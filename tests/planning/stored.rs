@@ -183,9 +183,9 @@ fn drawn_shapes_equal_judged_shapes() {
         ("table_mission", "/asked/task/objects/0", &disc),
     ] {
         let problem = world(name);
-        let mut told = value(&problem);
-        *told.pointer_mut(&format!("{shape}/shape")).unwrap() = other.clone();
-        let read: Problem = serde_json::from_value(told).unwrap();
+        let mut output = value(&problem);
+        *output.pointer_mut(&format!("{shape}/shape")).unwrap() = other.clone();
+        let read: Problem = serde_json::from_value(output).unwrap();
         let [honest, read] = [value(&problem), value(&read)].map(|data| data.pointer(shape).unwrap().clone());
         assert_eq!(read["shape"], json!("pieces"), "{name}");
         assert!(honest["shape"] != read["shape"] && honest["pieces"] == read["pieces"], "{name}");

@@ -63,7 +63,7 @@ fn check(method: Method) {
         assert!(all.iter().any(|s| s.problem.scene().arm().kind() == kind), "no workspace for an {kind} arm");
     }
     let mut wrong = Vec::new();
-    let mut told = [0, 0];
+    let mut output = [0, 0];
     for Shipped { name, problem, expect, unknown } in &all {
         let answer = solve(problem, &method.into(), &mut |_| {});
         match (&answer.outcome, expect.as_str()) {
@@ -76,20 +76,20 @@ fn check(method: Method) {
                 assert!(certified.clearance() > 0.0, "{name}");
                 assert!(certified.clearance() >= problem.scene().workspace().clearance, "{name}");
                 assert!(sampled >= certified.clearance(), "{name}: sampled {sampled}");
-                told[0] += 1;
+                output[0] += 1;
             }
             (Outcome::Infeasible(proof), "infeasible") => {
                 assert!(!proof.collision_boxes().is_empty(), "{name}");
-                told[1] += 1;
+                output[1] += 1;
             }
             (Outcome::Unknown(_), _) if unknown.iter().any(|name| name == method.name()) => {}
             (verdict, _) => wrong.push(format!("{name}: expected {expect}, got {verdict:?}\n{:?}", answer.history)),
         }
     }
     // A planner that may answer unknown usually does.
-    for (told, expect) in told.into_iter().zip(["found", "infeasible"]) {
+    for (output, expect) in output.into_iter().zip(["found", "infeasible"]) {
         let count = all.iter().filter(|s| s.expect == expect).count();
-        assert!(told * 2 > count, "{method}: {expect} in {told} of {count}");
+        assert!(output * 2 > count, "{method}: {expect} in {output} of {count}");
     }
     assert!(wrong.is_empty(), "{method}:\n{}", wrong.join("\n"));
 }

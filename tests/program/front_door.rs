@@ -44,12 +44,12 @@ fn the_program_writes_what_the_library_gives() {
         assert_eq!(made.to_json(), place.read("a.json"), "{world}");
         assert_eq!(made.svg(), place.read("a.svg"), "{world}");
         assert_eq!(made.html(), place.read("a.html"), "{world}");
-        let told = place.run(&[&robot, &world], "").stdout;
+        let output = place.run(&[&robot, &world], "").stdout;
         // Times differ, and only the program knows the files for its hint.
         let is_shared = |line: &&str| !line.starts_with("time ") && !line.starts_with("hint ");
         let lines = |text: &str| text.lines().filter(is_shared).map(str::to_owned).collect::<Vec<_>>();
-        assert_eq!(lines(&made.summary()), lines(&told), "{world}");
-        assert!(lines(&told).len() > 8, "{told}");
+        assert_eq!(lines(&made.summary()), lines(&output), "{world}");
+        assert!(lines(&output).len() > 8, "{output}");
     }
 }
 
@@ -66,9 +66,9 @@ fn options_are_those_of_the_command_line() {
         ("--planner harmonic", named("harmonic")),
         ("--metric weighted --weights 1,0.5 --gap 0.01", named("shortest").with_criterion(criterion).with_gap(0.01)),
     ] {
-        let told = Place::new().run(&[&robot, &world], &format!("{words} --json"));
+        let output = Place::new().run(&[&robot, &world], &format!("{words} --json"));
         let made = plan(&problem, &Options { planner, ..Options::default() }).unwrap();
-        assert_eq!(told.stdout, made.to_json(), "{words}");
+        assert_eq!(output.stdout, made.to_json(), "{words}");
     }
 }
 

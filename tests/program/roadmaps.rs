@@ -64,13 +64,13 @@ fn samples_follow_from_the_seed() {
     let [few, more] =
         [100, 400].map(|n| length(&json(&format!("--planner prm --path own --nearest 1000 --samples {n}"))));
     assert!(more <= few, "{few} {more}");
-    let told = String::from_utf8(cplan("--planner prm --search greedy --backward").stdout).expect("text");
-    assert!(told.contains("prm (greedy, backward): "), "{told}");
+    let report = String::from_utf8(cplan("--planner prm --search greedy --backward").stdout).expect("text");
+    assert!(report.contains("prm (greedy, backward): "), "{report}");
 }
 
 #[test]
 fn what_a_planner_does_not_have_is_refused() {
-    for (options, told) in [
+    for (options, report) in [
         (
             "--planner harmonic --search dfs",
             "--search needs --planner wavefront, visibility, trapezoid, triangles, voronoi or prm",
@@ -88,7 +88,7 @@ fn what_a_planner_does_not_have_is_refused() {
         let output = cplan(options);
         assert_eq!(output.status.code(), Some(2), "{options}");
         let message = String::from_utf8_lossy(&output.stderr);
-        assert!(message.contains(told), "{options}: {message}");
+        assert!(message.contains(report), "{options}: {message}");
     }
 }
 

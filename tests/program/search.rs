@@ -43,7 +43,7 @@ fn sampled_grids_are_told_and_their_paths_certified() {
 
 #[test]
 fn searches_are_for_the_wavefront_and_have_their_names() {
-    for (options, told) in [
+    for (options, report) in [
         (&["--search", "astar"][..], "--search needs --planner wavefront, visibility"),
         (&["--planner", "harmonic", "--neighbors", "8"], "--neighbors needs --planner wavefront"),
         (&["--space", "sampled"], "--space needs --planner wavefront or harmonic: shortest has no grid"),
@@ -54,6 +54,6 @@ fn searches_are_for_the_wavefront_and_have_their_names() {
         let output = cplan(options);
         assert_eq!(output.status.code(), Some(2), "{options:?}");
         let message = String::from_utf8_lossy(&output.stderr);
-        assert!(message.contains(told), "{message}");
+        assert!(message.contains(report), "{message}");
     }
 }

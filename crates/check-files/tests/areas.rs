@@ -20,7 +20,7 @@ fn sliding() -> String {
 /// Judges a certificate, and returns the exit code and the message.
 fn judged(urdf: &str, world: &str, certificate: &str) -> (i32, String) {
     match check(urdf, world, certificate) {
-        Ok(said) => (0, said),
+        Ok(report) => (0, report),
         Err(CheckError::Fails(why)) => (3, why),
         Err(CheckError::Input { message, .. }) => (1, message),
     }
@@ -46,8 +46,8 @@ fn a_motion_ends_in_any_of_the_areas() {
     {
         assert_eq!(ends(area, last).0, code, "{last}");
     }
-    let (code, said) = ends(area, "1, 1");
-    assert!(code == 0 && said.contains("the goal, an area of the tip \"tool\""), "{said}");
+    let (code, report) = ends(area, "1, 1");
+    assert!(code == 0 && report.contains("the goal, an area of the tip \"tool\""), "{report}");
     // Any two opposite corners, and any of several areas.
     for corners in ["[[3.5, 1.5], [2.5, 0.5]]", "[[2.5, 1.5], [3.5, 0.5]]"] {
         assert_eq!((ends(corners, "1, 1").0, ends(corners, "0.6, 1").0), (0, 3));
@@ -77,8 +77,8 @@ fn no_area_is_reached_if_all_are_beyond_the_boxes() {
         "shapes": [{"link": "upper", "collision": 0}], "parts": [{"obstacle": 0, "corners": [[0.3, -10], [0.3, 10]]}],
         "boxes": [{"lower": [-0.1, -3], "upper": [0.1, 3], "shape": 0, "part": 0}]}"#;
     let closed = |areas: &str| judged(&sliding(), &(world(areas) + wall), proof);
-    let (code, said) = closed("[[2.5, 0.5], [3.5, 1.5]]");
-    assert_eq!(code, 0, "{said}");
+    let (code, report) = closed("[[2.5, 0.5], [3.5, 1.5]]");
+    assert_eq!(code, 0, "{report}");
     // On the start's side entirely, partly, and one of two areas.
     for areas in ["[[1, 0.5], [1.2, 1.5]]", "[[1.6, 0.5], [3.5, 1.5]]", "[[2.5, 0.5], [3.5, 1.5]], [[1, 1], [1, 1]]"] {
         assert_eq!(closed(areas).0, 3, "{areas}");

@@ -222,9 +222,9 @@ fn to_wherever_the_tip_is_at_a_place() {
     assert_eq!((of("[1, 1]", far - 1e-9, &stuck), of("[1, 1]", far + 1e-9, &stuck)), (0, 3));
     assert_eq!(of("[1, 1]", near, &about(0.1)), 3, "it comes off the disc there");
     assert_eq!(of("[1, 1]", far - 1e-9, &about(1e-14)), 3, "the box is no larger than what is not known");
-    let said = check(ARM, &world("[1, 1]"), &certificate(3.0, &stuck)).unwrap();
+    let report = check(ARM, &world("[1, 1]"), &certificate(3.0, &stuck)).unwrap();
     assert_eq!(
-        said,
+        report,
         "no motion of \"a\" and \"b\" from the start to the goal, a place of the tip \"tip\", with clearance 0 is shorter than 3"
     );
     // Stretched out, the two solutions become one, which is known less precisely. Out of reach there is no path at all.
@@ -236,6 +236,6 @@ fn to_wherever_the_tip_is_at_a_place() {
     let near = 2.0 * quarter - 1.0;
     assert_eq!((of(near - 0.4), of(near + 1e-9)), (0, 3));
     // With an explicit target, boxes are not allowed.
-    let said = certificate(1.0, &stuck).replace("\"length\"", "\"to\": [1, 1], \"length\"");
-    assert_eq!(code(ARM, &world("[1, 1]"), &said), 1);
+    let report = certificate(1.0, &stuck).replace("\"length\"", "\"to\": [1, 1], \"length\"");
+    assert_eq!(code(ARM, &world("[1, 1]"), &report), 1);
 }

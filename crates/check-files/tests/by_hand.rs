@@ -20,8 +20,8 @@ fn the_certificate_of_the_page_holds() {
     let judged = |certificate: &str| {
         check(&read("robots/planar_2r_continuous.urdf"), &read("workspaces/no_path.toml"), certificate)
     };
-    let said = judged(&certificate).unwrap();
-    assert!(page.contains(&format!("by_hand.json\nholds: {said}\n")), "{said}");
+    let report = judged(&certificate).unwrap();
+    assert!(page.contains(&format!("by_hand.json\nholds: {report}\n")), "{report}");
     let wider = certificate.replace("0.08", "0.18");
     assert!(wider != certificate && matches!(judged(&wider), Err(CheckError::Fails(_))), "{certificate}");
 }

@@ -202,7 +202,11 @@ fn a_part_of_a_picture_is_a_rectangle_of_solid_squares() {
         ("[[0.2, 1e30], [1, 0], [1, 0], [0.2, 0]]", wrong),
         ("[[0.6, -0.4], [1.4, -0.4], [1.4, 0], [0.6, 0]]", "box 0"),
     ] {
-        assert!(matches!(of(fails), Err(CheckError::Fails(said)) if said.contains(why)), "{fails}: {:?}", of(fails));
+        assert!(
+            matches!(of(fails), Err(CheckError::Fails(report)) if report.contains(why)),
+            "{fails}: {:?}",
+            of(fails)
+        );
     }
 }
 

@@ -47,7 +47,7 @@ const LINEAR: &str = r#""linear""#;
 /// Judges a certificate, and returns the exit code and the message.
 fn judged(urdf: &str, world: &str, certificate: &str) -> (i32, String) {
     match check(urdf, world, certificate) {
-        Ok(said) => (0, said),
+        Ok(report) => (0, report),
         Err(CheckError::Fails(why)) => (3, why),
         Err(CheckError::Input { message, .. }) => (1, message),
     }
@@ -59,13 +59,13 @@ fn straight(urdf: &str, obstacles: &str) -> (i32, String) {
 }
 
 fn is_free(urdf: &str, obstacles: &str) {
-    let (code, said) = straight(urdf, obstacles);
-    assert_eq!(code, 0, "{obstacles}: {said}");
+    let (code, report) = straight(urdf, obstacles);
+    assert_eq!(code, 0, "{obstacles}: {report}");
 }
 
 fn fails(urdf: &str, obstacles: &str, part: &str) {
-    let (code, said) = straight(urdf, obstacles);
-    assert!(code == 3 && said.contains(part), "{obstacles}: {code} {said}");
+    let (code, report) = straight(urdf, obstacles);
+    assert!(code == 3 && report.contains(part), "{obstacles}: {code} {report}");
 }
 
 /// Both bars turn about the origin together, up to 1.8 m and sqrt(1.8^2 + 0.05^2) at the corners.
@@ -107,11 +107,11 @@ fn clearance_counts_and_other_queries_are_described() {
     assert!(code == 3 && why.contains("farther than 0.2994 from obstacle 0"), "{why}");
     let place = format!("clearance = 0.2994\n{}", world(post));
     assert_eq!(judged(&arm(), &place, &certificate("", LINEAR, "[0, -1, 0], [1, 1, 0]")).0, 3);
-    let (_, said) = at(r#""clearance": 0.25, "start": [-1.0, 0.0], "goal": [1, 5e-10],"#);
+    let (_, report) = at(r#""clearance": 0.25, "start": [-1.0, 0.0], "goal": [1, 5e-10],"#);
     for part in
         ["start (-1, 0) to", "goal (1, 0.0000000005), within 1e-9,", "clearance 0.25", "2 knots, read as linear"]
     {
-        assert!(said.contains(part), "{said}");
+        assert!(report.contains(part), "{report}");
     }
     assert!(at(r#""goal": [1, 0.00002],"#).1.contains("misses the goal by more than 1e-5"));
     assert!(at(r#""start": [1, 0],"#).1.contains("misses the start"));
@@ -245,8 +245,8 @@ fn joints_without_end() {
     let post = "[[obstacle]]\ncircle = { center = [1.4, 0], radius = 0.15 }\n";
     let code = |goal: &str, last: &str| {
         let world = format!("start.joints = [-1, 0]\ngoal.joints = [{goal}, 0]\n{post}");
-        let (code, said) = judged(&urdf, &world, &certificate("", LINEAR, &format!("[0, -1, 0], [1, {last}, 0]")));
-        assert!(code == 3 || said.contains("within 1e-15"), "{said}");
+        let (code, report) = judged(&urdf, &world, &certificate("", LINEAR, &format!("[0, -1, 0], [1, {last}, 0]")));
+        assert!(code == 3 || report.contains("within 1e-15"), "{report}");
         code
     };
     assert_eq!((code("1", "-5.283185307179586"), code("1", "7.283185307179586")), (0, 3));
@@ -263,13 +263,13 @@ fn places_of_the_tip() {
     let (x, y) = (1.8 * 1f64.cos(), 1.8 * 1f64.sin());
     let line = certificate("", LINEAR, "[0, -1, 0], [1, 1, 0]");
     let world = |tip: &str| format!("start.tip = [{x}, {}]\n{tip}", -y);
-    let (code, said) = judged(&urdf, &world(&format!("goal.tip = [{x}, {y}]")), &line);
-    assert!(code == 0 && said.contains("the goal, a place of the tip \"tool\", within 1e-1"), "{said}");
+    let (code, report) = judged(&urdf, &world(&format!("goal.tip = [{x}, {y}]")), &line);
+    assert!(code == 0 && report.contains("the goal, a place of the tip \"tool\", within 1e-1"), "{report}");
     assert_eq!(judged(&urdf, &world(&format!("goal.tip = [{x}, {}]", y + 2e-5)), &line).0, 3);
     // Requested at another place, and for another link.
     let asked = certificate(&format!(r#""goal_tip": [{x}, {y}],"#), LINEAR, "[0, -1, 0], [1, 1, 0]");
-    let (code, said) = judged(&urdf, ENDS, &asked);
-    assert!(code == 0 && said.contains("goal (0.97"), "{said}");
+    let (code, report) = judged(&urdf, ENDS, &asked);
+    assert!(code == 0 && report.contains("goal (0.97"), "{report}");
     let (code, why) = judged(&urdf, &format!("{ENDS}robot.tip = \"fore\""), &asked);
     assert!(code == 3 && why.contains("misses the goal"), "{why}");
     let two = asked.replace("\"motion\"", "\"goal\": [1, 0], \"motion\"");

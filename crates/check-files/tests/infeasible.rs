@@ -133,8 +133,8 @@ fn clearance_counts_and_other_queries_are_described() {
     assert!(matches!(asked("", &boxes), Err(CheckError::Fails(why)) if why.contains("box 0")));
     assert!(asked(r#""clearance": 0.15,"#, &boxes).unwrap().contains("clearance 0.15"));
     assert_eq!(code(&arm, &format!("clearance = 0.15\n{}", world(apart)), &certificate("", UPPER, disc, &boxes)), 0);
-    let said = asked(r#""clearance": 0.15, "start": [-2, 1], "goal": [2, 1],"#, &boxes).unwrap();
-    assert!(said.contains("start (-2, 1)") && said.contains("goal (2, 1)"), "{said}");
+    let report = asked(r#""clearance": 0.15, "start": [-2, 1], "goal": [2, 1],"#, &boxes).unwrap();
+    assert!(report.contains("start (-2, 1)") && report.contains("goal (2, 1)"), "{report}");
     assert!(matches!(asked(r#""clearance": 0.15, "goal": [-2, 1],"#, &boxes), Err(CheckError::Fails(_))));
     assert!(matches!(asked(r#""goal": [3, 1],"#, &boxes), Err(CheckError::Input { input: Input::World, .. })));
 }
@@ -176,8 +176,8 @@ fn a_place_of_the_tip_is_all_configurations_that_reach_it() {
     // The statement is about the tip that the world names.
     let place = format!("start.joints = [-1, 0]\nrobot.tip = \"fore\"\n{WALL}");
     let extra = r#""goal_tip": [0.6, 0.8],"#;
-    let said = check(&arm, &place, &certificate(extra, UPPER, WALL_PART, &wall)).unwrap();
-    assert!(said.contains("to the goal (0.6, 0.8), a place of the tip \"fore\","), "{said}");
+    let report = check(&arm, &place, &certificate(extra, UPPER, WALL_PART, &wall)).unwrap();
+    assert!(report.contains("to the goal (0.6, 0.8), a place of the tip \"fore\","), "{report}");
     let place = place.replace("fore", "upper");
     assert_eq!(code(&arm, &place, &certificate(extra, UPPER, WALL_PART, &wall)), 1);
     let both = r#""goal": [1, 0], "goal_tip": [0.6, 0.8],"#;

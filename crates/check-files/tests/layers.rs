@@ -4,7 +4,7 @@
 mod scara;
 
 use cplan_check_files::check_files;
-use scara::{LIMITS, QUILL, fails, folded, holds, scara, shut, told, world};
+use scara::{LIMITS, QUILL, fails, folded, holds, output, scara, shut, world};
 use std::path::{Path, PathBuf};
 
 /// A folder of its own for each test.
@@ -63,7 +63,7 @@ impl Place {
             std::fs::write(self.0.join(file), content).unwrap();
             self.0.join(file)
         });
-        told(check_files(&urdf, &world, &certificate))
+        output(check_files(&urdf, &world, &certificate))
     }
 }
 

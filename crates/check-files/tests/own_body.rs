@@ -4,7 +4,7 @@
 mod scara;
 
 use cplan_check_files::check;
-use scara::{LIMITS, QUILL, fails, folded, holds, scara, shut, told, world};
+use scara::{LIMITS, QUILL, fails, folded, holds, output, scara, shut, world};
 
 /// Adds a link beside the base.
 fn beside(scara: &str, kind: &str, shape: &str) -> String {
@@ -15,7 +15,7 @@ fn beside(scara: &str, kind: &str, shape: &str) -> String {
 }
 
 fn judged(urdf: &str, robot: &str, certificate: &str) -> (i32, String) {
-    told(check(urdf, &world(robot), certificate))
+    output(check(urdf, &world(robot), certificate))
 }
 
 const HIT: [&str; 3] = ["from knot 0", "link \"quill\", collision 0", "link \"base\", collision 0"];
@@ -32,7 +32,7 @@ fn a_base_is_hit_and_passed_over() {
     // The same base as an obstacle.
     let bare = scara(0.3).replacen("<collision>", "<lamp>", 1).replacen("</collision>", "</lamp>", 1);
     let block = "[[obstacle]]\npolygon = [[-0.2, -0.15], [0.2, -0.15], [0.2, 0.15], [-0.2, 0.15]]\n";
-    let among = |heights: &str| told(check(&bare, &format!("{}{block}{heights}", world("")), &folded("")));
+    let among = |heights: &str| output(check(&bare, &format!("{}{block}{heights}", world("")), &folded("")));
     fails(among("height = [0, 0.3]"), &["obstacle 0"]);
     // The upper arm begins at 0.25 m, and is not a neighbour of an obstacle.
     holds(among("height = [0, 0.24]"));
@@ -53,20 +53,20 @@ fn a_base_stands_where_the_world_puts_the_robot() {
 
 #[test]
 fn the_world_excludes_pairs_of_links() {
-    let said = |robot: &str| judged(&scara(0.1), robot, &folded(""));
-    holds(said("own_body = false"));
-    fails(said("own_body = true"), &HIT);
+    let report = |robot: &str| judged(&scara(0.1), robot, &folded(""));
+    holds(report("own_body = false"));
+    fails(report("own_body = true"), &HIT);
     for pair in ["[\"base\", \"quill\"]", "[\"quill\", \"base\"]"] {
-        holds(said(&format!("ignore_contact = [{pair}]")));
+        holds(report(&format!("ignore_contact = [{pair}]")));
     }
-    fails(said("ignore_contact = [[\"base\", \"fore\"], [\"upper\", \"quill\"]]"), &HIT);
+    fails(report("ignore_contact = [[\"base\", \"fore\"], [\"upper\", \"quill\"]]"), &HIT);
     for (robot, part) in [
         ("ignore_contact = [[\"base\", \"hand\"]]", "no link \"hand\""),
         ("ignore_contact = [[\"base\"]]", "a list of two"),
         ("ignore_contact = [[\"base\", 1]]", "expected a text"),
         ("own_body = 1", "true or false"),
     ] {
-        let (code, why) = said(robot);
+        let (code, why) = report(robot);
         assert!(code == 1 && why.contains(part), "{robot}: {why}");
     }
 }
@@ -127,12 +127,12 @@ fn each_link_has_its_visual_shapes_by_itself() {
         let mesh = format!("<{kind}> <geometry> <mesh filename=\"none.stl\"/> </geometry> </{kind}>");
         urdf.replace(&format!("<link name=\"{link}\">"), &format!("<link name=\"{link}\">{mesh}"))
     };
-    let said = holds(judged(&unread("base", "collision", &scara(0.31)), "", &folded("")));
-    assert!(said.contains("collision of link \"base\" is left out"), "{said}");
+    let report = holds(judged(&unread("base", "collision", &scara(0.31)), "", &folded("")));
+    assert!(report.contains("collision of link \"base\" is left out"), "{report}");
     // The other shape of the base still counts.
     fails(judged(&unread("base", "collision", &scara(0.1)), "", &folded("")), &HIT);
-    let said = holds(judged(&unread("quill", "visual", &of("quill", &scara(0.31))), "", &folded("")));
-    assert!(said.contains("visual of link \"quill\" is left out"), "{said}");
+    let report = holds(judged(&unread("quill", "visual", &of("quill", &scara(0.31))), "", &folded("")));
+    assert!(report.contains("visual of link \"quill\" is left out"), "{report}");
     let (code, why) = judged(&unread("quill", "collision", &scara(0.31)), "", &folded(""));
     assert!(code == 1 && why.contains("other files"), "{why}");
 }
@@ -146,8 +146,8 @@ fn a_pair_that_does_not_meet_is_not_ignored() {
     let plate = scara(0.1).replacen("size=\"0.4 0.3 0.3\"", "size=\"4 4 0.3\"", 1);
     fails(judged(&plate, "", &folded("")), &HIT);
     for pair in [ignored, r#""ignored": [["quill", "base"]],"#] {
-        let said = holds(judged(&plate, "", &folded(pair)));
-        assert!(said.contains("is ignored, as the certificate says"), "{said}");
+        let report = holds(judged(&plate, "", &folded(pair)));
+        assert!(report.contains("is ignored, as the certificate says"), "{report}");
     }
     let below = plate.replacen("xyz=\"0 0 0.15\"", "xyz=\"0 0 -0.1\"", 1);
     fails(judged(&below, "", &folded(ignored)), &[why]);
@@ -221,7 +221,7 @@ fn payloads_avoid_the_base() {
         let certificate = r#"{"format": "cplan certificate 1", "answer": "found",
             "steps": [{"step": 1, "knots": [0, 1]}, {"step": 2, "knots": [2, 3]}],
             "motion": {"interpolation": ["linear"], "knots": [[0, 0, 1], [1, 1, 1], [2, 1, 1], [3, 3, 1]]}}"#;
-        told(check(&gantry, &world, certificate))
+        output(check(&gantry, &world, certificate))
     };
     holds(carried("0.08", ""));
     fails(carried("0.1", ""), &["step 2", "what is carried", "link \"base\", collision 0"]);
@@ -272,16 +272,16 @@ fn the_upper_arm_is_hit_and_passed_over() {
     // 0.45 sin(2.8) - 0.02 - 0.05 = 0.0807 beside it, for any shoulder.
     for (clearance, is_free) in [(0.08, true), (0.081, false)] {
         let extra = format!("{}\"clearance\": {clearance},", goal(2.8));
-        let (code, said) = fold(&turning(0.35, 0.1), "", "[0, -1, 0], [1, 1, 2.8]", &extra);
-        assert_eq!(code, if is_free { 0 } else { 3 }, "{clearance}: {said}");
+        let (code, report) = fold(&turning(0.35, 0.1), "", "[0, -1, 0], [1, 1, 2.8]", &extra);
+        assert_eq!(code, if is_free { 0 } else { 3 }, "{clearance}: {report}");
     }
     // The pair may be ignored only if it overlaps where the motion begins.
     let ignored = format!(r#"{} "ignored": [["quill", "upper"]],"#, goal(4.0));
     fails(fold(&turning(0.35, 0.1), "", round, &ignored), &["do not overlap where the motion begins"]);
     let wide = turning(0.35, 2.5).replacen("0.6 2.5 0.2", "2.5 2.5 0.2", 1);
     fails(fold(&wide, "", round, &goal(4.0)), &hit);
-    let said = holds(fold(&wide, "", round, &ignored));
-    assert!(said.contains("\"quill\" and \"upper\" is ignored"), "{said}");
+    let report = holds(fold(&wide, "", round, &ignored));
+    assert!(report.contains("\"quill\" and \"upper\" is ignored"), "{report}");
 }
 
 /// If joint 1 slides, the carriage is an obstacle for everything that the elbow moves, at any carriage position.
@@ -360,7 +360,7 @@ fn payloads_avoid_the_upper_arm() {
             "steps": [{{"step": 1, "knots": [0, 1]}}, {{"step": 2, "knots": [1, 2]}}],
             "motion": {{"interpolation": ["linear"], "knots": [[0, 0, 0], [1, 0, 0], [2, 1, {elbow}]]}}}}"#
         );
-        told(check(&scara(0.46), &world, &certificate))
+        output(check(&scara(0.46), &world, &certificate))
     };
     let level = "payload = \"level\"\nwrist = { velocity = 1 }";
     let hit = ["step 2", "what is carried", "link \"upper\", collision 0"];

@@ -39,15 +39,15 @@ fn numbers(section: &str, folder: &str) -> (Vec<usize>, usize) {
     let mut left = sources(&root, &root);
     let (mut numbers, mut all) = (Vec::new(), 0);
     for row in table.lines().skip(1) {
-        let [_, what, files, said, _] = row.split('|').collect::<Vec<_>>()[..] else { panic!("{row:?}") };
-        let said: usize = said.trim().parse().unwrap();
+        let [_, what, files, report, _] = row.split('|').collect::<Vec<_>>()[..] else { panic!("{row:?}") };
+        let report: usize = report.trim().parse().unwrap();
         let mut count = 0;
         for file in files.split(',').map(|file| file.trim().trim_matches('`')) {
             assert!(left.remove(file), "{file} is not there, or for the second time");
             count += lines(&root.join(file).with_extension("rs"));
         }
-        assert!(said.abs_diff(count) * 20 <= count, "{what}: the page has {said} lines, there are {count}");
-        numbers.push(said);
+        assert!(report.abs_diff(count) * 20 <= count, "{what}: the page has {report} lines, there are {count}");
+        numbers.push(report);
         all += count;
     }
     assert!(left.is_empty(), "the page does not name {left:?}");
@@ -65,8 +65,8 @@ fn the_page_states_the_lines_of_code() {
     // Stated sums use the same rows, and no answer about one motion may exceed the number on the page.
     let below: usize = judge[..3].iter().chain(&files[..3]).sum();
     let answers = [(judge[3], "on 2 828 lines"), (judge[4], "on 3 118"), (judge[3] + judge[5], "on 3 294")];
-    for (answer, said) in answers {
-        let digits: usize = said.chars().filter(char::is_ascii_digit).collect::<String>().parse().unwrap();
-        assert!(section.contains(said) && (below + answer).abs_diff(digits) < 10 && digits <= MOST, "{said}");
+    for (answer, report) in answers {
+        let digits: usize = report.chars().filter(char::is_ascii_digit).collect::<String>().parse().unwrap();
+        assert!(section.contains(report) && (below + answer).abs_diff(digits) < 10 && digits <= MOST, "{report}");
     }
 }

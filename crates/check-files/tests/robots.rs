@@ -187,7 +187,7 @@ fn robots_are_where_their_kinematics_have_them() {
         let far = 0.1 + radius + apart;
         let [a, b] = [x + far * angle.cos(), y + far * angle.sin()];
         let (first, second) = (q[0], q[1]);
-        let said = |tip: [f64; 2], circle: &str| {
+        let report = |tip: [f64; 2], circle: &str| {
             let world = format!("start.joints = [{first}, {second}]\ngoal.tip = [{}, {}]\n{circle}", tip[0], tip[1]);
             let certificate = format!(
                 r#"{{"format": "cplan certificate 1", "answer": "found",
@@ -196,7 +196,7 @@ fn robots_are_where_their_kinematics_have_them() {
             check(&drawn.urdf, &format!("{world}\n{}", drawn.world), &certificate)
         };
         let circle = format!("obstacle = [{{ circle = {{ center = [{a}, {b}], radius = {radius} }} }}]");
-        match said([x, y], &circle) {
+        match report([x, y], &circle) {
             Ok(words) => assert!(apart > 0.0 && words.contains("within 1e-"), "seed {seed}: {apart}: {words}"),
             Err(CheckError::Fails(why)) => {
                 assert!(apart < 0.0 && why.contains("obstacle"), "seed {seed}: {apart}: {why}")
@@ -204,7 +204,7 @@ fn robots_are_where_their_kinematics_have_them() {
             Err(why) => panic!("seed {seed}: {why}\n{}", drawn.urdf),
         }
         *if apart > 0.0 { &mut free } else { &mut hit } += 1;
-        let missed = said([x + 2e-5, y], "");
+        let missed = report([x + 2e-5, y], "");
         assert!(matches!(missed, Err(CheckError::Fails(_))), "seed {seed}: {missed:?}");
     }
     assert!(free > 0 && hit > 0, "{free} {hit}");
@@ -232,7 +232,7 @@ fn joints_without_a_common_plane_are_refused() {
         ("0 0 1", "prismatic", false),
     ] {
         match arm(second, kind) {
-            Ok(said) => assert!(is_one && said.contains("by up to 1e-3 rad"), "{second}: {said}"),
+            Ok(report) => assert!(is_one && report.contains("by up to 1e-3 rad"), "{second}: {report}"),
             Err(why) => assert!(!is_one && why.to_string().contains("common plane"), "{second}: {why}"),
         }
     }

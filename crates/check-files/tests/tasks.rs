@@ -38,7 +38,7 @@ fn certificate(knots: &str, steps: &str) -> String {
 /// Judges a certificate, and returns the exit code and the message.
 fn judged(urdf: &str, world: &str, knots: &str, steps: &str) -> (i32, String) {
     match check(urdf, world, &certificate(knots, steps)) {
-        Ok(said) => (0, said),
+        Ok(report) => (0, report),
         Err(CheckError::Fails(why)) => (3, why),
         Err(CheckError::Input { message, .. }) => (1, message),
     }
@@ -50,25 +50,25 @@ fn carried(more: &str) -> (i32, String) {
 }
 
 #[track_caller]
-fn holds((code, said): (i32, String)) -> String {
-    assert_eq!(code, 0, "{said}");
-    said
+fn holds((code, report): (i32, String)) -> String {
+    assert_eq!(code, 0, "{report}");
+    report
 }
 
 #[track_caller]
-fn fails((code, said): (i32, String), part: &str) {
-    assert!(code == 3 && said.contains(part), "{code} {said}");
+fn fails((code, report): (i32, String), part: &str) {
+    assert!(code == 3 && report.contains(part), "{code} {report}");
 }
 
 #[track_caller]
-fn is_wrong((code, said): (i32, String), part: &str) {
-    assert!(code == 1 && said.contains(part), "{code} {said}");
+fn is_wrong((code, report): (i32, String), part: &str) {
+    assert!(code == 1 && report.contains(part), "{code} {report}");
 }
 
 #[test]
 fn a_block_is_carried() {
-    let said = holds(carried(""));
-    assert!(said.starts_with("a motion of \"x\" and \"y\" does all 3 steps from the start on"), "{said}");
+    let report = holds(carried(""));
+    assert!(report.starts_with("a motion of \"x\" and \"y\" does all 3 steps from the start on"), "{report}");
 }
 
 #[test]
@@ -119,9 +119,9 @@ fn places_match_the_request_within_tolerance() {
 fn payloads_avoid_obstacles_that_the_arm_clears() {
     for (y, is_free) in [(0.79, true), (0.81, false)] {
         let post = format!("[[obstacle]]\ncircle = {{ center = [2, {y}], radius = 0.1 }}\n");
-        let (code, said) = carried(&post);
-        assert_eq!(code, if is_free { 0 } else { 3 }, "{said}");
-        assert!(is_free || said.contains("steps[1], step 2: from knot 2 to the next what is carried"), "{said}");
+        let (code, report) = carried(&post);
+        assert_eq!(code, if is_free { 0 } else { 3 }, "{report}");
+        assert!(is_free || report.contains("steps[1], step 2: from knot 2 to the next what is carried"), "{report}");
         let other =
             format!("[[object]]\nname = \"other\"\ncircle = {{ center = [0, 0], radius = 0.1 }}\nat = [2, {y}]\n");
         assert_eq!(carried(&other).0, code);
@@ -205,8 +205,8 @@ fn the_wrist_turns_the_payload() {
     for (far, is_free) in [(0.2237, true), (0.2235, false)] {
         let [x, y] = [3.0 + far * 0.8, 1.0 + far * 0.6];
         let post = format!("[[obstacle]]\ncircle = {{ center = [{x}, {y}], radius = 1e-9 }}\n");
-        let (code, said) = level(world(&post));
-        assert_eq!(code, if is_free { 0 } else { 3 }, "{far}: {said}");
+        let (code, report) = level(world(&post));
+        assert_eq!(code, if is_free { 0 } else { 3 }, "{far}: {report}");
     }
     // Turned where it is picked, it is carried upright.
     let tall = "[[obstacle]]\ncircle = { center = [2, 1.2], radius = 0.05 }\n";
@@ -306,8 +306,8 @@ fn pairs_in_free_order() {
     };
     holds(with("fixed", &[0, 1, 2]));
     for order in [[0, 1, 2], [2, 0, 1], [1, 2, 0], [2, 1, 0]] {
-        let (code, said) = with("free", &order);
-        assert_eq!(code, 0, "{order:?}: {said}");
+        let (code, report) = with("free", &order);
+        assert_eq!(code, 0, "{order:?}: {report}");
     }
     fails(with("fixed", &[1, 0, 2]), "steps[0] is step 3, but the world requires step 1");
     fails(with("free", &[0, 1, 1]), "but the world requires step 5");
@@ -476,8 +476,8 @@ fn objects_that_are_not_convex() {
     for inside in
         ["circle = { center = [1, 0.85], radius = 0.01 }", "polygon = [[0.99, 0.84], [1.01, 0.84], [1, 0.86]]"]
     {
-        let (code, said) = with(&format!("[[obstacle]]\n{inside}\n"));
-        assert!(code == 3 && said.contains("inside the payload"), "{code} {said}");
+        let (code, report) = with(&format!("[[obstacle]]\n{inside}\n"));
+        assert!(code == 3 && report.contains("inside the payload"), "{code} {report}");
     }
     holds(with("[[obstacle]]\ncircle = { center = [1.05, 1.4], radius = 0.01 }\n"));
 }
@@ -508,9 +508,9 @@ fn nonconvex_objects_press_within_the_allowance() {
         for (y, is_free) in
             [(1.25, true), (1.2 - 7.1e-5, true), (1.2 - 7.2e-5, false), (1.3 + 7.1e-5, true), (1.31, false)]
         {
-            let (code, said) = over(&slotted, &rail(y), true);
-            assert!(code == if is_free { 0 } else { 3 }, "{y}: {said}");
-            assert!(is_free || said.contains("no deeper than it may press into obstacle 0"), "{y}: {said}");
+            let (code, report) = over(&slotted, &rail(y), true);
+            assert!(code == if is_free { 0 } else { 3 }, "{y}: {report}");
+            assert!(is_free || report.contains("no deeper than it may press into obstacle 0"), "{y}: {report}");
         }
         // The object may touch the button, but must not contain it.
         let button = "circle = { center = [1, 1.1], radius = 1e-6 }";

@@ -21,7 +21,7 @@ pub(crate) fn read(text: &str, settings: &Settings) -> Result<Drawing, Error> {
     let mut sheet = Sheet::new(settings);
     let unit = settings.unit.unwrap_or_else(|| {
         sheet.notes.add("GeoJSON does not state a unit: read as m", None);
-        Unit::METRE
+        Unit::METER
     });
     let scale = unit.metres() * settings.scale;
     let mut reader = Reader { sheet, map: Map::scaling(scale, scale) };

@@ -21,10 +21,10 @@ const fn unit(name: &'static str, metres: f64) -> Unit {
 
 /// The units that have names here.
 const NAMED_UNITS: [Unit; 11] = [
-    Unit::MILLIMETRE,
+    Unit::MILLIMETER,
     unit("cm", 1e-2),
     unit("dm", 1e-1),
-    Unit::METRE,
+    Unit::METER,
     unit("km", 1e3),
     unit("um", 1e-6),
     unit("mil", INCH / 1000.0),
@@ -38,9 +38,9 @@ const INCH: f64 = 0.0254;
 
 impl Unit {
     /// 1 mm.
-    pub const MILLIMETRE: Unit = unit("mm", 1e-3);
+    pub const MILLIMETER: Unit = unit("mm", 1e-3);
     /// 1 m.
-    pub const METRE: Unit = unit("m", 1.0);
+    pub const METER: Unit = unit("m", 1.0);
     /// The pixel of style sheets, 96 per inch.
     pub const PIXEL: Unit = unit("px", INCH / 96.0);
 

@@ -23,7 +23,7 @@ const PENETRATION_ALLOWANCE: f64 = 1e-4;
 
 /// Share of the penetration allowance by which corners are moved: a little less than 1, so that a checker that moves
 /// them farther has room.
-const AT_MOST: f64 = 1.0 - 1e-3;
+const ALLOWANCE_SHARE: f64 = 1.0 - 1e-3;
 
 impl Payload {
     /// Returns the greatest *penetration depth* of a payload in its supports, metres. Each corner of the payload is
@@ -47,7 +47,7 @@ impl Payload {
         let mut parts: Vec<AttachedPart> =
             pieces.iter().enumerate().map(|(number, piece)| part(number, piece.clone(), false)).collect();
         if !self.supports.is_empty() {
-            let left = inset_union(pieces, AT_MOST * Self::penetration_allowance(arm)).into_iter().enumerate();
+            let left = inset_union(pieces, ALLOWANCE_SHARE * Self::penetration_allowance(arm)).into_iter().enumerate();
             parts.extend(left.flat_map(|(number, left)| left.into_iter().map(move |shape| part(number, shape, true))));
         }
         Attachment { name: name.clone(), heights, grip: self.grip, parts, supports: self.supports.clone() }

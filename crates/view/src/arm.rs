@@ -1,7 +1,7 @@
 //! The arm in one configuration, with its payload.
 
 use super::axes::Frame;
-use super::color::{self, ACCENT, BLOCKED, GREY, INK, PALE, Rgb, WHITE};
+use super::color::{self, ACCENT, BLOCKED, GRAY, INK, PALE, Rgb, WHITE};
 use super::figure::{Item, Step, Style};
 use super::shapes::union;
 use super::view::PayloadView;
@@ -26,7 +26,7 @@ pub const UNREACHED_LOOK: ArmStyle = ArmStyle { fill: WHITE, line: BLOCKED, widt
 /// The arm at its current configuration.
 pub const CURRENT_LOOK: ArmStyle = ArmStyle { fill: WHITE, line: ACCENT, width: 2.0, opacity: 1.0, joints: true };
 /// The arm at a configuration along the path.
-pub const GHOST_LOOK: ArmStyle = ArmStyle { fill: color::GHOST, line: GREY, width: 0.8, opacity: 0.7, joints: false };
+pub const GHOST_LOOK: ArmStyle = ArmStyle { fill: color::GHOST, line: GRAY, width: 0.8, opacity: 0.7, joints: false };
 
 /// Draws the arm at `q`: its own outline, and above it the payload in the colour of the object.
 #[must_use]

@@ -1,6 +1,6 @@
 //! Coordinate frames: they map values to places on the page, and draw ticks.
 
-use super::color::{FAINT, GREY, INK, PALE};
+use super::color::{FAINT, GRAY, INK, PALE};
 use super::figure::{Anchor, Item, Rect, Step, Style, label as text, upwards};
 
 /// Lower and upper value along an axis.
@@ -135,12 +135,12 @@ impl Frame {
         for (value, name) in x_ticks {
             let [x, _] = self.at(value, self.y.0);
             items.push(mark([x, bottom], [x, bottom + 5.0]));
-            items.extend(values[0].then(|| text([x, bottom + 19.0], name, 13.0, Anchor::Middle, GREY)));
+            items.extend(values[0].then(|| text([x, bottom + 19.0], name, 13.0, Anchor::Middle, GRAY)));
         }
         for (value, name) in y_ticks {
             let [_, y] = self.at(self.x.0, value);
             items.push(mark([left - 5.0, y], [left, y]));
-            items.extend(values[1].then(|| text([left - 8.0, y + 4.5], name, 13.0, Anchor::End, GREY)));
+            items.extend(values[1].then(|| text([left - 8.0, y + 4.5], name, 13.0, Anchor::End, GRAY)));
         }
         items
     }

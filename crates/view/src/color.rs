@@ -36,7 +36,7 @@ pub const WHITE: Rgb = Rgb(255, 255, 255);
 /// Text, paths and the arm.
 pub const INK: Rgb = Rgb(0x22, 0x26, 0x2b);
 /// Less important text.
-pub const GREY: Rgb = Rgb(0x5c, 0x63, 0x6b);
+pub const GRAY: Rgb = Rgb(0x5c, 0x63, 0x6b);
 /// Marks for orientation: the reach, ticks.
 pub const PALE: Rgb = Rgb(0xa3, 0xaa, 0xb2);
 /// Blocking obstacles, and goals out of reach.
@@ -68,7 +68,7 @@ pub const PREFERRED: Rgb = Rgb(0x2b, 0x7a, 0x78);
 pub const TINTS: [(&str, Rgb); 15] = [
     ("ink", INK),
     ("paper", WHITE),
-    ("grey", GREY),
+    ("grey", GRAY),
     ("pale", PALE),
     ("faint", FAINT),
     ("ghost", GHOST),
@@ -214,7 +214,7 @@ mod tests {
         assert!(contrast(FREE, UNDECIDED) >= 1.6, "{}", contrast(FREE, UNDECIDED));
         assert!(contrast(UNDECIDED, WHITE) >= 1.6);
         // The outline of a pose along the path.
-        assert!(contrast(GREY.lighter(0.3), WHITE) >= 3.0);
+        assert!(contrast(GRAY.lighter(0.3), WHITE) >= 3.0);
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! The configuration spaces, side by side.
 
 use super::chart::{self, Chart};
-use super::color::{GREY, INK};
+use super::color::{GRAY, INK};
 use super::cspace;
 use super::figure::{Anchor, Item, Rect, label, shortened};
 use super::view::{PanelView, View};
@@ -79,7 +79,7 @@ impl Grid {
         if left_out > 0 {
             let text = format!("{left_out} further configuration spaces are not shown");
             let at = [around.x + around.width / 2.0, around.bottom() + 60.0];
-            items.push(label(at, text, 13.0, Anchor::Middle, GREY));
+            items.push(label(at, text, 13.0, Anchor::Middle, GRAY));
         }
         items
     }

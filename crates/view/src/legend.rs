@@ -1,6 +1,6 @@
 //! The legend: the meaning of the signs.
 
-use super::color::{self, BLOCKED, GREY, INK, PALE};
+use super::color::{self, BLOCKED, GRAY, INK, PALE};
 use super::figure::{Anchor, Item, Pen, Rect, Step, Style, label, rectangle, shortened, text_width};
 use super::flow::FieldLines;
 use super::key::{Key, KeyView, Layered, Sign};
@@ -54,7 +54,7 @@ fn all(view: &View, still: bool) -> Vec<Layered> {
     let mut keys = vec![always((Sign::Start, "start".to_owned())), always((Sign::Goal, goal.to_owned()))];
     keys.extend(paths(view).into_iter().map(|key| -> Layered { (key, &["path", "trace"]) }));
     if still && view.worlds.iter().any(|world| !world.open.is_empty()) {
-        keys.push(always((Sign::Dashed(GREY), "open to link 2 (picked or placed)".to_owned())));
+        keys.push(always((Sign::Dashed(GRAY), "open to link 2 (picked or placed)".to_owned())));
     }
     if view.unreached().next().is_some() {
         keys.push(always((Sign::Unreached, "not reached".to_owned())));

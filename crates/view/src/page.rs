@@ -1,6 +1,6 @@
 //! The page: titles, the workspace, configuration spaces, the steps of a task, legend.
 
-use super::color::{GREY, INK};
+use super::color::{GRAY, INK};
 use super::figure::{Anchor, Figure, Item, Rect, label, shortened, text_width};
 use super::grid::Grid;
 use super::key::Key;
@@ -105,7 +105,7 @@ fn task(view: &View, panels: &[PanelView], keys: &[Vec<Key>], top: f64, items: &
     items.extend(steps::items(&view.still.steps, list));
     items.push(heading(LEFT_COLUMN, top - 32.0, "Workspace"));
     let note = "objects where they lie at first, and dashed where they are placed";
-    items.push(label([LEFT_COLUMN.x + LEFT_COLUMN.width / 2.0, top - 9.0], note, 14.0, Anchor::Middle, GREY));
+    items.push(label([LEFT_COLUMN.x + LEFT_COLUMN.width / 2.0, top - 9.0], note, 14.0, Anchor::Middle, GRAY));
     items.push(heading(RIGHT_COLUMN, top - 32.0, "Configuration space of each payload state"));
     items.extend(legend::items(keys, PAGE_WIDTH / 2.0, height - legend));
     height
@@ -147,7 +147,7 @@ fn titles(lines: &[String], status: &str, width: f64) -> Vec<Item> {
     let status_width = text_width(status, 18.0);
     items.push(label([width - PAGE_MARGIN, 36.0], status, 18.0, Anchor::End, INK));
     for (i, line) in lines.iter().enumerate() {
-        let (size, color, y) = if i == 0 { (22.0, INK, 36.0) } else { (14.0, GREY, 40.0 + 18.0 * i as f64) };
+        let (size, color, y) = if i == 0 { (22.0, INK, 36.0) } else { (14.0, GRAY, 40.0 + 18.0 * i as f64) };
         let room = width - 2.0 * PAGE_MARGIN - if i == 0 { status_width + 30.0 } else { 0.0 };
         items.push(label([PAGE_MARGIN, y], shortened(line, size, room), size, Anchor::Start, color));
     }

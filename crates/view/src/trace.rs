@@ -1,7 +1,7 @@
 //! The planner's trace: the part of the configuration space that it examined.
 
 use super::chart::Chart;
-use super::color::{self, ACCENT, CHANNEL, EDGE, GREY, INK, Rgb};
+use super::color::{self, ACCENT, CHANNEL, EDGE, GRAY, INK, Rgb};
 use super::figure::{Anchor, Item, Pen, Raster, Rect, Style, chain, label, upwards};
 use super::flow::FieldLines;
 use super::key::{Key, Sign};
@@ -117,8 +117,8 @@ pub fn color_bar(scale: &ScaleView, frame: &Rect) -> Vec<Item> {
             palette: palette(white),
             levels: (0..WAVE_SHADES).map(Some).collect(),
         }),
-        label([x + 18.0, rect.y + 10.0], top.as_str(), 13.0, Anchor::Start, GREY),
-        label([x + 18.0, rect.bottom()], bottom.as_str(), 13.0, Anchor::Start, GREY),
+        label([x + 18.0, rect.y + 10.0], top.as_str(), 13.0, Anchor::Start, GRAY),
+        label([x + 18.0, rect.bottom()], bottom.as_str(), 13.0, Anchor::Start, GRAY),
         upwards([x + 30.0, rect.y + height / 2.0], *title, 13.0, INK),
     ]
 }

@@ -2,7 +2,7 @@
 
 use super::arm::{self, CURRENT_LOOK, GHOST_LOOK, GOAL_LOOK, START_LOOK, UNREACHED_LOOK};
 use super::axes::{Frame, Unit};
-use super::color::{BLOCKED, GREY, INK, PALE, WHITE};
+use super::color::{BLOCKED, GRAY, INK, PALE, WHITE};
 use super::figure::{Anchor, Item, Rect, Step, Style, chain, label, lines};
 use super::labels::{self, Named};
 use super::view::{ObstacleView, PathView, View, around, reach_shape, titles};
@@ -63,7 +63,7 @@ fn movers(view: &View, frame: &Frame) -> Vec<Item> {
             let moments = mover.moments(duration);
             let places = std::iter::once(&0.0).chain(&moments).map(|&time| mover.origin(time));
             let line = chain(places.map(|p| frame.at(p.x, p.y)), false);
-            items.push(Item::Outline(line, Style::line(GREY, 1.0).dashed(shapes::ABSENT_DASH)));
+            items.push(Item::Outline(line, Style::line(GRAY, 1.0).dashed(shapes::ABSENT_DASH)));
             items.extend(moments.iter().map(|&time| shapes::dashed(frame, &mover.at(time))));
         }
     }
@@ -129,7 +129,7 @@ fn hidden_note<'a>(frame: &Frame, obstacles: impl Iterator<Item = &'a ObstacleVi
         n => format!("{n} obstacles lie outside this picture"),
     };
     let at = [frame.rect.x + 10.0, frame.rect.bottom() - 10.0];
-    Some(label(at, text, 13.0, Anchor::Start, GREY))
+    Some(label(at, text, 13.0, Anchor::Start, GRAY))
 }
 
 /// Draws the lowest layer: grid and reach.

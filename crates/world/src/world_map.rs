@@ -47,11 +47,11 @@ pub(super) struct MapContent {
 }
 
 /// Maps are in millimetres unless the world says otherwise.
-const MILLIMETRE: f64 = 1e-3;
+const MILLIMETER: f64 = 1e-3;
 
 /// Reads the files that the table names.
 pub(super) fn read(reader: &Reader, table: &MapTable) -> Result<MapContent, InputError> {
-    let scale = table.scale.as_ref().map(|s| scale(reader, s)).transpose()?.unwrap_or(MILLIMETRE);
+    let scale = table.scale.as_ref().map(|s| scale(reader, s)).transpose()?.unwrap_or(MILLIMETER);
     let offset = table.offset.as_ref().map(|o| reader.two(o, "map offset")).transpose()?.unwrap_or_default();
     let heights = reader.heights(table.height.as_ref(), "map")?;
     let place = |p: Point| p * scale + Vector::from(offset);

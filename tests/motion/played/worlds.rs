@@ -92,8 +92,8 @@ fn interpolated_motions_of_shipped_worlds_are_certified() {
         // It is as fast as the limits allow, not just slow enough.
         assert!(extremes.acceleration > 0.99 || extremes.velocity > 0.99, "{name}: {extremes:?}");
         for format in FORMATS {
-            let (code, said) = run.verified(&robot, &world, format);
-            assert_eq!(code, 0, "{name}.{format}: {said}");
+            let (code, report) = run.verified(&robot, &world, format);
+            assert_eq!(code, 0, "{name}.{format}: {report}");
         }
         found += 1;
     }
@@ -111,20 +111,20 @@ fn interpolated_motions_of_shipped_tasks_are_certified() {
             continue;
         }
         dwells += judge_all(&name, &run, &joints(&robot, &world)).dwells;
-        let (code, said) = run.verified(&robot, &world, "json");
-        assert_eq!(code, 0, "{name}: {said}");
+        let (code, report) = run.verified(&robot, &world, "json");
+        assert_eq!(code, 0, "{name}: {report}");
         // Without the steps, the file is one motion among objects at their initial places. The output says so, and the
         // motion touches nothing else.
         let objects = objects(&world);
         for format in FORMATS.into_iter().filter(|format| *format != "json") {
-            let (code, said) = run.verified(&robot, &world, format);
-            assert!(said.contains("with all objects where they lie at first"), "{name}.{format}: {said}");
-            let contact = said.lines().find(|line| line.starts_with("contact "));
+            let (code, report) = run.verified(&robot, &world, format);
+            assert!(report.contains("with all objects where they lie at first"), "{name}.{format}: {report}");
+            let contact = report.lines().find(|line| line.starts_with("contact "));
             let is_object =
                 |line: &str| objects.iter().any(|object| line.contains(&format!("and obstacle \"{object}\"")));
             let is_kept = code == 0 || (code == 3 && contact.is_some_and(is_object));
-            let breaks_limits = said.lines().any(|line| line.starts_with("limit "));
-            assert!(is_kept && !breaks_limits, "{name}.{format}: {said}");
+            let breaks_limits = report.lines().any(|line| line.starts_with("limit "));
+            assert!(is_kept && !breaks_limits, "{name}.{format}: {report}");
             accepted += usize::from(code == 0);
         }
         found += 1;
@@ -153,8 +153,8 @@ fn interpolated_motions_in_random_worlds_are_certified() {
         let what = format!("seed {seed}, period {period}\n{text}");
         judge_all(&what, &run, &joints(&robot, &file));
         for format in FORMATS {
-            let (code, said) = run.verified(&robot, &file, format);
-            assert_eq!(code, 0, "{what}\n{format}: {said}");
+            let (code, report) = run.verified(&robot, &file, format);
+            assert_eq!(code, 0, "{what}\n{format}: {report}");
         }
         found += 1;
         blended += usize::from(run.json()["blends"]["count"].as_u64().unwrap() > 0);

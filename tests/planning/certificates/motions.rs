@@ -65,9 +65,10 @@ fn ways(seed: u64, tally: &mut Tally) {
         let begun = Instant::now();
         let judged = check(&urdf, &world, &certificate);
         let took = begun.elapsed();
-        let Ok(said) = judged else { panic!("seed {seed}, {turn}: {judged:?}\n{urdf}\n{world}") };
+        let Ok(report) = judged else { panic!("seed {seed}, {turn}: {judged:?}\n{urdf}\n{world}") };
         tally.to_tips += usize::from(
-            said.contains("to the goal, a place of the tip \"tool\", with clearance") && said.contains("is shorter"),
+            report.contains("to the goal, a place of the tip \"tool\", with clearance")
+                && report.contains("is shorter"),
         );
         tally.found[kind as usize] += 1;
         tally.oblique += usize::from(drawn.has_oblique_cylinder());

@@ -210,8 +210,8 @@ fn worlds_whose_own_ends_are_blocked_are_answered_line_by_line() {
     lines.push(json!({"id": 4, "urdf": urdf, "world": "world.toml"}));
     let done = answered(&place, &lines, "--fields status");
     assert_eq!(done.code, 0, "{}", done.stderr);
-    let said: Vec<Value> = done.rows().iter().map(|row| json!([row["id"], row["status"], row["kind"]])).collect();
+    let report: Vec<Value> = done.rows().iter().map(|row| json!([row["id"], row["status"], row["kind"]])).collect();
     let found = |id: i32| json!([id, "found", null]);
     let refused = |id: i32, kind: &str| json!([id, "error", kind]);
-    assert_eq!(said, [refused(0, "start"), refused(1, "goal"), found(2), found(3), refused(4, "start")]);
+    assert_eq!(report, [refused(0, "start"), refused(1, "goal"), found(2), found(3), refused(4, "start")]);
 }

@@ -66,9 +66,9 @@ fn the_certificate_states_the_query_of_the_command_line() {
     let done = place.run(&files, "--quiet --certificate c.json --start 0.4,10deg --goal 2.5,0.1 --clearance 0.01");
     assert_eq!(done.code, 3, "{}", done.stderr);
     let read = |path: &String| std::fs::read_to_string(path).unwrap();
-    let said = check(&read(&files[0]), &read(&files[1]), &place.read("c.json")).unwrap();
+    let report = check(&read(&files[0]), &read(&files[1]), &place.read("c.json")).unwrap();
     for part in ["start (0.4, 0.17453292519943295)", "goal (2.5, 0.1)", "clearance 0.01"] {
-        assert!(said.contains(part), "{said}");
+        assert!(report.contains(part), "{report}");
     }
 }
 
@@ -90,8 +90,8 @@ fn places_of_the_tip_that_are_shut_off_have_certificates_that_hold() {
         let done = place.run(&files, &format!("--quiet --certificate c.json --goal-tip={tip}"));
         assert_eq!(done.code, 3, "{world}: {}", done.stderr);
         let certificate = place.read("c.json");
-        let said = check(&read(&files[0]), &read(&files[1]), &certificate).unwrap();
-        assert!(said.contains("a position of the tip \"tool0\""), "{said}");
+        let report = check(&read(&files[0]), &read(&files[1]), &certificate).unwrap();
+        assert!(report.contains("a position of the tip \"tool0\""), "{report}");
         // The start itself is also on the start's side.
         let mut other: Value = serde_json::from_str(&certificate).unwrap();
         other.as_object_mut().unwrap().remove("goal_tip");
@@ -263,8 +263,8 @@ fn arms_of_meshes_have_certificates_that_hold() {
         let done = place.run(&["arm.urdf", &world], "--quiet --certificate c.json");
         assert_eq!(done.code, code, "{world}: {}", done.stderr);
         let judged = || check_files(&place.path("arm.urdf"), world.as_ref(), &place.path("c.json"));
-        let said = judged().unwrap_or_else(|why| panic!("{world}: {why}"));
-        assert!(said.contains(part), "{said}");
+        let report = judged().unwrap_or_else(|why| panic!("{world}: {why}"));
+        assert!(report.contains(part), "{report}");
         // Another mesh is another robot.
         place.write("block.stl", format!("{}\n", stl()));
         assert!(matches!(judged(), Err(CheckError::Fails(why)) if why.contains("block.stl")), "{world}");

@@ -50,14 +50,14 @@ fn every_solved_shipped_world_has_a_valid_certificate() {
         let begun = std::time::Instant::now();
         let verdict = judged(&world, &certificate);
         eprintln!("{world}: {} bytes, {:.3} s", certificate.len(), begun.elapsed().as_secs_f64());
-        let said = verdict.unwrap_or_else(|why| panic!("{world}: {why}"));
+        let report = verdict.unwrap_or_else(|why| panic!("{world}: {why}"));
         // The checker proves the reported bound, except for the loss from the walls that it sums up.
         let plan: Value = serde_json::from_str(&place.read("plan.json")).unwrap();
-        let [told, length] = ["lower_bound", "length"].map(|of| plan["optimum"][of].as_f64().unwrap());
-        if let Some((_, proven)) = said.split_once("is shorter than ") {
+        let [output, length] = ["lower_bound", "length"].map(|of| plan["optimum"][of].as_f64().unwrap());
+        if let Some((_, proven)) = report.split_once("is shorter than ") {
             let proven: f64 = proven.parse().unwrap();
-            assert!((0.99 * told..=length).contains(&proven), "{world}: {proven}, {told} told of {length}");
-            eprintln!("  bound {proven:.6}: {:.1e} below {told:.6}", 1.0 - proven / told);
+            assert!((0.99 * output..=length).contains(&proven), "{world}: {proven}, {output} told of {length}");
+            eprintln!("  bound {proven:.6}: {:.1e} below {output:.6}", 1.0 - proven / output);
             bounds += 1;
         } else {
             eprintln!("  no bound");
@@ -79,7 +79,7 @@ fn every_solved_shipped_world_has_a_valid_certificate() {
 fn the_certificate_states_motion_and_query() {
     let place = Place::new();
     let files = shelf();
-    let said = |options: &str| {
+    let report = |options: &str| {
         let done = place.run(&files, &format!("--quiet --certificate c.json --output plan.json {options}"));
         assert_eq!(done.code, 0, "{}", done.stderr);
         let [certificate, plan] =
@@ -94,14 +94,14 @@ fn the_certificate_states_motion_and_query() {
         }
         check(&read(&files[0]), &read(&files[1]), &place.read("c.json")).unwrap()
     };
-    let plain = said("");
+    let plain = report("");
     assert!(plain.contains("read as cubic or quartic") && !plain.contains("within"), "{plain}");
-    assert!(said("--jerk 100,100").contains("read as cubic)"));
-    let asked = said("--start -0.9,10deg --goal 1.5,-0.3 --clearance 0.0005");
+    assert!(report("--jerk 100,100").contains("read as cubic)"));
+    let asked = report("--start -0.9,10deg --goal 1.5,-0.3 --clearance 0.0005");
     for part in ["start (-0.9, 0.17453292519943295)", "goal (1.5, -0.3)", "clearance 0.0005"] {
         assert!(asked.contains(part), "{asked}");
     }
-    let tip = said("--goal-tip 0.35,0.5");
+    let tip = report("--goal-tip 0.35,0.5");
     assert!(tip.contains("goal (0.35, 0.5), a position of the tip") && tip.contains("within 1e-1"), "{tip}");
 }
 
@@ -147,8 +147,8 @@ fn verify_writes_certificates_of_motions_that_it_accepts() {
     ] {
         let (code, exists, why) = judged(file, options);
         assert!(code == 0 && exists, "{file}: {code} {why}");
-        let said = check(&read(&urdf), &read(&world), &place.read(&format!("{file}.c"))).unwrap();
-        assert!(said.contains(part), "{file}: {said}");
+        let report = check(&read(&urdf), &read(&world), &place.read(&format!("{file}.c"))).unwrap();
+        assert!(report.contains(part), "{file}: {report}");
     }
     place.write("through.csv", "shoulder,elbow\n-0.9,0.4\n1.55,-0.35\n");
     let (code, exists, why) = judged("through.csv", "");
@@ -170,8 +170,8 @@ fn an_arm_far_from_the_origin() {
     );
     let done = place.run(&[&urdf, "w.toml"], "--quiet --certificate c.json");
     assert_eq!(done.code, 0, "{}", done.stderr);
-    let said = check(&read(&urdf), &place.read("w.toml"), &place.read("c.json"));
-    assert!(said.as_ref().is_ok_and(|said| said.contains("is shorter than")), "{said:?}");
+    let report = check(&read(&urdf), &place.read("w.toml"), &place.read("c.json"));
+    assert!(report.as_ref().is_ok_and(|report| report.contains("is shorter than")), "{report:?}");
 }
 
 /// A limit in degrees, or with more digits than a double has, is no double. The nearest double may lie slightly beyond
@@ -196,11 +196,11 @@ fn motions_from_limit_to_limit_are_within_the_limits_as_they_are_written() {
                 ends[0], ends[1]
             ),
         );
-        let said = hold("");
-        assert!(said.contains("is shorter than"), "{said}");
+        let report = hold("");
+        assert!(report.contains("is shorter than"), "{report}");
         // The same on the command line, in the other direction.
-        let said = hold(&format!("--start {high},{high} --goal={low},0"));
-        assert!(said.contains("is shorter than"), "{said}");
+        let report = hold(&format!("--start {high},{high} --goal={low},0"));
+        assert!(report.contains("is shorter than"), "{report}");
     }
     let many = |end: &str| {
         format!("[robot.limits]\nelbow = [-1, {end}]\n[start]\njoints = [0, 0]\n[goal]\njoints = [0, {end}]\n")

@@ -19,17 +19,17 @@ fn every_shipped_motion_among_moving_obstacles_has_a_valid_certificate() {
         let (place, world) = (Place::new(), shipped(&format!("workspaces/moving/{name}.toml")));
         let done = place.run(&[&robot, &world], "--quiet --certificate c.json --output m.json --output m.csv");
         assert_eq!((done.code, &*done.stderr), (0, ""), "{name}");
-        let said =
+        let report =
             check(&read(&robot), &read(&world), &place.read("c.json")).unwrap_or_else(|why| panic!("{name}: {why}"));
         let is_task = ["belt_pick", "belt_stop", "cart_in_task"].contains(&name);
-        assert!(said.contains(if is_task { "steps from the start" } else { "is shorter than" }), "{name}: {said}");
+        assert!(report.contains(if is_task { "steps from the start" } else { "is shorter than" }), "{name}: {report}");
         // Recordings have certificates too, by the interpolation of their format. A table does not state which step
         // ends when.
         for file in if is_task { &["m.json"][..] } else { &["m.json", "m.csv"] } {
             let judged = place.run(&["verify", &robot, &world, file], "--quiet --certificate v.json");
             assert_eq!((judged.code, &*judged.stderr), (0, ""), "{name} {file}");
-            let said = check(&read(&robot), &read(&world), &place.read("v.json"));
-            assert!(said.is_ok(), "{name} {file}: {said:?}");
+            let report = check(&read(&robot), &read(&world), &place.read("v.json"));
+            assert!(report.is_ok(), "{name} {file}: {report:?}");
         }
     }
     // If the only path is closed for ever, the program claims nothing.

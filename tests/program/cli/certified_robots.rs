@@ -51,7 +51,7 @@ struct Case<'a> {
     world: [&'a str; 2],
     files: &'a [(&'a str, &'a [u8])],
     /// Expected part of the checker's report on motions.
-    said: &'a str,
+    report: &'a str,
 }
 
 impl Case<'_> {
@@ -87,8 +87,8 @@ impl Case<'_> {
         let open = self.world();
         let closed = open.replace("[0.2, 0.5]", "[1.5, 0.5]");
         let motion = planned(&open, 0);
-        let said = judged(&open, &motion).unwrap_or_else(|why| panic!("{}: {why}", self.what));
-        assert!(said.contains("leads from the start") && said.contains(self.said), "{}: {said}", self.what);
+        let report = judged(&open, &motion).unwrap_or_else(|why| panic!("{}: {why}", self.what));
+        assert!(report.contains("leads from the start") && report.contains(self.report), "{}: {report}", self.what);
         let proof = planned(&closed, 3);
         judged(&closed, &proof).unwrap_or_else(|why| panic!("{}: {why}", self.what));
         // The elbow is at the expected place in the plane's coordinates.
@@ -103,7 +103,7 @@ impl Case<'_> {
 /// Frames are turned by rounded angles, axes are slightly off, and planes are not along axes.
 #[test]
 fn frames_and_axes_as_exporters_write_them() {
-    for (what, robot, said) in [
+    for (what, robot, report) in [
         ("upright", &[("{mounting}", r#"<origin rpy="1.5708 0 0"/>"#)][..], "up to 1e-5 rad"),
         ("roughly upright", &[("{mounting}", r#"<origin rpy="1.57 0 0"/>"#)], "up to 1e-3 rad"),
         ("upright in all digits", &[("{mounting}", r#"<origin rpy="1.5707963267948966 0 0"/>"#)], "read as"),
@@ -115,7 +115,7 @@ fn frames_and_axes_as_exporters_write_them() {
         ("a quaternion", &[("{mounting}", r#"<origin quat_xyzw="0 0 0 2"/>"#)], "read as"),
         ("an upright quaternion", &[("{mounting}", r#"<origin quat_xyzw="0.70710678 0 0 0.70710678"/>"#)], "leads"),
     ] {
-        Case { what, robot, said, ..Case::default() }.is_certified();
+        Case { what, robot, report, ..Case::default() }.is_certified();
     }
 }
 
@@ -176,8 +176,8 @@ fn limits_and_joints_that_do_not_move() {
             "motion": {"interpolation": ["linear"], "knots": [[0, 0, 0], [1, 0.2, 0.5]]}}"#,
     );
     let [urdf, world, certificate]: [PathBuf; 3] = ["arm.urdf", "world.toml", "c.json"].map(|file| place.path(file));
-    let said = check_files(&urdf, &world, &certificate);
-    assert!(matches!(&said, Err(CheckError::Fails(why)) if why.contains("leaves its limits")), "{said:?}");
+    let report = check_files(&urdf, &world, &certificate);
+    assert!(matches!(&report, Err(CheckError::Fails(why)) if why.contains("leaves its limits")), "{report:?}");
 }
 
 /// Corners lie on a line between others, at their place or turned. Ends are at half a turn, and beyond a limit by
@@ -311,10 +311,10 @@ fn other_joints_that_move() {
             r#"{"format": "cplan certificate 1", "answer": "found", "start": [0, 0], "goal": [0, 0],
                 "motion": {"interpolation": ["linear"], "knots": [[0, 0, 0]]}}"#,
         );
-        let said = judged();
+        let report = judged();
         assert!(
-            matches!(&said, Err(CheckError::Input { message, .. }) if message.contains("mimic")),
-            "{parent}: {said:?}"
+            matches!(&report, Err(CheckError::Input { message, .. }) if message.contains("mimic")),
+            "{parent}: {report:?}"
         );
     }
 }
@@ -360,7 +360,7 @@ fn meshes_and_what_stands_in_for_them() {
     let stl = mesh("two.stl");
     // A mesh beside a shape that is read.
     let both = format!("{none} {}", USUAL[5].1);
-    for (what, upper, world, files, said) in [
+    for (what, upper, world, files, report) in [
         ("a mesh in OBJ", &obj, ["", ""], ("bar.obj", OBJ.as_bytes()), ""),
         ("a mesh of several solids", &stl, ["", ""], ("two.stl", two.concat().as_bytes()), ""),
         ("a mesh with many corners", &obj, ["", ""], ("bar.obj", round.as_bytes()), ""),
@@ -369,7 +369,7 @@ fn meshes_and_what_stands_in_for_them() {
         ("a bar for one of two", &both, bar, ("none", b""), "none.stl"),
         ("a bar for no shape", &String::new(), bar, ("none", b""), "read as"),
     ] {
-        Case { what, robot: &[("{upper}", upper)], world, files: &[files], said }.is_certified();
+        Case { what, robot: &[("{upper}", upper)], world, files: &[files], report }.is_certified();
     }
 }
 
@@ -424,7 +424,7 @@ fn worlds_as_people_write_them() {
         let done = place.run(&["arm.urdf", "world.toml"], "--quiet --certificate c.json");
         assert_eq!(done.code, code, "{}{}", done.stdout, done.stderr);
         let [urdf, world, certificate] = ["arm.urdf", "world.toml", "c.json"].map(|file| place.path(file));
-        let said = check_files(&urdf, &world, &certificate).unwrap();
-        assert!(said.contains("from the start ("), "{said}");
+        let report = check_files(&urdf, &world, &certificate).unwrap();
+        assert!(report.contains("from the start ("), "{report}");
     }
 }

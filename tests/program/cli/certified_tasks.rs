@@ -48,13 +48,13 @@ fn every_shipped_task_that_can_be_done_has_a_certificate_that_holds() {
         let done = place.run(&[&robot, &world], "--quiet --certificate c.json --output plan.json");
         assert_eq!(done.code, 0, "{world}: {}", done.stderr);
         let (urdf, text, certificate) = (read(&robot), read(&world), place.read("c.json"));
-        let said = check(&urdf, &text, &certificate).unwrap_or_else(|why| panic!("{world}: {why}"));
+        let report = check(&urdf, &text, &certificate).unwrap_or_else(|why| panic!("{world}: {why}"));
         let [whole, plan] =
             [&certificate, &place.read("plan.json")].map(|text| serde_json::from_str::<Value>(text).unwrap());
         let steps = plan["steps"].as_array().unwrap();
         assert!(
-            said.contains(&format!("does all {} steps", steps.len())) && said.contains("within 1e-"),
-            "{world}: {said}"
+            report.contains(&format!("does all {} steps", steps.len())) && report.contains("within 1e-"),
+            "{world}: {report}"
         );
         let fails = |world: &str, what: &str, certificate: &str| {
             let judged = check(&urdf, world, certificate);
@@ -142,15 +142,15 @@ fn certified_of(urdf: &str, world: &str) -> (i32, String, Option<String>) {
     let done = place.run(&["arm.urdf", "world.toml"], "--quiet --certificate c.json");
     let certificate = place.path("c.json").exists().then(|| place.read("c.json"));
     assert_eq!(certificate.is_none(), done.stderr.contains(NONE), "{}", done.stderr);
-    let said = certificate.map(|text| check(urdf, world, &text).unwrap_or_else(|why| panic!("{why}\n{text}")));
-    (done.code, done.stderr, said)
+    let report = certificate.map(|text| check(urdf, world, &text).unwrap_or_else(|why| panic!("{why}\n{text}")));
+    (done.code, done.stderr, report)
 }
 
 /// Checks that a task of the shipped SCARA is infeasible.
 #[track_caller]
 fn is_infeasible(world: &str) {
-    let (code, stderr, said) = certified(world);
-    assert!(code == 3 && said.is_none(), "{code} {stderr}");
+    let (code, stderr, report) = certified(world);
+    assert!(code == 3 && report.is_none(), "{code} {stderr}");
 }
 
 /// If a group is infeasible among other pairs, it is so in all orders.
@@ -257,8 +257,8 @@ pick = "part"
         assert_eq!(done.code, code, "{height}: {}", done.stderr);
         let [urdf, world, certificate] = ["arm.urdf", "world.toml", "c.json"].map(|file| place.path(file));
         if code == 0 {
-            let said = check_files(&urdf, &world, &certificate);
-            assert!(said.is_ok(), "{height}: {said:?}");
+            let report = check_files(&urdf, &world, &certificate);
+            assert!(report.is_ok(), "{height}: {report:?}");
         }
     }
 }
@@ -282,8 +282,8 @@ fn what_presses_into_its_supports_has_certificates() {
         is_infeasible(&into(depth).replace(square, bent));
     }
     let beside = into(0.0).replace("at = [0.26, 0.345]", "at = [0.30, -0.21]").replace(square, bent);
-    let (code, stderr, said) = certified(&beside);
-    assert!(code == 0 && said.is_some_and(|said| said.contains("does all")), "{code} {stderr}");
+    let (code, stderr, report) = certified(&beside);
+    assert!(code == 0 && report.is_some_and(|report| report.contains("does all")), "{code} {stderr}");
 }
 
 /// Rings around pegs have convex pieces some of whose sides extend sides of the hole.
@@ -318,9 +318,9 @@ fn rings_on_pegs_have_certificates() {
              [[object]]\nname = \"ring\"\npolygon = {ring}\nat = [1.0, 0.8]\nheight = [0, 0.01]\nsupports = [\"peg\"]\n\
              [[step]]\npick = \"ring\"\n[[step]]\nplace = {{ at = [1.0, 0.8] }}\n"
         );
-        let (found, stderr, said) = certified_of(&read(&shipped("robots/gantry.urdf")), &world);
+        let (found, stderr, report) = certified_of(&read(&shipped("robots/gantry.urdf")), &world);
         assert_eq!(found, code, "{peg}: {stderr}");
-        assert_eq!(said.is_some_and(|said| said.contains("does all 2 steps")), code == 0, "{peg}: {stderr}");
+        assert_eq!(report.is_some_and(|report| report.contains("does all 2 steps")), code == 0, "{peg}: {stderr}");
     }
 }
 
@@ -381,8 +381,8 @@ fn what_is_renewed_is_there_until_the_arm_goes_on() {
             let done = place.run(&[&urdf, "w.toml"], &options);
             assert_eq!(done.code, code, "{}{}", done.stdout, done.stderr);
             if code == 0 {
-                let said = check(&read(&urdf), &world(high, x), &place.read(&format!("c{number}.json"))).unwrap();
-                assert!(said.contains("does all 6 steps"), "{said}");
+                let report = check(&read(&urdf), &world(high, x), &place.read(&format!("c{number}.json"))).unwrap();
+                assert!(report.contains("does all 6 steps"), "{report}");
             }
         }
         // The motion high above the object does not touch it.
@@ -405,9 +405,9 @@ fn boxes_reach_across_half_a_turn() {
     let motion =
         "[robot]\nlimits = { elbow = [-6.3, 6.3] }\n[start]\njoints = [2.4, 0.8]\n[goal]\ntip = [-1.48, -0.64]\n";
     for (world, code) in [(task, 3), (motion.to_owned() + &block(-1.0, 0.15, 0.11), 0)] {
-        let (found, stderr, said) = certified_of(&urdf, &world);
+        let (found, stderr, report) = certified_of(&urdf, &world);
         assert_eq!(found, code, "{stderr}");
-        assert_eq!(said.is_some_and(|said| said.contains("is shorter than")), code == 0, "{stderr}");
+        assert_eq!(report.is_some_and(|report| report.contains("is shorter than")), code == 0, "{stderr}");
     }
 }
 
@@ -453,23 +453,23 @@ fn what_is_asked_in_place_of_the_world_is_in_the_certificate() {
     let done = place.run(&files, options);
     assert_eq!(done.code, 0, "{}", done.stderr);
     let judged = |certificate: &str| check(&read(&files[0]), &read(&files[1]), certificate);
-    let said = judged(&place.read("c.json")).unwrap();
+    let report = judged(&place.read("c.json")).unwrap();
     for part in ["start (0.5, 0.69813170079773", "with clearance 0.0005 (", "read as cubic or quartic"] {
-        assert!(said.contains(part), "{said}");
+        assert!(report.contains(part), "{report}");
     }
     // Anybody's record of it, too.
     let verify = ["verify", &files[0], &files[1], "plan.json"];
     let options = "--quiet --certificate v.json --start 0.5,40deg --clearance 0.0005";
     let done = place.run(&verify, options);
     assert_eq!(done.code, 0, "{}", done.stderr);
-    let said = judged(&place.read("v.json")).unwrap();
-    assert!(said.contains("does all 5 steps") && said.contains("read as quartic"), "{said}");
+    let report = judged(&place.read("v.json")).unwrap();
+    assert!(report.contains("does all 5 steps") && report.contains("read as quartic"), "{report}");
     // Uses one of its motions, with all objects at their initial places.
     place.write("rise.csv", "shoulder,elbow\n0.6,0.8\n0.5,0.8\n");
     let done = place.run(&["verify", &files[0], &files[1], "rise.csv"], "--quiet --certificate r.json");
     assert_eq!(done.code, 0, "{}", done.stderr);
-    let said = judged(&place.read("r.json")).unwrap();
-    assert!(said.contains("to the goal (0.5, 0.8)"), "{said}");
+    let report = judged(&place.read("r.json")).unwrap();
+    assert!(report.contains("to the goal (0.5, 0.8)"), "{report}");
 }
 
 /// The certificates are bound like those of motions: by digests, in the result, and with joint values slightly inside

@@ -95,8 +95,8 @@ fn infeasible_results_and_blocked_ends_suggest_an_explanation() {
     {
         let done = place.run(&files, options);
         assert_eq!(done.code, code, "{options}: {}", done.stderr);
-        let said = if code == 1 { done.stderr } else { done.stdout };
-        let command = said.lines().find_map(|line| line.split("see the blockers: cplan ").nth(1)).expect("a command");
+        let report = if code == 1 { done.stderr } else { done.stdout };
+        let command = report.lines().find_map(|line| line.split("see the blockers: cplan ").nth(1)).expect("a command");
         let explained = place.run(&help::words(command), "");
         assert_eq!(explained.code, 3, "{command}: {}{}", explained.stdout, explained.stderr);
     }
@@ -288,10 +288,10 @@ fn recheck_accepts_true_bounds_and_no_others() {
         assert_eq!((holds.code, holds.stdout.starts_with("the bound holds")), (0, true), "{world}: {}", holds.stderr);
         // One bound is too high, one belongs to no length, and one to another world.
         let lower = made["optimum"]["lower_bound"].as_f64().unwrap();
-        for (wrong, said) in [(lower * (1.0 + 2e-4), "are not bounds"), (lower * 1.01, "not confirmed")] {
+        for (wrong, report) in [(lower * (1.0 + 2e-4), "are not bounds"), (lower * 1.01, "not confirmed")] {
             made["optimum"]["lower_bound"] = wrong.into();
             place.write("wrong.json", made.to_string());
-            place.run(&recheck, "--proof wrong.json").refused(1, &["wrong.json", said]);
+            place.run(&recheck, "--proof wrong.json").refused(1, &["wrong.json", report]);
             made["optimum"]["length"] = (lower * 1.02).into();
         }
     }

@@ -27,8 +27,8 @@ fn is_answered(done: &Done, text: &str) -> bool {
     let own = vec![json.clone()];
     let diagnostics = json["defects"].as_array().filter(|diagnostics| !diagnostics.is_empty()).unwrap_or(&own);
     for diagnostic in diagnostics {
-        let said = |key: &str| diagnostic[key].as_str().is_some_and(|text| !text.trim().is_empty());
-        assert!(said("file") && said("message") && said("cure"), "{diagnostic:#}\n{text}");
+        let report = |key: &str| diagnostic[key].as_str().is_some_and(|text| !text.trim().is_empty());
+        assert!(report("file") && report("message") && report("cure"), "{diagnostic:#}\n{text}");
         let message = diagnostic["message"].as_str().unwrap_or_default();
         let is_missing = MISSING.iter().any(|words| message.contains(words));
         let is_document =
@@ -118,6 +118,6 @@ fn a_json_list_is_no_motion() {
         assert!(json["cure"].as_str().unwrap().contains("JointTrajectory"), "{json}");
     }
     place.write("motion.json", "[]");
-    let said = place.run(&["verify", &robot, "world.toml", "motion.json"], "");
-    said.refused(1, &["motion.json: line 1, column 1: is a list, but must be an object { ... }", "hint: "]);
+    let report = place.run(&["verify", &robot, "world.toml", "motion.json"], "");
+    report.refused(1, &["motion.json: line 1, column 1: is a list, but must be an object { ... }", "hint: "]);
 }

@@ -74,13 +74,13 @@ fn a_path_that_touches_exact_polygons_is_not_what_is_certified() {
     for planner in ["shortest", "visibility", "visibility --graph full"] {
         let done = place.run(&maze(), &format!("--margin 0 --planner {planner}"));
         assert_eq!(done.code, 0, "{}", done.stderr);
-        let told: Vec<&str> = done.stdout.lines().filter(|line| line.starts_with("exact")).collect();
+        let output: Vec<&str> = done.stdout.lines().filter(|line| line.starts_with("exact")).collect();
         assert!(
-            told.len() == 1 && told[0].contains("among the exact polygons, but that path touches"),
+            output.len() == 1 && output[0].contains("among the exact polygons, but that path touches"),
             "{}",
             done.stdout
         );
-        let exact: f64 = told[0].split_whitespace().nth(2).unwrap().parse().unwrap();
+        let exact: f64 = output[0].split_whitespace().nth(2).unwrap().parse().unwrap();
         let result = place.run(&maze(), &format!("--margin 0 --planner {planner} --json --quiet")).json();
         let (length, clearance) = (result["length"].as_f64().unwrap(), result["clearance"].as_f64().unwrap());
         assert!(result["certified"] == true && clearance > 0.0, "{clearance}");

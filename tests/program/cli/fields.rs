@@ -155,7 +155,7 @@ fn the_cup_traps_until_all_repel_more_and_then_the_goal_is_blocked() {
     assert!(trapped("1").contains("local minimum at (0.2500, 3.7500)"), "{}", trapped("1"));
     assert_eq!(run("--repulsion sum:3").code, 0);
     assert!(trapped("4").contains("local minimum at (0.2500, -12.7500)"), "{}", trapped("4"));
-    for (charge, escape, said) in [
+    for (charge, escape, report) in [
         ("1", "wave", "escaped from a local minimum by a wave over the basin: "),
         ("1", "walk", "by random walks: "),
         ("4", "walk:7", "by random walks: "),
@@ -168,7 +168,7 @@ fn the_cup_traps_until_all_repel_more_and_then_the_goal_is_blocked() {
         let named = if escape == "walk" { "walk:1" } else { escape };
         assert!(field["escape"] == named && field["escaped"].as_u64() >= Some(1), "{field}");
         let text = place.run(&cup, &format!("{} {options}", forces.replace("--json", ""))).stdout;
-        assert!(text.contains(said) && text.contains(&format!(", escape {named}; limits high")), "{options}: {text}");
+        assert!(text.contains(report) && text.contains(&format!(", escape {named}; limits high")), "{options}: {text}");
     }
 }
 
@@ -293,8 +293,8 @@ fn cells_that_are_not_square_are_told_and_change_the_path() {
         let done = place.run(&files, &format!("{COARSE} --relaxation sor --measure relative --stencil {stencil}"));
         assert_eq!(done.code, 0, "{}", done.stderr);
         let result = done.json();
-        let told = result["field"]["stencil"].clone();
-        (told, result["length"].as_f64().unwrap())
+        let message = result["field"]["stencil"].clone();
+        (message, result["length"].as_f64().unwrap())
     };
     let [square, anisotropic] = ["square", "anisotropic"].map(length);
     assert_eq!((square.0, anisotropic.0), (Value::Null, json!("anisotropic")));

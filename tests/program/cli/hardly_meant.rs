@@ -115,10 +115,10 @@ fn verify_judges_limits_that_are_given_and_reports_the_others() {
     place.write("motion.csv", FAST);
     place.write("arm.urdf", arm(&[("velocity=\"2.0\"", "velocity=\"3.0\"")]));
     let verify = |options: &str| place.run(&["verify", "arm.urdf", "world.toml", "motion.csv"], options);
-    let said = verify("--anywhere");
-    assert_eq!(said.code, 0, "{}", said.stdout);
+    let report = verify("--anywhere");
+    assert_eq!(report.code, 0, "{}", report.stdout);
     for part in ["elbow: acceleration 60.000000 rad/s2, at most 12.000000", "so this does not count", ASSUMED] {
-        assert!(said.stdout.contains(part), "{part:?} is not in: {}", said.stdout);
+        assert!(report.stdout.contains(part), "{part:?} is not in: {}", report.stdout);
     }
     let json = verify("--anywhere --json").json();
     assert_eq!((&json["verdict"], json["limits_broken"].as_array().unwrap().len()), (&"free".into(), 0));
@@ -134,9 +134,9 @@ fn verify_judges_limits_that_are_given_and_reports_the_others() {
     assert_eq!(verify("--anywhere").code, 3);
     // A speed that nobody gives does not.
     place.write("arm.urdf", arm(&[(" velocity=\"2.0\"", ""), (" velocity=\"3.0\"", "")]));
-    let said = verify("--anywhere");
-    assert_eq!(said.code, 0, "{}", said.stdout);
-    assert!(said.stdout.contains("shoulder: velocity 3.000000 rad/s, at most 1.000000"), "{}", said.stdout);
+    let report = verify("--anywhere");
+    assert_eq!(report.code, 0, "{}", report.stdout);
+    assert!(report.stdout.contains("shoulder: velocity 3.000000 rad/s, at most 1.000000"), "{}", report.stdout);
 }
 
 #[test]

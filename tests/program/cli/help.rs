@@ -140,8 +140,8 @@ fn offered_by_fish(place: &Place, line: &str) -> Option<Vec<String>> {
     let script = format!("source cplan.fish; complete -C '{line}'");
     let mut fish = std::process::Command::new("fish");
     fish.args(["--no-config", "-c", &script]).current_dir(place.path("")).env("HOME", place.path(""));
-    let said = String::from_utf8(fish.output().ok()?.stdout).expect("UTF-8");
-    Some(said.lines().filter_map(|line| line.split('\t').next()).map(str::to_owned).collect())
+    let report = String::from_utf8(fish.output().ok()?.stdout).expect("UTF-8");
+    Some(report.lines().filter_map(|line| line.split('\t').next()).map(str::to_owned).collect())
 }
 
 #[test]

@@ -56,14 +56,14 @@ fn without_a_file_the_world_is_printed() {
     let world: toml::Table = toml::from_str(&done.stdout).unwrap();
     assert_eq!(names(&world), ["old"]);
     assert!(world.get("start").is_none() && done.stdout.contains("#[start]"));
-    let told = place.run(&["import", &cell()], "--json").json();
-    assert_eq!((&told["status"], told["obstacles"].as_array().unwrap().len()), (&Value::from("imported"), 9));
+    let message = place.run(&["import", &cell()], "--json").json();
+    assert_eq!((&message["status"], message["obstacles"].as_array().unwrap().len()), (&Value::from("imported"), 9));
     assert_eq!(
-        (&told["obstacles"][1]["kind"], &told["obstacles"][1]["height"][1]),
+        (&message["obstacles"][1]["kind"], &message["obstacles"][1]["height"][1]),
         (&"LWPOLYLINE".into(), &0.9.into())
     );
-    toml::from_str::<toml::Table>(told["world"].as_str().unwrap()).unwrap();
-    let notes: Vec<&str> = told["notes"].as_array().unwrap().iter().map(|note| note.as_str().unwrap()).collect();
+    toml::from_str::<toml::Table>(message["world"].as_str().unwrap()).unwrap();
+    let notes: Vec<&str> = message["notes"].as_array().unwrap().iter().map(|note| note.as_str().unwrap()).collect();
     assert!(notes.contains(&"layer \"old\" is switched off and left out; --layer imports it (line 3186)"), "{notes:?}");
 }
 
@@ -126,15 +126,19 @@ fn what_a_frozen_layer_brings_in_is_left_out_by_its_name() {
         assert_eq!(done.code, 0, "{}", done.stderr);
         (world(&place, "w.toml")["obstacle"].as_array().unwrap().len(), done.stdout)
     };
-    let told = ["off", "cold"].map(|layer| format!("layer \"{layer}\" is switched off and left out"));
+    let message = ["off", "cold"].map(|layer| format!("layer \"{layer}\" is switched off and left out"));
     for (options, count, is_told) in [
         ("", 1, [true, true]),
         ("--layer on", 1, [false, true]),
         ("--layer cold", 2, [false; 2]),
         ("--layer pin", 4, [false; 2]),
     ] {
-        let (taken, said) = taken(options);
-        assert_eq!((taken, told.clone().map(|note| said.contains(&note))), (count, is_told), "{options}: {said}");
+        let (taken, output) = taken(options);
+        assert_eq!(
+            (taken, message.clone().map(|note| output.contains(&note))),
+            (count, is_told),
+            "{options}: {output}"
+        );
     }
 }
 
@@ -210,14 +214,14 @@ fn options_take_the_names_that_the_world_gives() {
 fn notes_are_of_what_is_taken() {
     let place = Place::new();
     place.write("hall.dxf", hall());
-    let told = |options: &str| {
-        let told = place.run(&["import", "hall.dxf"], &format!("{options} --json")).json();
-        told["notes"].as_array().unwrap().iter().map(|note| note.as_str().unwrap().to_owned()).collect::<Vec<_>>()
+    let message = |options: &str| {
+        let message = place.run(&["import", "hall.dxf"], &format!("{options} --json")).json();
+        message["notes"].as_array().unwrap().iter().map(|note| note.as_str().unwrap().to_owned()).collect::<Vec<_>>()
     };
-    assert_eq!(told(""), ["TEXT: left out (2 times, first in line 82)", "HATCH: left out (line 88)"]);
-    assert_eq!(told("--layer FEEDER"), ["HATCH: left out (line 88)", "TEXT: left out (line 92)"]);
-    assert_eq!(told("--layer walls"), ["TEXT: left out (line 82)"]);
-    assert_eq!(told("--without walls"), ["HATCH: left out (line 88)", "TEXT: left out (line 92)"]);
+    assert_eq!(message(""), ["TEXT: left out (2 times, first in line 82)", "HATCH: left out (line 88)"]);
+    assert_eq!(message("--layer FEEDER"), ["HATCH: left out (line 88)", "TEXT: left out (line 92)"]);
+    assert_eq!(message("--layer walls"), ["TEXT: left out (line 82)"]);
+    assert_eq!(message("--without walls"), ["HATCH: left out (line 88)", "TEXT: left out (line 92)"]);
 }
 
 #[test]
@@ -256,26 +260,26 @@ fn what_comes_in_with_a_block_has_its_place() {
 #[test]
 fn what_is_hardly_meant_is_told_with_its_cure() {
     let place = Place::new();
-    let told = |entities: &str, options: &str| {
+    let message = |entities: &str, options: &str| {
         place.write("w.dxf", dxf(entities));
-        let told = place.run(&["import", "w.dxf"], &format!("{options} --json")).json();
-        told["notes"].as_array().unwrap().iter().map(|note| note.as_str().unwrap().to_owned()).collect::<Vec<_>>()
+        let message = place.run(&["import", "w.dxf"], &format!("{options} --json")).json();
+        message["notes"].as_array().unwrap().iter().map(|note| note.as_str().unwrap().to_owned()).collect::<Vec<_>>()
     };
     let base = "0 LWPOLYLINE 8 robot 70 1 10 -50 20 -50 10 50 20 -50 10 50 20 50 10 -50 20 50 ";
     let post = "0 CIRCLE 8 post 10 500 20 0 40 20 ";
     let reach = "0 CIRCLE 8 reach 10 0 20 0 40 700 ";
     let over = "\"robot\" covers (0, 0), the arm's base: --without robot leaves it out, \
                 --move shifts the drawing (line 16)";
-    assert_eq!(told(&format!("{base}{post}"), ""), [over]);
-    assert_eq!(told(&format!("{base}{post}"), "--without robot"), [""; 0]);
-    assert_eq!(told(&format!("{base}{post}"), "--move 0.2,0"), [""; 0]);
+    assert_eq!(message(&format!("{base}{post}"), ""), [over]);
+    assert_eq!(message(&format!("{base}{post}"), "--without robot"), [""; 0]);
+    assert_eq!(message(&format!("{base}{post}"), "--move 0.2,0"), [""; 0]);
     let around = "\"reach\" is solid and encloses everything else: --walls reach makes it a wall, --without reach leaves it out (line 16)";
-    assert_eq!(told(&format!("{reach}{post}"), ""), [around]);
-    assert_eq!(told(&format!("{post}0 CIRCLE 8 post 10 900 20 0 40 20 "), ""), [""; 0]);
+    assert_eq!(message(&format!("{reach}{post}"), ""), [around]);
+    assert_eq!(message(&format!("{post}0 CIRCLE 8 post 10 900 20 0 40 20 "), ""), [""; 0]);
     let wide = |width: &str| format!("the whole drawing is {width} wide; if that is wrong, give its --unit");
     let two = format!("{post}0 CIRCLE 8 post 10 900 20 0 40 20 ");
-    assert_eq!(told(&two, "--unit m"), [wide("440 m")]);
-    assert_eq!(told(&two, "--unit um"), [wide("0.440 mm")]);
+    assert_eq!(message(&two, "--unit m"), [wide("440 m")]);
+    assert_eq!(message(&two, "--unit um"), [wide("0.440 mm")]);
     // The main job and `inspect` report it, too.
     assert_eq!(place.run(&["import", "w.dxf"], "--unit m --start 0,1 --goal 1,0.5 --output far.toml").code, 0);
     let robot = shipped("robots/planar_2r.urdf");

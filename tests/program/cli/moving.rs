@@ -23,14 +23,14 @@ fn the_arm_waits_until_the_cart_has_gone() {
         assert!(done.stdout.contains(part), "no {part} in {}", done.stdout);
     }
     let result: Value = serde_json::from_str(&place.read("m.json")).unwrap();
-    let told = &result["moving"];
+    let output = &result["moving"];
     let number = |value: &Value| value.as_f64().expect("a number");
-    assert_eq!((&told["obstacles"], &told["free_until"]), (&1.into(), &Value::Null));
+    assert_eq!((&output["obstacles"], &output["free_until"]), (&1.into(), &Value::Null));
     assert_eq!(result["closest"], "link \"forearm\" and obstacle \"cart\"");
-    assert!(number(&result["clearance"]) <= number(&told["clearance"]) && number(&result["clearance"]) > 0.0);
+    assert!(number(&result["clearance"]) <= number(&output["clearance"]) && number(&result["clearance"]) > 0.0);
     // The cart leaves the path at 2.9 s at the earliest, and the arm takes 1.15 s without it.
-    let [from, to] = ["from", "to"].map(|end| number(&told["waits"][0][end]));
-    assert!(from < 1.0 && 1.0 < to && to < 3.0, "{told}");
+    let [from, to] = ["from", "to"].map(|end| number(&output["waits"][0][end]));
+    assert!(from < 1.0 && 1.0 < to && to < 3.0, "{output}");
     assert!((2.9..3.7).contains(&number(&result["duration"])), "{}", result["duration"]);
     // Every consumer plays the certified motion.
     for file in ["m.json", "m.csv", "m.yaml"] {
@@ -76,20 +76,20 @@ fn the_fastest_motion_is_timed_along_its_own_path() {
         place.run(&[&shipped("robots/planar_2r.urdf"), "w.toml"], "--optimize time --json").json()
     };
     // The disc arrives at the position of the upper arm.
-    let told = plan("{ time = 4, at = [0, 3] }, { time = 6, at = [0.638, 0.77] }");
-    let until = told["moving"]["free_until"].as_f64().expect("a time");
-    let goal = told["path"].as_array().unwrap().last().unwrap().to_string();
+    let output = plan("{ time = 4, at = [0, 3] }, { time = 6, at = [0.638, 0.77] }");
+    let until = output["moving"]["free_until"].as_f64().expect("a time");
+    let goal = output["path"].as_array().unwrap().last().unwrap().to_string();
     for (time, result) in [(until - 0.01, "result     free"), (until + 0.01, "result     not free")] {
         let at = format!("--at={} --time {time}", goal.trim_matches(['[', ']']));
         let checked = place.run(&["check", &shipped("robots/planar_2r.urdf"), "w.toml"], &at);
         assert!(checked.stdout.contains(result), "{at}: {}{}", checked.stdout, checked.stderr);
     }
     // The disc blocks only the other solution.
-    let told = plan(
+    let output = plan(
         "{ time = 0, at = [3, 0.2] }, { time = 3, at = [1.25, 0.25] }, { time = 6, at = [1.25, 0.25] }, { time = 9, at = [3, 0.2] }",
     );
-    assert_eq!(told["moving"]["waits"].as_array().map(Vec::len), Some(0), "{told}");
-    assert!(told["duration"].as_f64().unwrap() < 3.5, "{told}");
+    assert_eq!(output["moving"]["waits"].as_array().map(Vec::len), Some(0), "{output}");
+    assert!(output["duration"].as_f64().unwrap() < 3.5, "{output}");
 }
 
 #[test]
@@ -107,9 +107,9 @@ fn where_no_timing_helps_that_is_proven_and_the_answer_is_unknown() {
     let place = Place::new();
     let done = place.run(&moving("parked"), "--json");
     assert_eq!(done.code, 4, "{}", done.stderr);
-    let told = done.json();
-    assert_eq!((&told["status"], &told["trajectory"]), (&"unknown".into(), &Value::Null));
-    let reason = told["reason"].as_str().unwrap();
+    let output = done.json();
+    assert_eq!((&output["status"], &output["trajectory"]), (&"unknown".into(), &Value::Null));
+    let reason = output["reason"].as_str().unwrap();
     assert!(reason.contains("along the one route tried, no timing avoids the moving obstacles (proven)"), "{reason}");
 }
 
@@ -135,9 +135,9 @@ fn motions_that_are_none_are_refused_with_their_place() {
     // Where the arm begins.
     let done = place.plan(world("{ stops = [{ time = 0, at = [0.6, -0.8] }, { time = 1, at = [3, 3] }] }"), "--json");
     assert_eq!(done.code, 1);
-    let told = done.json();
-    assert_eq!(told["kind"], "start");
-    assert!(told["message"].as_str().unwrap().contains("hits moving obstacle \"cart\""), "{told}");
+    let output = done.json();
+    assert_eq!(output["kind"], "start");
+    assert!(output["message"].as_str().unwrap().contains("hits moving obstacle \"cart\""), "{output}");
 }
 
 #[test]

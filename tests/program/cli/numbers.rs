@@ -15,9 +15,9 @@ fn a_tiny_clearance_is_no_zero() {
     place.write("world.toml", wall(1.800_000_6));
     place.write("motion.csv", "shoulder,elbow\n0,0\n0,0.0000001\n");
     let robot = shipped("robots/planar_2r.urdf");
-    let said = place.run(&["verify", &robot, "world.toml", "motion.csv"], "--anywhere").stdout;
-    assert!(!said.contains("-0.0000") && !said.contains(" 0.000000 m proven"), "{said}");
-    assert!(said.contains("e-7 m proven") || said.contains("e-7 m apart"), "{said}");
+    let report = place.run(&["verify", &robot, "world.toml", "motion.csv"], "--anywhere").stdout;
+    assert!(!report.contains("-0.0000") && !report.contains(" 0.000000 m proven"), "{report}");
+    assert!(report.contains("e-7 m proven") || report.contains("e-7 m apart"), "{report}");
 }
 
 #[test]
@@ -25,17 +25,17 @@ fn a_value_just_beyond_its_limits_is_told_from_them() {
     let place = Place::new();
     place.write("world.toml", FREE);
     let robot = shipped("robots/planar_2r.urdf");
-    let said = place.run(&["check", &robot, "world.toml"], "--at -2.900001,-0.0").stdout;
+    let report = place.run(&["check", &robot, "world.toml"], "--at -2.900001,-0.0").stdout;
     let limits = "shoulder: -2.900001 rad (-166.15782 deg) is OUTSIDE -2.900000 rad (-166.15776 deg) to 2.900000 rad";
-    assert!(said.contains(limits), "{said}");
-    assert!(said.contains("elbow: 0.0000 rad (0.00 deg) is within"), "{said}");
+    assert!(report.contains(limits), "{report}");
+    assert!(report.contains("elbow: 0.0000 rad (0.00 deg) is within"), "{report}");
     let sliding = std::fs::read_to_string(&robot).unwrap();
     let sliding =
         sliding.replace("type=\"revolute\"", "type=\"prismatic\"").replacen("xyz=\"0 0 1\"", "xyz=\"1 0 0\"", 1);
     let sliding = sliding.replacen("<axis xyz=\"0 0 1\"/>", "<axis xyz=\"0 1 0\"/>", 1);
     place.write("gantry.urdf", sliding.replace("lower=\"-2.9\" upper=\"2.9\"", "lower=\"0\" upper=\"1\""));
-    let said = place.run(&["check", "gantry.urdf", "world.toml"], "--at -1e-6,0").stdout;
-    assert!(said.contains("-0.000001 m is OUTSIDE 0.000000 m to 1.000000 m"), "{said}");
+    let report = place.run(&["check", "gantry.urdf", "world.toml"], "--at -1e-6,0").stdout;
+    assert!(report.contains("-0.000001 m is OUTSIDE 0.000000 m to 1.000000 m"), "{report}");
 }
 
 #[test]

@@ -128,8 +128,8 @@ fn links_that_meet_in_every_configuration_are_named() {
         <link name="plate"> <collision> <origin xyz="0 0 0.42"/> <geometry> <cylinder radius="3" length="0.01"/> </geometry> </collision> </link>"#;
     let (_, done) = run(&scara(0.39, plate), &world("", [0.0, -1.0]), "");
     assert_eq!(done.code, 0, "{}", done.stderr);
-    let said = "links that meet in every configuration is ignored: \"plate\" and \"outer\", \"plate\" and \"quill\"";
-    assert!(done.stdout.contains(said), "{}", done.stdout);
+    let report = "links that meet in every configuration is ignored: \"plate\" and \"outer\", \"plate\" and \"quill\"";
+    assert!(done.stdout.contains(report), "{}", done.stdout);
     let neighbors = "\"base_link\" and \"inner\", \"inner\" and \"outer\"";
     assert!(done.stdout.contains(neighbors), "{}", done.stdout);
 }

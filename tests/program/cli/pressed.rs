@@ -241,8 +241,8 @@ fn outlines_say_the_same_however_they_are_written() {
         assert_eq!(done.code, 0, "{what}: {}", done.stderr);
         assert_eq!(place.path("c.json").exists(), is_certified, "{what}: {}", done.stderr);
         if is_certified {
-            let said = cplan_check_files::check_files(urdf.as_ref(), &place.path("w.toml"), &place.path("c.json"));
-            assert!(said.is_ok_and(|said| said.contains("does all 2 steps")), "{what}");
+            let report = cplan_check_files::check_files(urdf.as_ref(), &place.path("w.toml"), &place.path("c.json"));
+            assert!(report.is_ok_and(|report| report.contains("does all 2 steps")), "{what}");
         } else {
             assert!(
                 done.stderr

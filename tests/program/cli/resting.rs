@@ -54,8 +54,8 @@ fn planned(place: &Place, world: &str) -> Done {
     let urdf = shipped("robots/scara.urdf");
     let done = place.run(&[&urdf, "world.toml"], "--certificate c.json --output plan.json");
     if done.code == 0 {
-        let said = check(&std::fs::read_to_string(&urdf).unwrap(), world, &place.read("c.json"));
-        assert!(said.is_ok(), "{said:?}\n{world}");
+        let report = check(&std::fs::read_to_string(&urdf).unwrap(), world, &place.read("c.json"));
+        assert!(report.is_ok(), "{report:?}\n{world}");
         let verified = place.run(&["verify", &urdf, "world.toml", "plan.json"], "");
         assert_eq!(verified.code, 0, "{}{world}", verified.stdout);
     }
@@ -98,8 +98,8 @@ fn the_checker_knows_the_tolerance_by_itself() {
         assert_eq!(planned(&place, &cell.set_down()).code, 0);
         let certificate = without(&place.read("c.json"));
         for (top, holds) in [(0.04, true), (0.050_001, true), (0.050_001_1, false), (0.06, false)] {
-            let said = check(&urdf, &Cell { top, ..Cell::new(hand) }.set_down(), &certificate);
-            assert_eq!(said.is_ok(), holds, "{hand:?}, table up to {top}: {said:?}");
+            let report = check(&urdf, &Cell { top, ..Cell::new(hand) }.set_down(), &certificate);
+            assert_eq!(report.is_ok(), holds, "{hand:?}, table up to {top}: {report:?}");
         }
         let deep = Cell { top: 0.06, ..Cell::new(hand) };
         assert_eq!(planned(&place, &deep.set_down()).code, 3);

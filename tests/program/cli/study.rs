@@ -219,9 +219,9 @@ fn the_search_finds_better_layouts_and_says_what_it_tried() {
     let alone: Value =
         serde_json::from_str(&place.run(&command.split(' ').collect::<Vec<_>>(), "--json").stdout).unwrap();
     assert_eq!(alone["length"], summary["best"]["measured"]["length"]);
-    let told = run(&place, "--output best.toml").stdout;
-    assert!(told.contains(&format!("to plan layout {}: cplan ", summary["best"]["layout"])), "{told}");
-    assert!(told.contains("planar_2r.urdf best.toml --clearance=0.003\n"), "{told}");
+    let output = run(&place, "--output best.toml").stdout;
+    assert!(output.contains(&format!("to plan layout {}: cplan ", summary["best"]["layout"])), "{output}");
+    assert!(output.contains("planar_2r.urdf best.toml --clearance=0.003\n"), "{output}");
     assert_eq!(run(&place, "--output u.csv --jobs 1 --quiet").code, 0);
     assert_eq!(place.read("t.csv"), place.read("u.csv"));
 }
@@ -242,10 +242,10 @@ fn robots_vary_as_well_as_worlds() {
         rows(&place.read("t.csv")).iter().map(|row| field(row, "duration").parse().unwrap()).collect();
     assert!(times[0] > times[1] && times[1] > times[2], "{times:?}");
     // A layout has its own robot, in a separate file.
-    let said = run(&place, "--layout 1 --output one.toml").stderr;
-    assert!(said.contains("--output one.urdf writes it"), "{said}");
-    let said = run(&place, "--layout 1 --output one.toml --output one.urdf").stderr;
-    assert!(!said.contains("note:"), "{said}");
+    let report = run(&place, "--layout 1 --output one.toml").stderr;
+    assert!(report.contains("--output one.urdf writes it"), "{report}");
+    let report = run(&place, "--layout 1 --output one.toml --output one.urdf").stderr;
+    assert!(!report.contains("note:"), "{report}");
 }
 
 #[test]
@@ -467,10 +467,13 @@ fn ctrl_c_says_what_is_kept() {
     let sent = std::process::Command::new("kill").args(["-INT", &stopped.id().to_string()]).status().unwrap();
     assert!(sent.success());
     let done = stopped.wait_with_output().unwrap();
-    let said = String::from_utf8(done.stderr).unwrap();
-    assert_eq!(done.status.code(), Some(130), "{said}");
-    let kept = said.split("stopped: ").nth(1).unwrap().split(' ').next().unwrap().parse::<usize>().unwrap();
-    assert!(kept > 0 && said.contains(" of 8000 rows are kept in t.csv.part; the same command continues"), "{said}");
+    let report = String::from_utf8(done.stderr).unwrap();
+    assert_eq!(done.status.code(), Some(130), "{report}");
+    let kept = report.split("stopped: ").nth(1).unwrap().split(' ').next().unwrap().parse::<usize>().unwrap();
+    assert!(
+        kept > 0 && report.contains(" of 8000 rows are kept in t.csv.part; the same command continues"),
+        "{report}"
+    );
     // The file also has a line that names the study of the rows.
     assert!(lines() > kept, "{} {kept}", lines());
 }

@@ -141,8 +141,8 @@ fn consistent(arm: &Arm, result: &Value) {
         );
         let own = rows(&step["path"]);
         let at = arm.tip_at(own[own.len() - 1].into());
-        let told: [f64; 2] = serde_json::from_value(event["tip"].clone()).unwrap();
-        assert!(distance(told, at.into()) < 1e-12, "{event}");
+        let output: [f64; 2] = serde_json::from_value(event["tip"].clone()).unwrap();
+        assert!(distance(output, at.into()) < 1e-12, "{event}");
         let (time, arrival) = (number(event, "time"), number(step, "arrival"));
         if event["event"] == "grasp" {
             assert_eq!((&step["action"], &step["carried"], time), (&json!("pick"), &Value::Null, arrival));
@@ -385,5 +385,5 @@ fn walls_all_round_a_joint_have_no_end() {
     let done = place.run(&[&urdf, "w.toml"], "--quiet --output plan.json --certificate c.json");
     assert_eq!(done.code, 0, "{}", done.stderr);
     let checked = cplan_check_files::check_files(urdf.as_ref(), &place.path("w.toml"), &place.path("c.json"));
-    assert!(checked.is_ok_and(|said| said.contains("does all 2 steps")));
+    assert!(checked.is_ok_and(|report| report.contains("does all 2 steps")));
 }

@@ -47,9 +47,9 @@ fn names_of_obstacles_and_worlds_are_shown_with_escapes() {
             let done = place.run(arguments, "");
             assert_ne!(done.code, 2, "{}", done.stderr);
             harmless(&done, name);
-            let said = format!("{}{}", done.stdout, done.stderr);
+            let report = format!("{}{}", done.stdout, done.stderr);
             if arguments.contains(&"blocked.toml") || arguments[0] == "check" || arguments[0] == "verify" {
-                assert!(said.contains("wall"), "{arguments:?}: {said}");
+                assert!(report.contains("wall"), "{arguments:?}: {report}");
             }
             // JSON contains the unchanged name.
             if arguments.contains(&"--json") {
@@ -98,16 +98,16 @@ fn the_verdict_comes_first_and_what_was_taken_for_granted_last() {
 
 #[test]
 fn colours_are_for_terminals_that_want_them() {
-    let told = |variables: &[(&str, &str)]| {
+    let message = |variables: &[(&str, &str)]| {
         let output = Place::new().command().args(shelf()).envs(variables.iter().copied()).output().unwrap();
         String::from_utf8(output.stdout).unwrap()
     };
     let timeless = |text: &str| text.lines().filter(|line| !line.starts_with("time ")).collect::<Vec<_>>().join("\n");
-    let plain = told(&[]);
+    let plain = message(&[]);
     assert!(!plain.contains('\u{1b}'), "{plain:?}");
-    let forced = told(&[("CLICOLOR_FORCE", "1"), ("COLUMNS", "40")]);
+    let forced = message(&[("CLICOLOR_FORCE", "1"), ("COLUMNS", "40")]);
     assert!(forced.starts_with("result     \u{1b}[1m\u{1b}[32mfound and certified\u{1b}[0m: "), "{forced:?}");
-    assert_eq!(timeless(&told(&[("CLICOLOR_FORCE", "1"), ("NO_COLOR", "1")])), timeless(&plain));
+    assert_eq!(timeless(&message(&[("CLICOLOR_FORCE", "1"), ("NO_COLOR", "1")])), timeless(&plain));
     // Output that is not for a terminal is never wrapped.
     assert_eq!(forced.lines().count(), plain.lines().count());
 }

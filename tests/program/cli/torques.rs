@@ -54,8 +54,8 @@ fn the_option_is_as_good_as_the_world() {
     let text = std::fs::read_to_string(&world).unwrap();
     place.write("silent.toml", text.replace("dynamics = true\n", ""));
     let silent = [urdf.as_str(), "silent.toml"];
-    let told = place.run(&upright(), "--json --quiet").json();
-    assert_eq!(place.run(&silent, "--torque --json --quiet").json(), told);
+    let output = place.run(&upright(), "--json --quiet").json();
+    assert_eq!(place.run(&silent, "--torque --json --quiet").json(), output);
     // Without the option, accelerations are assumed, and there are no torques to report.
     let without = place.run(&silent, "--output plain.json --json --quiet").json();
     assert!(without["trajectory"]["torque"].is_null() && !without["assumed"]["acceleration"].is_null());

@@ -46,8 +46,8 @@ fn run(place: &Place, shown: &Shown, code: i32) -> Option<String> {
     if done.code != code {
         return Some(format!("exit code {} instead of {code}\n{}{}", done.code, done.stdout, done.stderr));
     }
-    let said = if done.stdout.is_empty() { &done.stderr } else { &done.stdout };
-    difference(shown.says.as_ref()?, said)
+    let report = if done.stdout.is_empty() { &done.stderr } else { &done.stdout };
+    difference(shown.says.as_ref()?, report)
 }
 
 /// The mark of tables of commands.

@@ -52,48 +52,48 @@ fn lines(text: &str) -> Vec<String> {
 }
 
 /// Returns true if a printed line matches the line on the page.
-fn is_line(shown: &str, said: &str) -> bool {
+fn is_line(shown: &str, report: &str) -> bool {
     match shown.strip_suffix(OUT) {
-        Some(begin) => (0..=said.len())
-            .filter(|&k| said.is_char_boundary(k))
-            .any(|k| rounding::same(begin.trim_end(), said[..k].trim_end())),
-        None => rounding::same(shown, said),
+        Some(begin) => (0..=report.len())
+            .filter(|&k| report.is_char_boundary(k))
+            .any(|k| rounding::same(begin.trim_end(), report[..k].trim_end())),
+        None => rounding::same(shown, report),
     }
 }
 
-fn are_lines(shown: &[String], said: &[String]) -> bool {
+fn are_lines(shown: &[String], report: &[String]) -> bool {
     match shown {
-        [] => said.is_empty(),
-        [first, rest @ ..] if first.trim() == OUT => (0..=said.len()).any(|k| are_lines(rest, &said[k..])),
-        [first, rest @ ..] => said.first().is_some_and(|line| is_line(first, line)) && are_lines(rest, &said[1..]),
+        [] => report.is_empty(),
+        [first, rest @ ..] if first.trim() == OUT => (0..=report.len()).any(|k| are_lines(rest, &report[k..])),
+        [first, rest @ ..] => report.first().is_some_and(|line| is_line(first, line)) && are_lines(rest, &report[1..]),
     }
 }
 
-/// Returns `None` if `shown` matches `said`, else the difference.
-pub fn difference(shown: &str, said: &str) -> Option<String> {
-    let (shown, heard) = (lines(shown), lines(said));
+/// Returns `None` if `shown` matches `report`, else the difference.
+pub fn difference(shown: &str, report: &str) -> Option<String> {
+    let (shown, heard) = (lines(shown), lines(report));
     if are_lines(&shown, &heard) {
         return None;
     }
     let missing: Vec<&String> =
-        shown.iter().filter(|line| line.trim() != OUT && !heard.iter().any(|said| is_line(line, said))).collect();
+        shown.iter().filter(|line| line.trim() != OUT && !heard.iter().any(|report| is_line(line, report))).collect();
     let what = match missing.first() {
         Some(line) => format!("it does not say\n    {line}"),
         None => "it says that in another order, or more".into(),
     };
-    Some(format!("{what}\n  but\n    {}", said.trim_end().replace('\n', "\n    ")))
+    Some(format!("{what}\n  but\n    {}", report.trim_end().replace('\n', "\n    ")))
 }
 
 #[test]
 fn differences_are_seen() {
-    let said = "arm        two\ntime       load 0.7, query 2.3 ms\nfile       plan.json\n           plan.svg\n";
+    let report = "arm        two\ntime       load 0.7, query 2.3 ms\nfile       plan.json\n           plan.svg\n";
     for shown in [
-        said,
+        report,
         "[...]\nfile       plan.json\n[...]\n",
         "arm        t[...]\n[...]\n",
         "[...]\ntime       load 9.1, query 12.3 ms\n[...]\n",
     ] {
-        assert_eq!(difference(shown, said), None, "{shown}");
+        assert_eq!(difference(shown, report), None, "{shown}");
     }
     for shown in [
         "",
@@ -102,7 +102,7 @@ fn differences_are_seen() {
         "file       plan.json\n[...]\narm[...]\n[...]\n",
         "[...]\ntime       load 0.7, bound 2.3 ms\n[...]\n",
     ] {
-        assert!(difference(shown, said).is_some(), "{shown}");
+        assert!(difference(shown, report).is_some(), "{shown}");
     }
     let table = |time: &str, length: &str| {
         format!("planner  length  total [ms]\n-------  ------  ----------\nfirst    {length}  {time}\n\n")

@@ -131,9 +131,9 @@ fn other_traces_keep_their_parts() {
         expanded: vec![at(1.0, -0.25), at(0.0, 0.5)],
         kind: GraphKind::Roadmap,
     };
-    let told =
+    let output =
         serde_json::json!({ "kind": "roads", "edges": [0.0, 0.5, 1.0, -0.25], "expanded": [1.0, -0.25, 0.0, 0.5] });
-    assert_eq!(shown(&roads), told);
+    assert_eq!(shown(&roads), output);
     let picture = Picture { trace: Some(&roads), ..bare(&scene, &[]) };
     let svg = cplan::draw::svg(&View::of_picture(&picture));
     assert!(["roadmap", "expanded first", "expanded last"].iter().all(|key| svg.contains(key)), "{svg}");

@@ -42,13 +42,13 @@ impl Page {
     pub fn begin(&mut self, files: &Value) -> Value {
         self.id += 1;
         self.send(&json!({ "do": "open", "id": self.id, "files": files }).to_string());
-        let told = self.next();
-        assert_eq!(told["id"], self.id, "{told}");
-        if told["kind"] == "world" {
-            self.base = told["base"].as_u64().unwrap();
-            self.world = told.clone();
+        let output = self.next();
+        assert_eq!(output["id"], self.id, "{output}");
+        if output["kind"] == "world" {
+            self.base = output["base"].as_u64().unwrap();
+            self.world = output.clone();
         }
-        told
+        output
     }
 
     pub fn send(&mut self, message: &str) {

@@ -42,8 +42,8 @@ fn what_it_brings_along_names_no_files() {
     let mut refused = |key: &str, text: &str, part: &str| {
         let mut files = ring();
         files[key] = json!(text);
-        let told = page.begin(&files);
-        let error = told["error"].as_str().unwrap_or_else(|| panic!("no error: {told}"));
+        let output = page.begin(&files);
+        let error = output["error"].as_str().unwrap_or_else(|| panic!("no error: {output}"));
         assert!(error.contains(part), "{part}: {error}");
     };
     let no_file = "this text is not a file";

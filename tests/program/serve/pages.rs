@@ -51,10 +51,10 @@ fn every_answer_says_what_browsers_may_do_with_it() {
 fn an_address_that_is_not_of_this_machine_is_refused_with_its_cure() {
     let mut serve = Command::new(env!("CARGO_BIN_EXE_cplan"));
     let done = serve.args(["serve", "--port", "0", "--bind", "203.0.113.9"]).output().unwrap();
-    let said = String::from_utf8(done.stderr).unwrap();
-    assert_eq!(done.status.code(), Some(1), "{said}");
+    let report = String::from_utf8(done.stderr).unwrap();
+    assert_eq!(done.status.code(), Some(1), "{report}");
     for part in ["cannot listen at 203.0.113.9:0", "hint: give --bind an address of this machine"] {
-        assert!(said.contains(part), "{said}");
+        assert!(report.contains(part), "{report}");
     }
 }
 

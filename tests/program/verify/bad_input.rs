@@ -137,9 +137,9 @@ fn held_joints_may_move_along_the_normal() {
     assert!(notes.iter().any(|n| n.contains("\"lift\" moves, from 0.25 to 0.3 m")), "{notes:?}");
     let point = |t: u8, lift: f64| format!("- {{positions: [0, {lift}, 0], time_from_start: {{sec: {t}}}}}\n");
     let message = |lift: f64| format!("joint_names: [j2, lift, j1]\npoints:\n{}{}", point(0, 0.25), point(1, lift));
-    for (lift, said) in [(0.25, "\"lift\" stays at 0.25"), (0.5, "\"lift\" moves, from 0.25 to 0.5 m")] {
+    for (lift, report) in [(0.25, "\"lift\" stays at 0.25"), (0.5, "\"lift\" moves, from 0.25 to 0.5 m")] {
         let notes = read("m.yaml", message(lift)).unwrap();
-        assert!(notes.iter().any(|note| note.contains(said)), "{notes:?}");
+        assert!(notes.iter().any(|note| note.contains(report)), "{notes:?}");
     }
     // Joints that the arm does not depend on may move.
     let notes = read("m.csv", "time,j1,j2,gripper\n0,0,0,0\n1,0,0.1,0.04\n").unwrap();

@@ -46,7 +46,7 @@ impl Shipped {
     }
 
     /// Returns the output of `verify` about the result.
-    fn said(&self, options: &[&str]) -> Said {
+    fn report(&self, options: &[&str]) -> Said {
         let folder = tempfile::tempdir().unwrap();
         self.written(folder.path());
         let files = ["verify", self.robot.to_str().unwrap(), "world.toml", "task.json"];
@@ -133,7 +133,7 @@ fn our_own_tasks_are_free_and_their_clearances_agree() {
 
 #[test]
 fn the_summary_has_a_line_a_step() {
-    let (code, text, _) = shipped("feeder").said(&[]);
+    let (code, text, _) = shipped("feeder").report(&[]);
     assert_eq!(code, 0);
     for part in
         ["step       1 (cycle 1)  pick \"part\"", "... 291 steps in cycles 4 to 100", "the whole task, 300 steps"]
@@ -142,12 +142,12 @@ fn the_summary_has_a_line_a_step() {
     }
     assert!(text.contains("step by step"), "{text}");
     let turned = shipped("board_turned").in_world("velocity = 3.0", "velocity = 0.3");
-    let (code, text, _) = turned.said(&[]);
+    let (code, text, _) = turned.report(&[]);
     assert_eq!(code, 3);
     for part in ["not as required", "task       step 2 (cycle 1): the wrist turns in 0.", "result     not the task"] {
         assert!(text.contains(part), "no {part:?} in:\n{text}");
     }
-    assert_eq!(turned.said(&["--quiet"]), (3, String::new(), String::new()));
+    assert_eq!(turned.report(&["--quiet"]), (3, String::new(), String::new()));
 }
 
 #[test]
@@ -316,15 +316,15 @@ fn a_payload_that_is_larger() {
 #[test]
 fn another_start() {
     let tower = shipped("tower");
-    assert_eq!(tower.said(&["--start", "0.6,0.8", "--quiet"]).0, 0);
-    let (code, text, _) = tower.said(&["--start", "0.6,0.7"]);
+    assert_eq!(tower.report(&["--start", "0.6,0.8", "--quiet"]).0, 0);
+    let (code, text, _) = tower.report(&["--start", "0.6,0.7"]);
     assert_eq!(code, 3);
     assert!(text.contains("step 1 (cycle 1): it does not begin at the start"), "{text}");
-    let (code, _, error) = tower.said(&["--picture", "a.svg"]);
+    let (code, _, error) = tower.report(&["--picture", "a.svg"]);
     assert_eq!(code, 2, "{error}");
     assert!(error.contains("--picture"), "{error}");
     // More than there is.
-    let (code, text, _) = shipped("sorting").said(&["--clearance", "0.01"]);
+    let (code, text, _) = shipped("sorting").report(&["--clearance", "0.01"]);
     assert!(code == 3 && text.contains("nearer than the required clearance"), "{text}");
 }
 
@@ -335,7 +335,7 @@ fn a_file_without_steps_is_one_motion() {
     let found = tower.found();
     assert!(found["steps"].is_null());
     assert!(found["notes"].to_string().contains("the world has steps, the file none"), "{found:#}");
-    let (code, text, error) = tower.said(&["--start", "0,0"]);
+    let (code, text, error) = tower.report(&["--start", "0,0"]);
     assert_eq!(code, 3, "{error}");
     assert!(text.contains("not at the start (0, 0)"), "{text}");
 }
@@ -346,7 +346,7 @@ fn steps_that_are_none_are_refused() {
     let refused = |steps: Value, parts: &[&str]| {
         let mut task = Shipped { robot: tower.robot.clone(), world: tower.world.clone(), result: tower.result.clone() };
         task.result["steps"] = steps;
-        let (code, text, error) = task.said(&[]);
+        let (code, text, error) = task.report(&[]);
         assert_eq!((code, text.as_str()), (1, ""), "{error}");
         for part in [&["error: ", "task.json"], parts].concat() {
             assert!(error.contains(part) && !error.contains("panicked"), "no {part:?} in {error}");
@@ -373,7 +373,7 @@ fn steps_that_are_none_are_refused() {
     let with = |change: &dyn Fn(&mut Value)| {
         let mut task = Shipped { robot: tower.robot.clone(), world: tower.world.clone(), result: tower.result.clone() };
         change(&mut task.result);
-        task.said(&[])
+        task.report(&[])
     };
     let (code, _, error) = with(&|result| {
         result["trajectory"].as_object_mut().unwrap().remove("velocity");

@@ -26,13 +26,13 @@ pub fn run(urdf: &str, world: &str, rounds: usize) -> Result<Value> {
         }));
     }
     let (proven, gap) = proven.map_or((None, None), |(verdict, gap)| (Some(verdict), gap));
-    let mut proven = told(proven);
+    let mut proven = output(proven);
     proven["gap"] = gap.into();
-    Ok(json!({"times": times.into_json(), "decide": told(decided), "shortest": told(shortest), "proven": proven}))
+    Ok(json!({"times": times.into_json(), "decide": output(decided), "shortest": output(shortest), "proven": proven}))
 }
 
 /// Returns an outcome as JSON; the status is "unknown" if nothing was run.
-fn told<U>(outcome: Option<Outcome<Path, CheckedProof, U>>) -> Value {
+fn output<U>(outcome: Option<Outcome<Path, CheckedProof, U>>) -> Value {
     match outcome {
         Some(Outcome::Found(path)) => {
             let waypoints: Vec<[f64; 2]> = path.waypoints().iter().map(|q| [q[0], q[1]]).collect();

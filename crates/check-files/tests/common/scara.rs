@@ -40,9 +40,9 @@ pub fn folded(extra: &str) -> String {
 }
 
 /// Returns the exit code and the message.
-pub fn told(verdict: Result<String, CheckError>) -> (i32, String) {
+pub fn output(verdict: Result<String, CheckError>) -> (i32, String) {
     match verdict {
-        Ok(said) => (0, said),
+        Ok(report) => (0, report),
         Err(CheckError::Fails(why)) => (3, why),
         Err(CheckError::Input { message, .. }) => (1, message),
     }
@@ -50,15 +50,15 @@ pub fn told(verdict: Result<String, CheckError>) -> (i32, String) {
 
 /// Asserts that a certificate holds, and returns the message.
 #[track_caller]
-pub fn holds((code, said): (i32, String)) -> String {
-    assert_eq!(code, 0, "{said}");
-    said
+pub fn holds((code, report): (i32, String)) -> String {
+    assert_eq!(code, 0, "{report}");
+    report
 }
 
 /// Asserts that a certificate fails with all of these words.
 #[track_caller]
-pub fn fails((code, said): (i32, String), parts: &[&str]) {
-    assert!(code == 3 && parts.iter().all(|part| said.contains(part)), "{code} {said}");
+pub fn fails((code, report): (i32, String), parts: &[&str]) {
+    assert!(code == 3 && parts.iter().all(|part| report.contains(part)), "{code} {report}");
 }
 
 /// Returns a certificate that the elbow cannot fold beyond 2.65 rad. There a shape overlaps a part, for all values of

@@ -38,7 +38,7 @@ pub(crate) fn read(bytes: &[u8], settings: &Settings) -> Result<Drawing, Error> 
             }
             None => sheet.notes.add("the drawing does not state its unit: read as mm", None),
         }
-        Unit::MILLIMETRE
+        Unit::MILLIMETER
     });
     let mut reader = Reader { document: &document, sheet, groups: HashMap::new(), instances: 0, entities: 0 };
     let scale = unit.metres() * settings.scale;

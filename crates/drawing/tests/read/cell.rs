@@ -45,6 +45,6 @@ fn areas_agree_with_ezdxf() {
     assert_eq!(shown[1].height, Some([0.0, 0.9]));
     let hidden: Vec<_> = drawing.shapes.iter().filter(|shape| shape.hidden_by.is_some()).collect();
     assert!(hidden.iter().any(|shape| shape.layer.as_deref() == Some("old")), "{hidden:?}");
-    let told: Vec<String> = notes(&drawing).iter().map(|note| note.split(" (").next().unwrap().to_owned()).collect();
-    assert_eq!(told, ["TEXT: left out", "DIMENSION: left out", "HATCH: left out"]);
+    let output: Vec<String> = notes(&drawing).iter().map(|note| note.split(" (").next().unwrap().to_owned()).collect();
+    assert_eq!(output, ["TEXT: left out", "DIMENSION: left out", "HATCH: left out"]);
 }

@@ -112,8 +112,8 @@ fn a_polyline_of_some_width_covers_it() {
             let (covered, count) = covers(one(&given));
             assert!((mm2 - missing - 1e-3..=mm2 + missing + 1e-3).contains(&(covered * 1e6)), "{corners}: {covered}");
             assert_eq!(count, holes, "{corners}");
-            let told = "closed polylines with a width: read as frames of that width, free inside (line 28)";
-            assert_eq!(notes(&given), vec![told; holes], "{corners}");
+            let output = "closed polylines with a width: read as frames of that width, free inside (line 28)";
+            assert_eq!(notes(&given), vec![output; holes], "{corners}");
         }
     }
     // Widths of older polylines: of all, and of one vertex. Ends are butt, and a sharp corner is cut off where it is reached.
@@ -424,9 +424,9 @@ fn content_after_the_end_and_empty_circles_are_noted() {
     let text = file("", "0 CIRCLE 8 a 10 1 20 0 40 0 0 CIRCLE 8 a 10 1 20 0 40 5");
     let found = drawing(&(text.clone() + "sent by mail\nyours\n"), Format::Dxf);
     assert_eq!(found.shapes.len(), 1);
-    let said = notes(&found);
-    assert!(said.iter().any(|note| note.contains("CIRCLE of radius 0: left out")), "{said:?}");
-    assert!(said.iter().any(|note| note.contains("text after EOF: left out")), "{said:?}");
+    let report = notes(&found);
+    assert!(report.iter().any(|note| note.contains("CIRCLE of radius 0: left out")), "{report:?}");
+    assert!(report.iter().any(|note| note.contains("text after EOF: left out")), "{report:?}");
     assert!(!notes(&drawing(&(text + "\n\u{1a}\n"), Format::Dxf)).iter().any(|note| note.contains("EOF")));
 }
 

@@ -180,7 +180,7 @@ fn names_layers_uses_and_hidden_elements() {
     let Geometry::Circle { center, radius } = given.shapes[3].geometry else { panic!() };
     same(&[center], &up(&[[510.0, 510.0]]));
     near(radius, 0.01, 1e-15);
-    let told: Vec<String> = notes(&given).iter().map(|note| note.replace(" (line 1)", "")).collect();
+    let output: Vec<String> = notes(&given).iter().map(|note| note.replace(" (line 1)", "")).collect();
     let expected = [
         "elements not displayed: left out",
         "elements not visible: left out",
@@ -188,5 +188,5 @@ fn names_layers_uses_and_hidden_elements() {
         "<image>: left out",
         "<use> of \"#nowhere\", which the file does not contain: left out",
     ];
-    assert_eq!(told, expected);
+    assert_eq!(output, expected);
 }

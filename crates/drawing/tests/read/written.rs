@@ -17,7 +17,7 @@ proptest! {
 
     #[test]
     fn polygons_come_back_from_every_format(corners in corners()) {
-        let metres = Settings { unit: Some(Unit::METRE), ..Settings::default() };
+        let metres = Settings { unit: Some(Unit::METER), ..Settings::default() };
         let pairs = |with: &str| corners.iter().map(|[x, y]| format!("{x}{with}{y}")).collect::<Vec<_>>();
         let closed: String = corners.iter().map(|[x, y]| format!("10 {x} 20 {y} ")).collect();
         let lines: String = corners.iter().zip(corners.iter().cycle().skip(1))
@@ -42,7 +42,7 @@ proptest! {
     ) {
         let [large_arc, sweep_flag] = [large, sweep].map(u8::from);
         let d = format!("M{} {}A{} {} {degrees} {large_arc} {sweep_flag} {} {}", from.0, from.1, radii.0, radii.1, to.0, to.1);
-        let metres = Settings { unit: Some(Unit::METRE), tolerance: 0.01, ..Settings::default() };
+        let metres = Settings { unit: Some(Unit::METER), tolerance: 0.01, ..Settings::default() };
         let svg = format!("<svg><path fill='none' transform='scale(1 -1)' d='{d}'/></svg>");
         let given = read(svg.as_bytes(), Format::Svg, &metres).unwrap();
         let points = wall(one(&given));

@@ -1,6 +1,6 @@
 //! The scene of a recording: the arm's links, obstacles and objects, and their places over time.
 
-use crate::color::{GREY, INK, Rgb, obstacle as obstacle_color};
+use crate::color::{GRAY, INK, Rgb, obstacle as obstacle_color};
 use cplan_core::model::{Obstacle, Part};
 use cplan_core::space::Configuration;
 use cplan_engine::{Detail, Plan};
@@ -111,7 +111,7 @@ fn lying((number, obstacle): (usize, &Obstacle)) -> Solid {
 
 fn of_link(name: &str, parts: &[Part]) -> Body {
     let pieces = parts.iter().map(|part| (part.shape.clone(), part.heights)).collect();
-    let color = parts_of(INK.mixed(GREY, 0.5));
+    let color = parts_of(INK.mixed(GRAY, 0.5));
     Body { name: format!("link/{name}"), solids: vec![Solid { name: name.to_owned(), color, pieces }] }
 }
 

@@ -1,7 +1,7 @@
 //! Paths, and motions in time.
 
 use super::numbers::{Chain, RoundingSteps};
-use crate::color::{self, GREY, INK, Rgb};
+use crate::color::{self, GRAY, INK, Rgb};
 use crate::figure::Pen;
 use cplan_core::space::{Configuration, Path};
 use cplan_motion::Trajectory;
@@ -80,7 +80,7 @@ impl PathView {
 
     /// Returns a second path in grey beside this one.
     pub fn beside(&self, points: Chain) -> Self {
-        Self { name: "before it is pulled taut".to_owned(), color: Some(GREY), width: LINE_WIDTH, ..self.along(points) }
+        Self { name: "before it is pulled taut".to_owned(), color: Some(GRAY), width: LINE_WIDTH, ..self.along(points) }
     }
 
     /// Returns the pen of the path.

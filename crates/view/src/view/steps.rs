@@ -1,7 +1,7 @@
 //! The steps of a task, in words.
 
 use super::task_picture::TaskPicture;
-use crate::color::{BLOCKED, GREY, INK, Rgb};
+use crate::color::{BLOCKED, GRAY, INK, Rgb};
 use cplan_core::model::Outcome;
 use cplan_handling::{Object, Step};
 use cplan_tasks::{Leg, TaskAnswer};
@@ -71,7 +71,7 @@ pub fn rows(picture: &TaskPicture) -> Vec<Row> {
     let (order, rounds) = (Order::of(picture.answer), rounds(&picture.answer.legs));
     let which = if rounds > 1 { format!("end, first of {rounds} rounds") } else { "end".to_owned() };
     let mut seen = std::collections::BTreeSet::new();
-    let mut rows = vec![Row::new("", "step", which, GREY)];
+    let mut rows = vec![Row::new("", "step", which, GRAY)];
     for leg in picture.answer.legs.iter().filter(|leg| seen.insert(leg.step.number)) {
         let (text, time) = (order.describe(&leg.step, objects), format!("{:.2} s", leg.end()));
         rows.push(Row::new(order.number(&leg.step), text, time, INK));
@@ -79,7 +79,7 @@ pub fn rows(picture: &TaskPicture) -> Vec<Row> {
     if rows.len() > 1 + MAX_ROWS {
         let text = format!("and {} further steps", rows.len() - 1 - MAX_ROWS);
         rows.truncate(1 + MAX_ROWS);
-        rows.push(Row::new("", text, "", GREY));
+        rows.push(Row::new("", text, "", GRAY));
     }
     if let Some(failed) = picture.answer.failed() {
         let time = match picture.answer.outcome {
