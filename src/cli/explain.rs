@@ -93,7 +93,7 @@ pub fn run(args: &ExplainArgs) -> Result<u8, Failure> {
     Ok(code)
 }
 
-/// Returns a hint to explain a query, as a command; `None` if it cannot be explained.
+/// Returns the command that explains a query; `None` if it cannot be explained.
 pub fn hint(files: &Files, query: &QueryArgs) -> Option<String> {
     let loaded = input::load_scene(files.robot(), &files.world).ok()?;
     let overrides = query.overrides();
@@ -103,7 +103,7 @@ pub fn hint(files: &Files, query: &QueryArgs) -> Option<String> {
     };
     let words = ["cplan".to_owned(), "explain".to_owned()].into_iter().chain(files.words()).chain(query.words());
     let command = words.map(|word| for_a_shell(&word)).collect::<Vec<_>>().join(" ");
-    (has_ends && loaded.courses.is_empty()).then(|| format!("see the blockers: {command}"))
+    (has_ends && loaded.courses.is_empty()).then_some(command)
 }
 
 /// An explanation of a world's motion or task.

@@ -43,19 +43,26 @@ pub fn message(text: &str) -> String {
     text
 }
 
-/// Wraps the lines of a message, except quoted source lines, whose carets point at a column.
+/// Start of a command, which stays on one line, so that it can be copied.
+const COMMAND: &str = "cplan ";
+
+/// Wraps the lines of a message, except commands and quoted source lines, whose carets point at a column.
 fn folded(text: &str, width: usize) -> String {
     let folded = |line: &str| {
         let blanks = line.chars().take_while(|c| *c == ' ').count();
-        if line.contains(" | ") { line.to_owned() } else { wrapped(line, width, blanks + 2) }
+        let is_command = line.trim_start().strip_prefix("hint: ").is_some_and(|hint| hint.starts_with(COMMAND));
+        if is_command || line.contains(" | ") { line.to_owned() } else { wrapped(line, width, blanks + 2) }
     };
     text.split('\n').map(folded).collect::<Vec<_>>().join("\n")
 }
 
-/// Wraps lines of a summary to the width; continuation lines are indented to the second column.
+/// Wraps lines of a summary to the width, except commands. Continuation lines are indented to the second column.
 fn narrowed(text: &str, width: usize) -> String {
     let narrowed = |line: &str| {
         let blanks = line.chars().take_while(|c| *c == ' ').count();
+        if line.get(SECOND_COLUMN..).is_some_and(|text| text.starts_with(COMMAND)) {
+            return line.to_owned() + "\n";
+        }
         let has_key = line.chars().nth(SECOND_COLUMN - 1) == Some(' ');
         wrapped(line, width, if blanks == 0 && has_key { SECOND_COLUMN } else { blanks }) + "\n"
     };
@@ -124,11 +131,13 @@ mod tests {
     }
 
     #[test]
-    fn messages_are_wrapped_but_source_lines_are_not() {
-        let text = "error: one two three four\n  12 | joints = [1, 2, 3]\n     | ^^^^\n  hint: five six seven";
-        let folded_text =
-            "error: one two\n  three four\n  12 | joints = [1, 2, 3]\n     | ^^^^\n  hint: five\n    six seven";
-        assert_eq!(folded(text, 14), folded_text);
-        assert_eq!(folded(text, WIDEST), text);
+    fn messages_are_wrapped_but_source_lines_and_commands_are_not() {
+        let quoted = "  12 | joints = [1, 2, 3]\n     | ^^^^\n";
+        let command = "  hint: cplan explain a.urdf b.toml";
+        let text = format!("error: one two three four\n{quoted}  hint: five six seven\n{command}");
+        let narrow = format!("error: one two\n  three four\n{quoted}  hint: five\n    six seven\n{command}");
+        assert_eq!(folded(&text, 14), narrow);
+        assert_eq!(folded(&text, WIDEST), text);
+        assert_eq!(narrowed("next       cplan explain a.urdf\n", 20), "next       cplan explain a.urdf\n");
     }
 }

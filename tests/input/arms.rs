@@ -308,7 +308,7 @@ fn meshes_of_collada_and_obj_are_those_of_stl() {
         ("t.obj", "v 0 nan 0\nf 1 1 1\n".to_owned(), "not finite"),
         ("t.dae", "<svg/>".to_owned(), "not Collada"),
         ("t.dae", "<COLLADA>".to_owned(), "not well-formed XML"),
-        ("t.dae", spoilt("0.01", "-1"), "makes no sense"),
+        ("t.dae", spoilt("0.01", "-1"), "not a positive number"),
         ("t.dae", spoilt("0 1 0 0 -1", "0 1 x 0 -1"), "\"x\" is not a number"),
         ("t.dae", spoilt("0 1 0 0 -1", "0 1 0 0"), "numbers for positions"),
         ("t.dae", spoilt("url=\"#g\"", "url=\"#none\""), "a geometry that the file does not have"),

@@ -122,7 +122,7 @@ fn trees_that_are_none() {
     bad_arm(
         "<child link=\"tool\"/>",
         "<child link=\"fore\"/>",
-        &["line 20", "two joints, \"j2\" (line 11)", "no tree"],
+        &["line 20", "two joints, \"j2\" (line 11)", "not a tree"],
     );
     bad_arm("<link name=\"tool\"/>", "<link name=\"fore\"/>", &["line 21", "second link is named \"fore\"", "line 17"]);
     bad_arm("<joint name=\"j2\"", "<joint name=\"j1\"", &["line 11", "second joint is named \"j1\"", "line 3"]);
@@ -170,7 +170,7 @@ fn files_that_are_no_urdf() {
 #[test]
 fn arms_that_are_none() {
     bad_arm("<axis xyz=\"0 0 1\"/>", "<axis xyz=\"0 1 0\"/>", &["line 14", "common plane", "about (0, 1, 0)", "90.00"]);
-    bad_arm("type=\"revolute\"", "type=\"fixed\"", &["two joints", "only one, \"j2\" (revolute)"]);
+    bad_arm("type=\"revolute\"", "type=\"fixed\"", &["two joints", "only one movable joint, \"j2\" (revolute)"]);
     bad_arm("type=\"revolute\"", "type=\"floating\"", &["two joints", "only one"]);
     let upright = "<joint name=\"j3\" type=\"continuous\"><parent link=\"fore\"/><child link=\"w\"/><axis xyz=\"0 1 0\"/></joint>\
                    <joint name=\"j4\" type=\"continuous\"><parent link=\"w\"/><child link=\"v\"/><axis xyz=\"0 1 0\"/></joint>\
@@ -233,8 +233,8 @@ fn obstacles_that_are_none() {
         ("circle = { center = [5, 0], radius = 1, r = 2 }", &["line 8", "unknown key `r`"]),
         ("polyline = [[5, 0]]", &["line 8", "at least two points"]),
         ("polyline = [[5, 0], [5, 0]]", &["line 8", "at least two points in different places"]),
-        ("height = [0, 1]", &["line 6", "exactly one shape", "it has 0"]),
-        ("circle = { center = [5, 0], radius = 1 }\npolyline = [[5, 0], [6, 0]]", &["exactly one shape", "it has 2"]),
+        ("height = [0, 1]", &["line 6", "exactly one shape", "has 0"]),
+        ("circle = { center = [5, 0], radius = 1 }\npolyline = [[5, 0], [6, 0]]", &["exactly one shape", "has 2"]),
         ("circle = { center = [5, 0], radius = 1 }\nheight = [1, 0]", &["line 9, column 10", "empty"]),
         ("circle = { center = [5e9, 0], radius = 1 }", &["line 8", "too large", "metres"]),
         ("circle = { center = 5 }", &["line 8, column 21", "^"]),

@@ -214,7 +214,7 @@ fn hints_about_start_and_goal() {
     let there = ["[goal]\njoints = [0.1, 0.2]", "[goal]\ntip = [1.0, 1.0]"];
     of_world(&format!("[goal]\n{goal}"), "", "[goal] joints = [q1, q2] or tip = [x, y]", &there);
     of_world(goal, "", "joints = [q1, q2], or tip = [x, y]", &["joints = [0.1, 0.2]", "tip = [1.0, 1.0]"]);
-    of_world(goal, "tip = [3, 0]", "choose a point nearer by", &["tip = [1.5, 0]"]);
+    of_world(goal, "tip = [3, 0]", "choose a point nearer to joint 1", &["tip = [1.5, 0]"]);
     // If only limits are violated, there is no obstacle to move away from.
     let points = "choose another point, or override [robot] limits in the world file";
     let folded = with(WORLD, goal, "tip = [0, 0.1]");

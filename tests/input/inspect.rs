@@ -178,7 +178,7 @@ const PUBLISHED: [Expected; 18] = [
     ("dobot_mg400", false, Some(["j1", "j4"]), &["4 joints that can move", "parallelogram", "link1.STL"]),
     ("drake_acrobot", true, Some(["shoulder", "elbow"]), &[]),
     ("drake_double_pendulum", false, Some(["shaft1", "shaft2"]), &["has collision or visual geometry", "bar = 0.05"]),
-    ("drake_pendulum_1dof", false, None, &["only one, \"theta\" (continuous)"]),
+    ("drake_pendulum_1dof", false, None, &["only one movable joint, \"theta\" (continuous)"]),
     ("gepetto_asr_twodof", false, None, &["qb_c_flange_m.dae\" does not exist"]),
     ("gepetto_double_pendulum", false, Some(["joint1", "joint2"]), &["has no range", "link1.stl\" does not exist"]),
     ("gepetto_double_pendulum_continuous", false, Some(["joint1", "joint2"]), &["does not exist"]),
@@ -274,7 +274,7 @@ fn the_json_has_the_documented_fields() {
     assert!(json["pairs"].as_array().is_some_and(|p| p.len() == 15));
     assert_eq!(json["plane"]["normal"], serde_json::json!([0.0, 0.0, 1.0]));
     assert!(json["outlines"][0]["area"].as_f64().is_some_and(|a| a > 0.0));
-    assert!(json["defects"][0]["message"].as_str().is_some_and(|m| m.contains("6 joints")));
+    assert!(json["defects"][0]["message"].as_str().is_some_and(|m| m.contains("6 movable joints")));
     assert!(json["defects"][0]["cure"].is_string());
     for key in ["urdf", "world", "root", "links", "tip", "reach", "ignored", "warnings", "remedy"] {
         assert!(json.get(key).is_some(), "{key} is missing");

@@ -54,7 +54,7 @@ fn table() -> Vec<(&'static str, String, Outcome)> {
             "velocity = { shaft1 = 8.0, shaft2 = 8.0 }\nbar = 0.05",
             Loads("RR", [Bar; 2], "link2"),
         ),
-        row("drake_pendulum_1dof", "", Refused(&["two joints", "only one, \"theta\" (continuous)"])),
+        row("drake_pendulum_1dof", "", Refused(&["two joints", "only one movable joint, \"theta\" (continuous)"])),
         row("gepetto_asr_twodof", "", Refused(&["line ", "qb_c_flange_m.dae", "does not exist", "bar = "])),
         row("gepetto_asr_twodof", "bar = 0.03", Loads("RR", [Bar; 2], "Tip")),
         row(

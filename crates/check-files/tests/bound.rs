@@ -225,7 +225,7 @@ fn to_wherever_the_tip_is_at_a_place() {
     let report = check(ARM, &world("[1, 1]"), &certificate(3.0, &stuck)).unwrap();
     assert_eq!(
         report,
-        "no motion of \"a\" and \"b\" from the start to the goal, a place of the tip \"tip\", with clearance 0 is shorter than 3"
+        "no motion of \"a\" and \"b\" from the start to the goal, a position of the tip \"tip\", with clearance 0 is shorter than 3"
     );
     // Stretched out, the two solutions become one, which is known less precisely. Out of reach there is no path at all.
     assert_eq!((of("[2, 0]", 0.8, ""), of("[2, 0]", 1.0 + 1e-9, ""), of("[2.1, 0]", 100.0, "")), (0, 3, 0));

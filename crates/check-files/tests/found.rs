@@ -264,7 +264,7 @@ fn places_of_the_tip() {
     let line = certificate("", LINEAR, "[0, -1, 0], [1, 1, 0]");
     let world = |tip: &str| format!("start.tip = [{x}, {}]\n{tip}", -y);
     let (code, report) = judged(&urdf, &world(&format!("goal.tip = [{x}, {y}]")), &line);
-    assert!(code == 0 && report.contains("the goal, a place of the tip \"tool\", within 1e-1"), "{report}");
+    assert!(code == 0 && report.contains("the goal, a position of the tip \"tool\", within 1e-1"), "{report}");
     assert_eq!(judged(&urdf, &world(&format!("goal.tip = [{x}, {}]", y + 2e-5)), &line).0, 3);
     // Requested at another place, and for another link.
     let asked = certificate(&format!(r#""goal_tip": [{x}, {y}],"#), LINEAR, "[0, -1, 0], [1, 1, 0]");

@@ -177,7 +177,7 @@ fn a_place_of_the_tip_is_all_configurations_that_reach_it() {
     let place = format!("start.joints = [-1, 0]\nrobot.tip = \"fore\"\n{WALL}");
     let extra = r#""goal_tip": [0.6, 0.8],"#;
     let report = check(&arm, &place, &certificate(extra, UPPER, WALL_PART, &wall)).unwrap();
-    assert!(report.contains("to the goal (0.6, 0.8), a place of the tip \"fore\","), "{report}");
+    assert!(report.contains("to the goal (0.6, 0.8), a position of the tip \"fore\","), "{report}");
     let place = place.replace("fore", "upper");
     assert_eq!(code(&arm, &place, &certificate(extra, UPPER, WALL_PART, &wall)), 1);
     let both = r#""goal": [1, 0], "goal_tip": [0.6, 0.8],"#;

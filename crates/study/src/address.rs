@@ -382,7 +382,7 @@ mod tests {
         assert_eq!(number("goal.tip[0]"), Err("there is no \"tip\"; there is joints".into()));
         let twins = WORLD.replace("\"b\"", "\"a post\"");
         let several = in_world(&twins, &steps("obstacle.\"a post\".circle.radius").unwrap());
-        assert_eq!(several, Err("several are named \"a post\": say which by its number, as in [0]".into()));
+        assert_eq!(several, Err("several are named \"a post\": choose one by its number, as in [0]".into()));
         assert_eq!(number("goal..joints"), Err("goal..joints: a name is missing".into()));
     }
 
@@ -419,9 +419,9 @@ mod tests {
             "there is no joint \"k\" in <robot>, which has name, link, joint"
         );
         assert_eq!(number("joint.j.origin.xyz[3]"), Err("xyz has 3 entries".into()));
-        let several = "there are 2 <collision>: say which, as in collision[0]";
+        let several = "there are 2 <collision>: choose one, as in collision[0]";
         assert_eq!(number("link.l.collision.geometry.box.size[2]"), Err(several.into()));
         assert_eq!(number("joint.j"), Err("it is an element: name an attribute".into()));
-        assert_eq!(number("joint.j.name"), Err("j is no number".into()));
+        assert_eq!(number("joint.j.name"), Err("j is not a number".into()));
     }
 }

@@ -178,8 +178,10 @@ mod tests {
         assert_eq!([Some(0.01), Some(0.009), None].map(|value| condition.holds(value)), [true, false, true]);
         assert!(!Condition::parse("length <= 9").unwrap().holds(None));
         assert!(Condition::parse("duration <= 2").unwrap().holds(Some(2.0)));
-        assert_eq!(Condition::parse("duration < 2"), Err("\"duration < 2\" is no condition".into()));
-        assert!(Condition::parse("speed <= 2").unwrap_err().starts_with("\"speed\" is not measured; there is length"));
+        assert_eq!(Condition::parse("duration < 2"), Err("\"duration < 2\" is not a condition".into()));
+        assert!(
+            Condition::parse("speed <= 2").unwrap_err().starts_with("\"speed\" is not a measure; measures are length")
+        );
         assert_eq!(Objective::parse("most clearance").unwrap().to_string(), "most clearance");
         assert!(Objective::parse("duration").is_err() && Objective::parse("least").is_err());
     }

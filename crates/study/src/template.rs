@@ -136,6 +136,6 @@ mod tests {
         assert_eq!(template.filled(&[1e-9, 3.5]).text().matches("rows = 3.5").count(), 1);
         let twice = [settings[0].clone(), settings[0].clone()];
         assert_eq!(Template::new(source, Place::World, &twice), Err((1, "it is set twice".into())));
-        assert_eq!(place("goal.joints[0]"), Err("goal.joints[0]: an address begins with world. or urdf.".into()));
+        assert_eq!(place("goal.joints[0]"), Err("goal.joints[0]: an address must begin with world. or urdf.".into()));
     }
 }

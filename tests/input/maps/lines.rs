@@ -210,7 +210,7 @@ fn tables_that_make_no_map_are_refused() {
         ("file = \"room.map\"\n", "", &["line 3", "missing key `file`"]),
         ("file", "scale = 0\nfile", &["line 4, column 9", "map scale must be positive", "millimetres"]),
         ("file", "scale = nan\nfile", &["line 4", "finite"]),
-        ("file", "scale = 1000\nfile", &["line 5", "reaches 2e6 m", "`scale`"]),
+        ("file", "scale = 1000\nfile", &["line 5", "extends to 2e6 m", "`scale`"]),
         ("file", "offset = [1]\nfile", &["line 4", "two numbers, found 1"]),
         ("file", "height = [1, 0]\nfile", &["line 4", "is empty"]),
         ("file", "walls = true\nfile", &["line 4", "unknown key `walls`"]),

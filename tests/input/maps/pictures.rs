@@ -138,7 +138,7 @@ fn broken_greymaps_are_refused() {
         (&b"P5 2 2 255\n\0\0\0"[..], &["room.bin", "ends early", "4 bytes, but the file has 3", "hint"][..]),
         (b"P5 2 2 255\n\0\0\0\0\0", &["continues after", "at byte 16"]),
         (b"P5 2 2 256\n\0\0\0\0", &["8 bytes, but the file has 4"]),
-        (b"P5 2 2 255", &["it has 0"]),
+        (b"P5 2 2 255", &["has 0"]),
         (b"P5 2 2", &["ends early", "maxval"]),
         (b"P5 2 # 2 255\n", &["ends early", "height"]),
         (b"P5\n-2 2 255\n", &["width", "\"-2\"", "byte 4"]),

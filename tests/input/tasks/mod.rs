@@ -191,7 +191,7 @@ fn defaults_of_the_robot_hold_where_an_object_does_not_say_otherwise() {
     let loaded = task_of(&format!("{world}[[step]]\npick = \"part\"\n"), &Overrides::default()).unwrap();
     assert!(loaded.task.objects.iter().all(|o| o.holding == Holding::Level));
     assert_eq!(loaded.task.wrist.map(|w| w.acceleration), Some(24.0));
-    assert!(loaded.notes.iter().any(|n| n.contains("wrist: no acceleration limit given; assumed 24 rad/s2")));
+    assert!(loaded.notes.iter().any(|n| n.contains("wrist: no acceleration limit given; 24 rad/s2 assumed")));
 }
 
 #[test]

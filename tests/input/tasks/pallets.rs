@@ -134,7 +134,7 @@ fn pallets_that_are_none() {
             "pallet = \"stor\"",
             &["there is no pallet \"stor\"", "hint: the pallets are \"store\", \"tray\""],
         ),
-        ("pallet = \"store\"", "pallet = \"store\"\nat = [1, 1]", &["either `at` or `pallet`, it has both", "hint: "]),
+        ("pallet = \"store\"", "pallet = \"store\"\nat = [1, 1]", &["either `at` or `pallet`, but has both", "hint: "]),
         ("pallet = \"store\"\n", "", &["either `at` or `pallet`, it has neither", "hint: "]),
         ("name = \"post\"", "name = \"part\"", &["an obstacle is named \"part\"", "hint: "]),
         ("name = \"post\"", "name = \"part 2,3\"", &["an obstacle is named \"part", "hint: "]),
@@ -188,12 +188,9 @@ fn transfers_and_places_that_are_none() {
         ),
         (
             "pick = \"part 1,1\"\n[[step]]\nplace = { on = \"tray 1,1\", at = [0, 0] }",
-            &["either `at` or `on`, this has both", "hint: "],
+            &["either `at` or `on`, but has both", "hint: "],
         ),
-        (
-            "pick = \"part 1,1\"\n[[step]]\nplace = { angle = 1.0 }",
-            &["either `at` or `on`, this has neither", "hint: "],
-        ),
+        ("pick = \"part 1,1\"\n[[step]]\nplace = { angle = 1.0 }", &["either `at` or `on`, but has neither", "hint: "]),
     ] {
         bad(&healthy, transfer, to, parts);
     }

@@ -67,7 +67,7 @@ fn ways(seed: u64, tally: &mut Tally) {
         let took = begun.elapsed();
         let Ok(report) = judged else { panic!("seed {seed}, {turn}: {judged:?}\n{urdf}\n{world}") };
         tally.to_tips += usize::from(
-            report.contains("to the goal, a place of the tip \"tool\", with clearance")
+            report.contains("to the goal, a position of the tip \"tool\", with clearance")
                 && report.contains("is shorter"),
         );
         tally.found[kind as usize] += 1;

@@ -80,7 +80,7 @@ fn what_init_writes_can_be_planned_at_once() {
             match words[0] {
                 "check" => assert!(ran.stdout.contains("result     "), "{}", ran.stdout),
                 "inspect" => {
-                    assert!(ran.stdout.contains("result     the robot can be planned with"), "{}", ran.stdout);
+                    assert!(ran.stdout.contains("result     planning with this robot is possible"), "{}", ran.stdout);
                     assert!(!ran.stdout.contains("warning"), "{}", ran.stdout);
                 }
                 "compare" => {

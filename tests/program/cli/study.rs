@@ -328,7 +328,7 @@ fn what_is_wrong_with_a_study_has_its_place_and_cure() {
         (
             "",
             x.replace("world.obstacle.crate.at[0]", "robot.at[0]") + "steps = 2\n",
-            &["an address begins with world. or urdf."],
+            &["an address must begin with world. or urdf."],
         ),
         ("", x.replace("from = 0", "from = 2") + "steps = 2\n", &["2 is more than 1"]),
         ("", format!("{x}steps = 2\n{x}steps = 2\n"), &["another column \"x\""]),

@@ -143,7 +143,7 @@ fn held_joints_may_move_along_the_normal() {
     }
     // Joints that the arm does not depend on may move.
     let notes = read("m.csv", "time,j1,j2,gripper\n0,0,0,0\n1,0,0.1,0.04\n").unwrap();
-    assert!(notes.iter().any(|n| n.contains("not used: \"gripper\"")), "{notes:?}");
+    assert!(notes.iter().any(|n| n.contains("unused columns: \"gripper\"")), "{notes:?}");
 }
 
 #[test]

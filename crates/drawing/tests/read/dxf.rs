@@ -447,6 +447,6 @@ fn clipped_blocks_are_noted() {
     let text = file("0 BLOCK 2 b 0 CIRCLE 8 0 10 5 20 0 40 2 0 ENDBLK", &inserts).replace("0\nEOF\n", &objects);
     let found = drawing(&text, Format::Dxf);
     assert_eq!(found.shapes.len(), 3);
-    let clipped: Vec<String> = notes(&found).into_iter().filter(|note| note.contains("not clipped")).collect();
+    let clipped: Vec<String> = notes(&found).into_iter().filter(|note| note.contains("without the clip")).collect();
     assert!(clipped.len() == 1 && !clipped[0].contains("times"), "{clipped:?}");
 }

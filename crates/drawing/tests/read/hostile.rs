@@ -28,7 +28,7 @@ fn broken_dxf_files() {
         ("AutoCAD Binary DXF\r\n\u{1a}\0".to_owned(), "the file is empty", None),
         ("AutoCAD Binary DXF\r\n\u{1a}\0\0SECTION\0\u{28}".to_owned(), "ends in the middle", None),
         ("AC1032\0\0".to_owned(), "DWG", None),
-        ("<svg/>\n".to_owned(), "no DXF", Some(1)),
+        ("<svg/>\n".to_owned(), "not a DXF file", Some(1)),
         ("0\nSECTION\n2\nENTITIES\nx\ny\n".to_owned(), "expected the code of a group", Some(5)),
         ("0\nSECTION\n2\nENTITIES\n0\nEOF\n".to_owned(), "no end", Some(2)),
         ("0\nEOF\n".to_owned(), "no section ENTITIES", None),
@@ -85,7 +85,7 @@ fn broken_svg_files() {
         (0..40).map(|k| format!("<g id='g{}'><use href='#g{k}'/><use href='#g{k}'/></g>", k + 1)).collect();
     let cases = [
         ("", "the file is empty", None),
-        ("<html/>", "no SVG", Some(1)),
+        ("<html/>", "not an SVG file", Some(1)),
         ("<svg>\n<g>\n</svg>", "not well-formed XML", Some(3)),
         ("<svg><g></svg>", "not well-formed XML", Some(1)),
         ("<svg viewBox='0 0 0 5'/>", "viewBox", Some(1)),
