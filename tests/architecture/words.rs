@@ -9,7 +9,7 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 /// Greatest number of places. Lower it whenever the test says so.
-const LIMIT: usize = 420;
+const LIMIT: usize = 236;
 
 /// The test fails if there are fewer places than the limit by more than this.
 const SLACK: usize = 25;

@@ -178,7 +178,7 @@ fn arms_that_are_none() {
     bad_arm(
         "</robot>",
         upright,
-        &["4 joints", "\"j3\" (continuous)", "joints = [\"j1\", \"j2\"], or [robot] joints = [\"j3\", \"j4\"]"],
+        &["4 movable joints", "\"j3\" (continuous)", "joints = [\"j1\", \"j2\"], or [robot] joints = [\"j3\", \"j4\"]"],
     );
     let mimic = "<joint name=\"j3\" type=\"revolute\"><parent link=\"fore\"/><child link=\"w\"/>\n<mimic joint=\"j1\"/></joint><link name=\"w\"/></robot>";
     bad_arm("</robot>", mimic, &["line 23", "\"j3\" mimics joint \"j1\"", "parallelogram"]);

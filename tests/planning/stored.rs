@@ -1,6 +1,7 @@
 //! Problems and plans as data: files round-trip, and the reader refuses problems that nobody could plan.
 
 use cplan::geometry::{Convex, Pose};
+use cplan::input::RobotReport;
 use cplan::model::{Heights, MotionProblem, Scene, Task};
 use cplan::{Arm, Obstacle, Options, Outcome, Plan, Planner, Problem, Status, Workspace, plan};
 use serde_json::{Value, json};
@@ -46,7 +47,9 @@ fn every_shipped_problem_is_read_as_it_was_written() {
         let read: Problem = serde_json::from_str(&text).unwrap_or_else(|error| panic!("{name}: {error}"));
         assert_eq!(serde_json::to_string(&read).unwrap(), text, "{name}");
         assert!(read.scene() == problem.scene() && read.motion() == problem.motion(), "{name}");
-        assert!(read.task() == problem.task() && read.robot() == problem.robot(), "{name}");
+        // The files that were read are no part of the data.
+        let robot = RobotReport { files: Vec::new(), ..problem.robot().clone() };
+        assert!(read.task() == problem.task() && *read.robot() == robot, "{name}");
         assert_eq!(read.notes(), problem.notes(), "{name}");
         assert_eq!(format!("{:?}", read.scene()), format!("{:?}", problem.scene()), "{name}: bit for bit");
     }
@@ -157,7 +160,7 @@ fn data_that_no_constructor_makes_is_refused() {
         (format!("{scene}/arm/joints/0/velocity"), json!(0.0), "positive and finite"),
         (format!("{scene}/arm/plane/u"), json!([1.0, 1.0, 0.0]), "plane's vectors"),
         // Otherwise intervals would be repeated without end.
-        (format!("{scene}/arm/joints/1/range/interval/upper"), json!(1e8), "no range"),
+        (format!("{scene}/arm/joints/1/range/interval/upper"), json!(1e8), "at most 1000 rad apart"),
         // Predicates would overflow.
         (format!("{scene}/arm/tip"), json!([1e200, 0.0]), "within 1e15 m"),
         (format!("{scene}/workspace/obstacles/0/pieces/0/radius"), json!(1e200), "within 1e15 m"),

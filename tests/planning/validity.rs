@@ -98,7 +98,7 @@ fn no_scene_is_made_of_an_arm_that_cannot_be() {
         ),
         (
             |a| a.joints[1].range = JointRange::Interval { lower: NAN, upper: 1.0 },
-            "joint \"elbow\": no range from NaN to 1",
+            "joint \"elbow\": the range from NaN to 1 is invalid",
         ),
         (
             |a| a.joints[1].range = JointRange::Interval { lower: 0.0, upper: INFINITE },

@@ -135,7 +135,7 @@ fn pallets_that_are_none() {
             &["there is no pallet \"stor\"", "hint: the pallets are \"store\", \"tray\""],
         ),
         ("pallet = \"store\"", "pallet = \"store\"\nat = [1, 1]", &["either `at` or `pallet`, but has both", "hint: "]),
-        ("pallet = \"store\"\n", "", &["either `at` or `pallet`, it has neither", "hint: "]),
+        ("pallet = \"store\"\n", "", &["either `at` or `pallet`, but has neither", "hint: "]),
         ("name = \"post\"", "name = \"part\"", &["an obstacle is named \"part\"", "hint: "]),
         ("name = \"post\"", "name = \"part 2,3\"", &["an obstacle is named \"part", "hint: "]),
     ] {

@@ -269,7 +269,7 @@ fn maps_are_read_back_as_they_were() {
     let [picture, description] = ["a.pgm", "a.yaml"].map(|name| folder.path().join(name));
     std::fs::write(picture, map_picture(&done.survey)).unwrap();
     std::fs::write(&description, map_description(&done.survey, "a.pgm")).unwrap();
-    let read = OccupancyMap::read(&description).unwrap();
+    let read = OccupancyMap { picture: None, ..OccupancyMap::read(&description).unwrap() };
     assert_eq!(&read, done.survey.map());
     assert!(done.survey.counts()[0] > 0, "{:?}", done.survey.counts());
 }

@@ -19,7 +19,8 @@ const SHAPE_ROUNDING: f64 = 1e-9;
 pub enum SceneError {
     /// A joint's range is empty, not finite, or too long.
     #[error(
-        "joint \"{joint}\": the range from {lower} to {upper} is invalid; it needs finite numbers, the lower one first"
+        "joint \"{joint}\": the range from {lower} to {upper} is invalid; it needs two finite numbers, the lower one \
+         first, at most {MAX_TURN_RANGE} rad apart if the joint turns"
     )]
     Range {
         /// The joint's name in the URDF.
