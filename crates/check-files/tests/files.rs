@@ -446,8 +446,8 @@ fn a_mesh_is_its_hull() {
     }
     assert!((random::times(20)..random::times(220)).contains(&free), "{free}");
     for (file, content, part) in [
-        ("fore.stl", &b"solid x vertex 1 2"[..], "no STL"),
-        ("fore.stl", b"solid x", "no STL"),
+        ("fore.stl", &b"solid x vertex 1 2"[..], "not an STL file"),
+        ("fore.stl", b"solid x", "not an STL file"),
         ("fore.stl", b"solid x\nendsolid x", "no corners"),
         ("fore.stl", b"solid vertex 1 2 3\nendsolid", "no corners"),
         (
@@ -458,16 +458,16 @@ fn a_mesh_is_its_hull() {
         (
             "fore.stl",
             b"solid\nfacet normal 0 0 1\nouter loop\nvertex 1 2 3\nvertex 1 2 3\nvertex 1 2 4\nendloop\nendfacet",
-            "no STL",
+            "not an STL file",
         ),
-        ("fore.stl", b"PK", "no STL"),
+        ("fore.stl", b"PK", "not an STL file"),
         ("fore.obj", b"v 1 2\nf 1", "three numbers"),
         ("fore.obj", b"f 1 2 3\nv 1 2 3", "does not precede it"),
         ("fore.obj", b"v 1 2 3\nf 1 -2", "does not precede it"),
         ("fore.obj", b"v 1 2 3\n", "no corners"),
         ("fore.dae", b"<html/>", "not Collada"),
         ("fore.dae", b"<COLLADA/>", "no mesh"),
-        ("fore.dae", b"<COLLADA><asset><unit meter=\"0\"/></asset></COLLADA>", "no length"),
+        ("fore.dae", b"<COLLADA><asset><unit meter=\"0\"/></asset></COLLADA>", "is not a positive length"),
         (
             "fore.dae",
             b"<COLLADA><visual_scene><node id=\"n\"><instance_node url=\"#n\"/></node></visual_scene></COLLADA>",
@@ -486,8 +486,8 @@ fn a_mesh_is_its_hull() {
     }
     for (mesh, part) in [
         ("fore.ply", "knows meshes as STL, OBJ and Collada"),
-        ("none.stl", "not there"),
-        ("package://none/a.stl", "not there"),
+        ("none.stl", "does not exist"),
+        ("package://none/a.stl", "does not exist"),
     ] {
         place.write("arm.urdf", arm([BOXES[0], &format!("<mesh filename=\"{mesh}\"/>")]));
         assert!(place.refused(world).contains(part), "{part}: {}", place.refused(world));
@@ -524,11 +524,11 @@ fn pictures_that_are_none_are_refused() {
         (b"P2 1 1 1 0 0", "bytes follow"),
         (b"P2 1 1 1 2", "exceeds the maxval"),
         (b"P2 1 1 0 0", "maxval is 0"),
-        (b"P2 0 1 1", "no size"),
+        (b"P2 0 1 1", "its size is 0 or too large"),
         (b"P2 99999999999 99999999999 1", "too large"),
         (b"P5 2 2 255\nabc", "ends early"),
         (b"P5 1 1 255\nabc", "bytes follow"),
-        (b"P5 ", "no number"),
+        (b"P5 ", "is not a number"),
         (b"P5", "its header is not valid"),
         (b"P23 3 1", "its header is not valid"),
     ] {

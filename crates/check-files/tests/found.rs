@@ -319,7 +319,7 @@ fn bad_input_is_named() {
     };
     urdf("box size=\"0.8 0.1 0.1\"", "mesh filename=\"m\"", "mesh");
     urdf("<collision> <origin xyz=\"0.4 0 0\"/> <geometry>", "<collision> <geometry/> <geometry>", "second element");
-    urdf("<link name=\"fore\">", "<link name=\"fore\"> <collision/>", "no geometry");
+    urdf("<link name=\"fore\">", "<link name=\"fore\"> <collision/>", "needs a geometry with exactly one shape");
     urdf("<box size=\"0.8 0.1 0.1\"/>", "<box size=\"0.8 0.1 0.1\"/> <sphere radius=\"3\"/>", "exactly one shape");
     urdf("collision", "nothing", "could collide");
     urdf("<link name=\"fore\">", "<joint name=\"m\" type=\"revolute\"> <parent link=\"fore\"/> <child link=\"c\"/> <mimic joint=\"a\"/> </joint>

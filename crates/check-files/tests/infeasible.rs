@@ -316,14 +316,14 @@ fn bad_input_is_named() {
     urdf("lower=\"-2.9\"", "lower=\"2.9\"", Some(3), "limits");
     urdf("name=\"b\"", "name=\"a\"", Some(10), "second joint");
     urdf("xyz=\"1 0 0\"/> <axis xyz=\"0 0 1\"", "xyz=\"1 0 0\"/> <axis xyz=\"0 1 1\"", Some(10), "plane");
-    urdf("xyz=\"0 0 1\"", "xyz=\"0 0 0\"", Some(4), "no direction");
+    urdf("xyz=\"0 0 1\"", "xyz=\"0 0 0\"", Some(4), "the axis is zero");
     urdf("parent link=\"base\"", "parent link=\"fore\"", Some(10), "ring");
     urdf("parent link=\"upper\"", "parent link=\"base\"", Some(10), "carries");
     urdf("type=\"revolute\"", "type=\"fixed\"", None, "0 joints can move");
     let worlds = |text: &str, at, part| bad(&arm, text, &good, Input::World, at, part);
     worlds("start = 3", Some(1), "table");
     worlds("start.joints = [1]", Some(1), "list of two");
-    worlds("start.tip = [1, 2]\ngoal.joints = [1, 0]", None, "from a start that is a place");
+    worlds("start.tip = [1, 2]\ngoal.joints = [1, 0]", None, "for a start that is a position of the tip");
     worlds("start = { joints = [1, 2], near = 3 }", Some(1), "joints");
     worlds("goal.tip = [1, 2]\ngoal.joints = [1, 2]", Some(1), "joints");
     worlds("\nstart.joints = [1, inf]", Some(2), "decimal");

@@ -128,11 +128,11 @@ fn each_link_has_its_visual_shapes_by_itself() {
         urdf.replace(&format!("<link name=\"{link}\">"), &format!("<link name=\"{link}\">{mesh}"))
     };
     let report = holds(judged(&unread("base", "collision", &scara(0.31)), "", &folded("")));
-    assert!(report.contains("collision of link \"base\" is left out"), "{report}");
+    assert!(report.contains("collision of link \"base\" is ignored"), "{report}");
     // The other shape of the base still counts.
     fails(judged(&unread("base", "collision", &scara(0.1)), "", &folded("")), &HIT);
     let report = holds(judged(&unread("quill", "visual", &of("quill", &scara(0.31))), "", &folded("")));
-    assert!(report.contains("visual of link \"quill\" is left out"), "{report}");
+    assert!(report.contains("visual of link \"quill\" is ignored"), "{report}");
     let (code, why) = judged(&unread("quill", "collision", &scara(0.31)), "", &folded(""));
     assert!(code == 1 && why.contains("other files"), "{why}");
 }
@@ -224,9 +224,9 @@ fn payloads_avoid_the_base() {
         output(check(&gantry, &world, certificate))
     };
     holds(carried("0.08", ""));
-    fails(carried("0.1", ""), &["step 2", "what is carried", "link \"base\", collision 0"]);
+    fails(carried("0.1", ""), &["step 2", "the payload", "link \"base\", collision 0"]);
     holds(carried("0.1", "own_body = false"));
-    fails(carried("0.1", "ignore_contact = [[\"base\", \"head\"]]"), &["what is carried"]);
+    fails(carried("0.1", "ignore_contact = [[\"base\", \"head\"]]"), &["the payload"]);
 }
 
 /// A bar replaces a link.
@@ -363,7 +363,7 @@ fn payloads_avoid_the_upper_arm() {
         output(check(&scara(0.46), &world, &certificate))
     };
     let level = "payload = \"level\"\nwrist = { velocity = 1 }";
-    let hit = ["step 2", "what is carried", "link \"upper\", collision 0"];
+    let hit = ["step 2", "the payload", "link \"upper\", collision 0"];
     holds(carried(0.3, 2.2, ""));
     fails(carried(0.3, 2.8, ""), &hit);
     // The tip is 0.3138 m beside the upper arm.

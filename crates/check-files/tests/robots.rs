@@ -232,7 +232,9 @@ fn joints_without_a_common_plane_are_refused() {
         ("0 0 1", "prismatic", false),
     ] {
         match arm(second, kind) {
-            Ok(report) => assert!(is_one && report.contains("by up to 1e-3 rad"), "{second}: {report}"),
+            Ok(report) => {
+                assert!(is_one && report.contains("up to 1e-3 rad off the assumed common plane"), "{second}: {report}")
+            }
             Err(why) => assert!(!is_one && why.to_string().contains("common plane"), "{second}: {why}"),
         }
     }

@@ -121,7 +121,7 @@ fn payloads_avoid_obstacles_that_the_arm_clears() {
         let post = format!("[[obstacle]]\ncircle = {{ center = [2, {y}], radius = 0.1 }}\n");
         let (code, report) = carried(&post);
         assert_eq!(code, if is_free { 0 } else { 3 }, "{report}");
-        assert!(is_free || report.contains("steps[1], step 2: from knot 2 to the next what is carried"), "{report}");
+        assert!(is_free || report.contains("steps[1], step 2: from knot 2 to the next the payload"), "{report}");
         let other =
             format!("[[object]]\nname = \"other\"\ncircle = {{ center = [0, 0], radius = 0.1 }}\nat = [2, {y}]\n");
         assert_eq!(carried(&other).0, code);
@@ -182,7 +182,7 @@ fn supported_objects_press_within_the_allowance() {
     fails(on(7.2e-5, table), "no deeper than it may press into obstacle 0");
     for supports in ["", "supports = []"] {
         holds(on(-1e-9, supports));
-        fails(on(0.0, supports), "what is carried");
+        fails(on(0.0, supports), "the payload");
     }
     is_wrong(on(0.0, "supports = [\"tablet\"]"), "no obstacle and no object of this name");
 }
@@ -212,7 +212,7 @@ fn the_wrist_turns_the_payload() {
     let tall = "[[obstacle]]\ncircle = { center = [2, 1.2], radius = 0.05 }\n";
     holds(level(world(tall)));
     let before = DONE.replace("[0, 1]", "[0, 1], \"turn\": 1.5708");
-    fails(judged(GANTRY, &world(tall), KNOTS, &before), "what is carried");
+    fails(judged(GANTRY, &world(tall), KNOTS, &before), "the payload");
     holds(judged(GANTRY, &world(""), KNOTS, &before));
 }
 
@@ -259,7 +259,7 @@ fn rigid_payloads_turn_with_the_arm() {
     holds(with(&world(&format!(", angle = {quarter}"), 2.2)));
     holds(with(&world(", angle = \"90deg\"", 2.2)));
     fails(with(&world(", angle = 1.5708", 2.2).replace("1.5708", "1.5709")), "by more than 1e-5");
-    fails(with(&world("", 2.105)), "what is carried");
+    fails(with(&world("", 2.105)), "the payload");
     // If a wrist keeps it level, its end does not reach there.
     holds(with(&world("", 2.105).replacen("start", "robot.payload = \"level\"\nstart", 1)));
 }
@@ -417,7 +417,7 @@ fn a_stroke_takes_the_tool_through_all_heights() {
     let stroke = "stroke = { joint = \"z\" },";
     // Between where the object lies and where it is carried.
     holds(with("", "[0.1, 0.2]"));
-    fails(with(stroke, "[0.1, 0.2]"), "what is carried");
+    fails(with(stroke, "[0.1, 0.2]"), "the payload");
     // The quill's ball is at heights 0.49 to 0.51, and is lowered by 0.3 or by the stated travel.
     let beneath = |travel: &str| {
         let post = "[[obstacle]]\nheight = [0.3, 0.35]\ncircle = { center = [3, 1], radius = 0.001 }\n";
@@ -470,7 +470,7 @@ fn objects_that_are_not_convex() {
     let wall = |y: f64| {
         format!("[[obstacle]]\npolygon = [[1.7, {y}], [1.8, {y}], [1.8, {}], [1.7, {}]]\n", y + 0.01, y + 0.01)
     };
-    fails(with(&wall(1.1)), "what is carried");
+    fails(with(&wall(1.1)), "the payload");
     holds(with(&wall(1.21)));
     // Small things inside the object. Its sides do not touch them.
     for inside in
@@ -551,5 +551,5 @@ fn worlds_with_unknown_requests() {
         is_wrong(with(old, new), part);
     }
     // Huge numbers of repetitions are not expanded one by one.
-    fails(with("[[step]]\npick", "[task]\nrepeat = 900000000000000\n[[step]]\npick"), "there are no more");
+    fails(with("[[step]]\npick", "[task]\nrepeat = 900000000000000\n[[step]]\npick"), "but the certificate ends");
 }

@@ -91,6 +91,6 @@ mod tests {
         }
         // The format from the time when both counts were equal.
         assert_eq!(serde_json::to_string(&CellCounts::square(64)).unwrap(), "64");
-        assert_eq!(CellCounts([8, 7]).error(), Some("cells: 7 is not from 8 to 2048".to_owned()));
+        assert_eq!(CellCounts([8, 7]).error(), Some("cells: 7 must be from 8 to 2048".to_owned()));
     }
 }

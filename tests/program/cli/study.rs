@@ -332,7 +332,11 @@ fn what_is_wrong_with_a_study_has_its_place_and_cure() {
         ),
         ("", x.replace("from = 0", "from = 2") + "steps = 2\n", &["2 is more than 1"]),
         ("", format!("{x}steps = 2\n{x}steps = 2\n"), &["another column \"x\""]),
-        ("measure = [\"speed\"]", format!("{x}steps = 2\n"), &["line 3", "\"speed\" is not measured; there is length"]),
+        (
+            "measure = [\"speed\"]",
+            format!("{x}steps = 2\n"),
+            &["line 3", "\"speed\" is not a measure; measures are length"],
+        ),
         ("conditions = [\"length < 3\"]", format!("{x}steps = 2\n"), &["is not a condition", "clearance >= 0.01"]),
         ("options = [\"--planner=nobody\"]", format!("{x}steps = 2\n"), &["line 3", "nobody"]),
         ("size = 3", format!("{x}steps = 2\n"), &["line 3", "unknown key `size`"]),
