@@ -212,7 +212,7 @@ pub struct TimedMotion {
 /// period) to another sample are left out. A path that does not move gives one sample.
 ///
 /// A straight piece of length `L` from rest to rest, with speed and acceleration limits `v` and `a` along it, takes `2
-/// sqrt(L / a)` if `L a <= v^2`, else `L / v + v / a`. It takes up to `4` [`SHORTEST_INTERVAL`] longer if a phase would
+/// sqrt(L / a)` if `L a <= v^2`, else `L / v + v / a`. It takes up to `4` [`MIN_INTERVAL`] longer if a phase would
 /// be shorter than that, and each phase is lengthened to whole nanoseconds.
 ///
 /// If the jerk of any joint is limited, the motion stops at every corner, blended or not ([`super::Drive::along`]
