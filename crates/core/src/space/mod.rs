@@ -10,7 +10,7 @@
 //!
 //! let topology = Topology { ranges: [JointRange::Circle, JointRange::Interval { lower: -2.0, upper: 2.0 }] };
 //! let (from, to) = (Configuration::new(3.0, 0.0), Configuration::new(-3.0, 0.0));
-//! The shorter direction crosses the seam, and values continue to count past pi.
+//! // The shorter direction crosses the seam, and values continue to count past pi.
 //! assert!((topology.distance(from, to) - (std::f64::consts::TAU - 6.0)).abs() < 1e-12);
 //! assert!(topology.lift(to, from)[0] > 3.0);
 //! ```
