@@ -83,7 +83,7 @@ pub(super) fn core_penetration(point: Point, polygon: &[Point]) -> PointPenetrat
 pub struct CornerInside {
     /// Index of the corner.
     pub corner: usize,
-    /// Its depth, metres; 0 on the boundary.
+    /// Depth of the corner in the other polygon, metres; 0 on the boundary.
     pub depth: f64,
 }
 

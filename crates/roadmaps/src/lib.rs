@@ -1,4 +1,4 @@
-//! Roadmap planners besides the visibility graph: random roadmaps, triangles of a triangulation, and the Voronoi
+//! Roadmap planners other than the visibility graph: random roadmaps, triangles of a triangulation, and the Voronoi
 //! diagram.
 
 mod prm;

@@ -98,8 +98,8 @@ struct Shapes<'s> {
     drift: Option<&'s Drift>,
 }
 
-/// A bound on the second derivative of the motion of a point `p` by the deviation's parameter: `(|p - center| +
-/// shift) factor^2 + constant`.
+/// A bound on the second derivative of the motion of a point `p` by the deviation's parameter:
+/// `(|p - center| + shift) factor^2 + constant`.
 #[derive(Debug, Clone, Copy)]
 pub struct Curvature {
     /// The point from which the distance of `p` counts.
@@ -150,8 +150,8 @@ impl<'a> Posture<'a> {
         self.bound_up_to(pair, deviation, |_| f64::INFINITY)
     }
 
-    /// Does the same as [`Posture::bound`], but stops as soon as the bound is at least `enough` of the distance at
-    /// the posture.
+    /// Does the same as [`Posture::bound`], but stops as soon as the bound is at least the value that `enough`
+    /// returns for the distance at the posture.
     pub fn bound_up_to(&self, pair: Pair, deviation: Deviation, enough: impl Fn(f64) -> f64) -> SeparationBound {
         self.least(self.shapes(pair), deviation, enough)
     }

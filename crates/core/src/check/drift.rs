@@ -8,14 +8,15 @@ use cplan_geometry::{Point, Pose, Vector, perpendicular};
 pub struct Drift {
     /// Pose of the obstacle's frame in the middle of the span.
     pub middle: Pose,
-    /// Velocity of the frame's origin in the middle of the span, metres per unit of the parameter.
+    /// Velocity of the frame's origin, metres per unit of the parameter, if it is constant in the span. Otherwise
+    /// zero.
     pub velocity: Vector,
-    /// Angular velocity in the middle of the span, radians per unit of the parameter.
+    /// Angular velocity, radians per unit of the parameter, if it is constant in the span. Otherwise zero.
     pub turn: f64,
     /// Half the length of the span, in units of the parameter.
     pub half: f64,
-    /// Bounds on the change of the velocity (metres per unit) and of the angular velocity (radians per unit) within
-    /// the span. The direction of the change is unknown. Zero if both are constant.
+    /// Bounds on the speed of the origin (metres per unit) and on the angular speed (radians per unit) in a span in
+    /// which the velocity changes. Zero if it is constant.
     pub any: [f64; 2],
 }
 

@@ -280,8 +280,8 @@ impl<'a> CurveSearch<'a> {
     /// Judges a curve, whose parameter goes from 0 to 1. `part` takes the middle and the half width of a range of
     /// the parameter. It returns the configuration in the middle, and deviations from it that cover the range.
     ///
+    /// # Errors
     /// [`Rejection`] if the curve does not keep the required distance, or is not proven to keep it.
-    /// [`Rejection`], if the curve does not keep the required distance, or is not shown to keep it.
     pub fn curve(
         &mut self,
         vicinity: &Vicinity,

@@ -54,8 +54,8 @@ impl Bitmap {
 }
 
 /// Computes the bitmap of a scene. It has the same cells as [`super::grid_from_slices`], in an eighth of the memory.
-/// Each pair is examined only in the rows where link 2 can reach its piece. `O(reached slices * contacts + cells /
-/// 64)`.
+/// Each pair is examined only in the rows where link 2 can reach its piece.
+/// `O(reached slices * contacts + cells / 64)`.
 #[must_use]
 pub fn bitmap(scene: &Scene, cells: [usize; 2], clearance: f64) -> Bitmap {
     let slices = Contacts::new(scene);
@@ -125,7 +125,7 @@ impl Centers {
     }
 }
 
-/// Iterates over the members of `range` that lie in none of `others`, which are ascending.
+/// Iterates over the members of `range` outside all of the `others`, which must be ascending.
 fn without<'a>(range: Range<usize>, others: &'a [Range<usize>]) -> impl Iterator<Item = usize> + 'a {
     let ends = others.iter().map(|o| o.start).chain([usize::MAX]);
     let starts = [0].into_iter().chain(others.iter().map(|o| o.end));

@@ -28,15 +28,15 @@ impl Contact {
 /// `n` be the unit directions of the greatest gap at the two ends, and `c = m . n`. Between the ends take the
 /// normalised `(1-t) m + t n`. For a corner `a` of the part and a corner `b` of the piece, the offset `y = b - a` is
 /// a smooth function of `t`. It is at most `k t(1-t)/2` from the straight line between its values at the ends, where
-/// `k` bounds its second derivative. Let `G` be the smaller gap at the ends, and `D = 2 G - (gap at start along n) -
-/// (gap at end along m)`. Then, at `x = t(1-t)`,
+/// `k` bounds its second derivative. Let `G` be the smaller gap at the ends, and
+/// `D = 2 G - (gap at start along n) - (gap at end along m)`. Then, at `x = t(1-t)`,
 ///
 /// ```text
 /// gap >= (G - x D) / sqrt(1 - 2x(1-c)) - x k/2  >=  (G - x D)(1 + x(1-c)) - x k/2.
 /// ```
 ///
-/// For `D >= 0` the right side is concave in `x`, so it is at least the lesser of its values at `x = 0` and `x =
-/// 1/4`. The same holds with all vectors in the link's frame, where the corners of the piece move instead.
+/// For `D >= 0` the right side is concave in `x`, so it is at least the lesser of its values at `x = 0` and
+/// `x = 1/4`. The same holds with all vectors in the link's frame, where the corners of the piece move instead.
 ///
 /// The bound in the plane is sharp for a corner of the link on a side of the obstacle (`m = n`, `D = 0`). The bound
 /// in the link's frame is sharp for a corner of the obstacle on a side of the link. Both are sharp for two corners.

@@ -106,7 +106,7 @@ fn around_convex(core: &[Point], within: f64) -> Option<Vec<Point>> {
     let mut outline = Vec::new();
     let mut side = 0;
     while side < n {
-        // Go on while this side and a later one meet near the corners between them.
+        // Continue while this side and a later one meet near the corners between them.
         let (mut next, mut meeting) = (side + 1, corner(side + 1));
         while next < n {
             let Some(at) = where_lines_meet([corner(side), corner(side + 1)], [corner(next + 1), corner(next + 2)])

@@ -91,7 +91,7 @@ pub struct Regions {
     pub proves: Proves,
     /// Lower and upper end of the window along each axis.
     pub window: [(f64, f64); 2],
-    /// Each contribution of an obstacle once, not clipped to the window.
+    /// The contributions of all obstacles, each once and not clipped to the window.
     pub obstacles: Vec<CObstacle>,
     /// The window without all obstacles: one polygon per connected component.
     pub free: Vec<Polygon>,

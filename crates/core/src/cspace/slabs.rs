@@ -17,8 +17,8 @@ const ARC_WIDENING: f64 = 1e-9;
 const MAX_COARSENING: f64 = 1.0 / 16.0;
 
 /// Computes the grid whose cells are blocked if the arm is within `clearance` of an obstacle at the cell's *centre*.
-/// The result equals that of [`super::sampled_grid`], except for centres within [`ROUNDING`] of contact. `O(slices *
-/// contacts + cells)`.
+/// The result equals that of [`super::sampled_grid`], except for centres within [`ROUNDING`] of contact.
+/// `O(slices * contacts + cells)`.
 #[must_use]
 pub fn grid_from_slices(scene: &Scene, cells: [usize; 2], clearance: f64) -> Grid {
     let slices = Contacts::new(scene);

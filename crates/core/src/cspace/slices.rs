@@ -6,8 +6,8 @@ use cplan_interrupt::checkpoint;
 
 impl Contacts<'_> {
     /// Computes all values of joint 2, within the axis's domain, at which link 2 is within `grow` of an obstacle at
-    /// `q1`. Link 1 is not considered. The result replaces the contents of `slice`, whose memory is reused. `O(m log
-    /// m)` in the contacts.
+    /// `q1`. Link 1 is not considered. The result replaces the contents of `slice`, whose memory is reused.
+    /// `O(m log m)` in the contacts.
     pub fn slice(&self, q1: f64, grow: f64, slice: &mut Slice) {
         checkpoint();
         slice.clear();

@@ -81,7 +81,7 @@ const GROUPS_PER_ROUND: usize = 4;
 /// use.
 const MAX_CORNER_SHARE: f64 = 0.75;
 
-/// Distance within which corners are snapped to each other: at first 256 steps of the grid, which is about 3e-15 of
+/// Distance within which corners are snapped to each other: initially 256 steps of the grid, which is about 3e-15 of
 /// the coordinates' range, and four times as far in each further round. With lower values, sides that almost
 /// coincide are split thousands of times.
 const SNAP_PRECISION: Precision = Precision { start: 16, progression: 4 };

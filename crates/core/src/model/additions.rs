@@ -3,7 +3,7 @@
 use super::{Attachment, Obstacle};
 use serde::{Deserialize, Serialize};
 
-/// The optional contents of a scene besides an arm and a workspace.
+/// The optional contents of a scene, in addition to an arm and a workspace.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Additions {
     /// Obstacles without a place. Only methods that have `loose` in their names use them.

@@ -7,7 +7,7 @@ use cplan_geometry::{Convex, Point, Pose};
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
-/// Shapes that link 2 carries along besides its own parts, such as an object in a gripper. They may touch the
+/// Shapes that link 2 carries in addition to its own parts, such as an object in a gripper. They may touch the
 /// obstacles listed as supports, and need no clearance from them. Their mass counts as link 2's own.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -18,7 +18,7 @@ pub struct Attachment {
     pub heights: Heights,
     /// Connection with link 2.
     pub grip: Grip,
-    /// Its shapes, in its own frame.
+    /// The shapes, in the attachment's own frame.
     pub parts: Vec<AttachedPart>,
     /// The supports, by their number among the static obstacles.
     pub supports: Vec<usize>,

@@ -12,7 +12,8 @@ use std::ops::Range;
 ///
 /// Pairs are numbered as in [`Scene::pairs`]. Every interval of joint values is closed, and exact up to
 /// [`cplan_geometry::ROUNDING`]. Intervals of a revolute joint are *unwrapped*: they start in `[-pi, pi)`, may end
-/// beyond `pi`, and repeat by whole turns. Joint limits are not applied, except by [`Contacts::slice`].
+/// beyond `pi`, and repeat by whole turns. Joint limits are not applied, except in
+/// [`Contacts::slice`] and [`Contacts::bands`].
 #[derive(Debug, Clone)]
 pub struct Contacts<'a> {
     scene: &'a Scene,
@@ -46,10 +47,11 @@ struct PreparedPiece {
 /// A part, prepared for the joint that carries its link.
 #[derive(Debug, Clone)]
 struct PreparedPart {
-    /// Same as [`Pair::link`].
+    /// Link of the part in its pairs, as in [`Pair::link`].
     link: usize,
     carried: CarriedPart,
-    /// Upper bound on the distance of the part from the base at any joint values, metres.
+    /// Upper bound on the distance of the part from the base, metres, at any value of joint 2, while joint 1 is at
+    /// zero.
     reach: f64,
     /// For parts of link 2: a shape that contains the part at all values of joint 2, carried by joint 1. `None` for
     /// link 1.
@@ -231,7 +233,8 @@ impl<'a> Contacts<'a> {
         if part.link == 2 { 0.0 } else { self.chord(part.reach, step) }
     }
 
-    /// Returns an upper bound on the distance of pair `index`'s part from the base, metres, over all joint values.
+    /// Returns an upper bound on the distance of pair `index`'s part from the base, metres, at any value of joint 2,
+    /// while joint 1 is at zero.
     #[must_use]
     pub fn reach(&self, index: usize) -> f64 {
         self.part(self.pairs[index]).reach
@@ -263,7 +266,8 @@ impl<'a> Contacts<'a> {
         elbow(self.scene, q1)
     }
 
-    /// Same as [`Contacts::second_link`], for a given elbow.
+    /// Does the same as [`Contacts::second_link`], for a given place of joint 2 (`elbow`) and direction of link 1's x
+    /// axis (`heading`).
     ///
     /// # Panics
     /// If the pair is of link 1, or there is no pair of that number.

@@ -5,7 +5,7 @@ use cplan_geometry::Vector;
 use cplan_text::format_distinct;
 use serde::{Deserialize, Serialize};
 
-/// Top speed of a revolute joint if none is given, rad/s. A slow, common speed of small robots.
+/// Top speed of a revolute joint if none is given, rad/s.
 pub const DEFAULT_TURNING_SPEED: f64 = 1.0;
 
 /// Top speed of a prismatic joint if none is given, m/s.

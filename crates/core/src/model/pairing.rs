@@ -14,8 +14,8 @@ pub(super) enum HeightPolicy {
 }
 
 impl HeightPolicy {
-    /// Returns true if the heights of a part and of an obstacle meet. `is_attached` tells that the part belongs to
-    /// the attachment, which may rest on the obstacle.
+    /// Returns true if the heights of a part and of an obstacle meet. `is_attached` is true if the part belongs
+    /// to the attachment, which may rest on the obstacle.
     pub fn meet(self, is_attached: bool, part: Heights, obstacle: Heights) -> bool {
         match (self, is_attached) {
             (Self::Conservative, false) => part.meet(obstacle),

@@ -26,7 +26,8 @@ pub struct Preference {
     /// Strength of the drift in the field equation, per grid cell; finite. If the drift follows the field's own
     /// slope, a positive value makes the region less attractive, and a negative one more attractive.
     pub epsilon: f64,
-    /// Direction of the drift in joint space, of length 1. Only fields with a direction per region use it.
+    /// Direction of the drift in joint space, of length 1. `None` if none is given. Only fields with a
+    /// direction per region use it.
     pub direction: Option<[f64; 2]>,
 }
 

@@ -33,7 +33,7 @@ pub struct Pair {
 pub struct Contact {
     /// The pair of shapes.
     pub pair: Pair,
-    /// Their signed distance and its direction.
+    /// Signed distance of the two shapes, and its direction.
     pub separation: Separation,
 }
 

@@ -111,7 +111,7 @@ pub enum Size {
         /// Number of cells that were reached.
         labeled: usize,
     },
-    /// The cells of a grid that a search reached which restarts in rounds, with a higher limit each time.
+    /// A search of a grid in rounds, each with a higher limit of moves.
     Deepening {
         /// Number of rounds.
         rounds: usize,

@@ -91,8 +91,8 @@ impl FreeCells {
     }
 
     /// Iterates over the moves from cell `from`, also across the seams of circles. Moves to cells that share a side
-    /// come first, in the order `-q1, +q1, -q2, +q2`, then diagonal ones: `-q1 -q2`, `-q1 +q2`, `+q1 -q2`, `+q1
-    /// +q2`.
+    /// come first, in the order `-q1, +q1, -q2, +q2`, then diagonal ones: `-q1 -q2`, `-q1 +q2`, `+q1 -q2`,
+    /// `+q1 +q2`.
     pub fn moves(&self, from: usize, neighborhood: Neighborhood) -> impl Iterator<Item = Move> + use<> {
         let columns = self.cells[1];
         let (i, j) = (from / columns, from % columns);

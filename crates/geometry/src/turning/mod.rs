@@ -25,8 +25,8 @@ use std::f64::consts::{PI, TAU};
 use touching::Placement;
 
 /// Bound on the error of a contact, as a distance between the shapes, metres. At any angle (or displacement) outside
-/// the result the shapes are at least `grow - ROUNDING` apart. At any angle in the result they are within `grow +
-/// ROUNDING`.
+/// the result the shapes are at least `grow - ROUNDING` apart. At any angle in the result they are within
+/// `grow + ROUNDING`.
 ///
 /// The formulas lose about 1e-13 m for coordinates up to about 100 m; the rest is margin. The error of an angle can
 /// be as large as the square root of this, where shapes graze each other.

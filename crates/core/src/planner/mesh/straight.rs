@@ -6,7 +6,7 @@ use cplan_geometry::{Orientation, Point, orientation};
 impl Mesh {
     /// Returns true if the segment from `a` to `b` lies in free space. Exact; linear in the number of triangles
     /// crossed. A segment that passes through a vertex, or along an edge into another triangle, counts as not free.
-    /// Segments between random points do not.
+    /// This does not happen between random points.
     pub fn is_clear(&self, a: Point, b: Point) -> bool {
         self.triangles_at(a).any(|triangle| self.walk(triangle, a, b).is_some())
     }

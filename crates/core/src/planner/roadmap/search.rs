@@ -156,7 +156,7 @@ fn run<N, E>(
     };
     let (mut expanded, mut seen) = (Vec::new(), vec![false; graph.node_count()]);
     let ends_at = |node: NodeIndex| {
-        // A node may be expanded again after a shorter path has reached it.
+        // A node may come up again after a shorter path has reached it; it counts once.
         if !std::mem::replace(&mut seen[node.index()], true) {
             expanded.push(node);
         }

@@ -9,8 +9,8 @@ use cplan_geometry::{Orientation, Point};
 use cplan_interrupt::checkpoint;
 use petgraph::graph::NodeIndex;
 
-/// Greatest number of corners of free space for which the full graph is built. With `n` corners it may have `n^2 /
-/// 2` edges.
+/// Greatest number of corners of free space for which the full graph is built. With `n` corners it may have
+/// `n^2 / 2` edges.
 const MAX_VERTICES: usize = 1500;
 
 impl VisibilityMap {
