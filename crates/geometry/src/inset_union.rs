@@ -1,7 +1,7 @@
 //! Insets of unions of adjoining convex pieces: every corner of the union moves inwards.
 //!
-//! Two pieces adjoin if parts of their sides coincide exactly. Pieces must not overlap. A shared corner moves the
-//! same way in all its pieces, so the insets adjoin as well. `O(n log n)` for `n` sides, plus time for the corners
+//! Two pieces adjoin if parts of their sides coincide exactly. Pieces must not overlap. A shared corner moves
+//! equally in all its pieces, so the insets adjoin as well. `O(n log n)` for `n` sides, plus time for the corners
 //! above and below each side.
 
 use super::{

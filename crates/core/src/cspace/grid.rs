@@ -5,8 +5,7 @@ use crate::space::{Configuration, Topology};
 
 /// A rectangular grid over the fundamental domain. Cell `(i, j)` covers
 /// `[lower_1 + i h_1, lower_1 + (i + 1) h_1] x [lower_2 + j h_2, lower_2 + (j + 1) h_2]`. On a circle the last cell
-/// borders on the first. Cells are stored row
-/// by row: cell `(i, j)` has the index `i * cells[1] + j`.
+/// borders on the first. Cells are stored row by row: cell `(i, j)` has the index `i * cells[1] + j`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Grid {
     /// Topology of the configuration space.

@@ -137,7 +137,7 @@ impl Diagram {
         let nearest = self.sites.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
         let from = nearest.nearest(home);
         let displacement = home - from;
-        // On the boundary, any ray of the site will do.
+        // On the boundary, use any ray of the site.
         let ray = if displacement.norm() > CONTACT_DISTANCE {
             (from, displacement.normalize())
         } else {

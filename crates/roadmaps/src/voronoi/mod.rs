@@ -34,7 +34,6 @@ use diagram::Diagram;
 /// Straight arcs are exact. Parabolas are replaced by chords within 1e-3 rad or m of them, and within a hundredth of
 /// their distance from the boundary. Borders of cells are closed forms in floating point. Triangulated free space
 /// decides exactly whether a motion is free. `O(n m)` for `n` sites with `m` others near each of them.
-/// decides exactly whether a motion is free. `O(n m)` for `n` sites with `m` others around them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Voronoi {
     /// The kind of path. [`PathKind::Own`] follows the diagram. [`PathKind::Taut`] is pulled taut through the
