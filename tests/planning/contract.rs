@@ -47,7 +47,7 @@ impl Spaces {
     }
 }
 
-/// Every planner, with every setting that changes its paths.
+/// Every type that implements `Planner`, with settings that change its paths.
 const PLANNERS: [(&str, Plan); 26] = [
     (Visibility::NAME, |spaces, query| answered(&Visibility::default(), &spaces.polygons, query)),
     ("visibility, weighted", |spaces, query| {
@@ -62,14 +62,14 @@ const PLANNERS: [(&str, Plan); 26] = [
         answered(&Visibility { search: BACKWARD, ..Visibility::default() }, &spaces.polygons, query)
     }),
     ("trapezoid, taut", |spaces, query| answered(&Trapezoid::default(), &spaces.polygons, query)),
-    ("trapezoid, middles", |spaces, query| {
+    ("trapezoid, own", |spaces, query| {
         answered(&Trapezoid { path: PathKind::Own, ..Trapezoid::default() }, &spaces.polygons, query)
     }),
     ("trapezoid, Dijkstra backward", |spaces, query| {
         answered(&Trapezoid { search: BACKWARD, ..Trapezoid::default() }, &spaces.polygons, query)
     }),
     ("triangles, taut", |spaces, query| answered(&Triangles::default(), &spaces.polygons, query)),
-    ("triangles, middles", |spaces, query| {
+    ("triangles, own", |spaces, query| {
         answered(&Triangles { path: PathKind::Own, ..Triangles::default() }, &spaces.polygons, query)
     }),
     (Voronoi::NAME, |spaces, query| answered(&Voronoi::default(), &spaces.polygons, query)),

@@ -5,7 +5,7 @@ use super::Point;
 /// A box parallel to the axes, as its least and its greatest coordinates.
 pub type Bounds = [Point; 2];
 
-/// Largest number of boxes in a leaf. Testing this few one by one is fast.
+/// Largest number of boxes in a leaf. So few are tested fastest one by one.
 const MAX_LEAF_BOXES: usize = 8;
 
 /// A tree of boxes. Each node splits its boxes in two at the median centre, along the longer side of their common
@@ -22,7 +22,7 @@ pub struct BoxTree {
 }
 
 impl BoxTree {
-    /// Builds the tree. Boxes are numbered by their place in the list.
+    /// Builds the tree. A box's number is its index in the list.
     #[must_use]
     pub fn new(boxes: Vec<Bounds>) -> Self {
         let mut order: Vec<u32> = (0..boxes.len() as u32).collect();

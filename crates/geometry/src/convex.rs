@@ -4,7 +4,7 @@ use super::predicates::{Orientation, orientation};
 use super::{Bounds, Point, Pose, Vector, hull};
 use serde::{Deserialize, Serialize};
 
-/// Reasons why corners and a radius do not form a convex shape. Messages count corners from 1, fields from 0.
+/// Reasons why corners and a radius do not form a convex shape. Messages count corners from 1; fields count from 0.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum ConvexError {
     /// There is no corner.
@@ -94,7 +94,7 @@ fn is_hull_up_to_rounding(core: &[Point]) -> bool {
     let bent = BEND_ROUNDING * core.iter().fold(0.0_f64, |most, p| most.max(p.amax()));
     let n = core.len();
     let Some(first) = core.iter().position(|p| hull.len() > 2 && *p == hull[0]) else { return false };
-    // The side on which the previous corner lies, and its position along it.
+    // The side of the hull on which the previous corner lies, and that corner's position along the side.
     let (mut side, mut last) = (0, 0.0);
     let follows = (1..n).all(|k| {
         let p = core[(first + k) % n];

@@ -3,9 +3,9 @@
 use super::{Convex, Point, cross, inset};
 
 impl Convex {
-    /// Returns the points that lie at least `distance` inside this shape: the centres of discs of that radius that fit
-    /// into it. Returns `None` if no disc fits. A rounded outline loses radius first, exactly; then every side of the
-    /// core moves inwards. Correct up to rounding; `O(n^2)`.
+    /// Returns the points that lie at least `distance` inside this shape: the centres of discs of that radius that
+    /// fit into it. Returns `None` if no disc fits. A rounded outline first loses radius, exactly; then every side
+    /// of the core moves inwards. Correct up to rounding; `O(n^2)`.
     #[must_use]
     pub fn eroded(&self, distance: f64) -> Option<Self> {
         if distance <= self.radius() {
@@ -54,14 +54,14 @@ mod tests {
             let eroded = shape.eroded(by);
             prop_assert!(by > shape.depth() || eroded.is_some());
             let point = Vector::new(at.0, at.1);
-            // The depth of a point: how far the shape must move to leave it outside.
+            // The depth of a point is how far the shape must move to leave the point outside.
             let depth = -separation(&shape, &Convex::point(point)).distance;
             let inside = eroded.is_some_and(|e| separation(&e, &Convex::point(point)).distance <= 0.0);
             prop_assert!((depth - by).abs() < 1e-9 || inside == (depth >= by), "{depth} {by}");
         }
     }
 
-    /// Shapes anywhere in a square.
+    /// Generates shapes anywhere in a square.
     fn shapes() -> impl Strategy<Value = Convex> {
         let corners = prop::collection::vec((-1.0..1.0f64, -1.0..1.0f64), 1..8);
         // Flat shapes have sharp corners.
@@ -76,7 +76,7 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(2000))]
 
-        /// A receding shape is farther away by `by`, with sharp corners. Growing it again restores it.
+        /// A receding shape is farther away by `by`, also at its corners. Growing it again restores it.
         #[test]
         fn receding_increases_every_distance(shape in shapes(), other in shapes(), by in 0.0..0.5f64) {
             let (near, far) = (separation(&other, &shape), separation(&other, &shape.receding(by)));

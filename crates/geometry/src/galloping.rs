@@ -11,7 +11,7 @@ pub fn farthest(first: usize, last: usize, holds: impl Fn(usize) -> bool) -> usi
         good += step;
         step *= 2;
     }
-    // The condition fails there, or the range ends.
+    // At this number the condition fails, or the range ends.
     let mut bad = (good + step).min(last + 1);
     while bad - good > 1 {
         let middle = good.midpoint(bad);

@@ -2,10 +2,10 @@
 
 use super::{Point, Vector, hull, perpendicular};
 
-/// Returns the points of a convex, counter-clockwise polygon that lie at least `by` inside all its sides, or `None` if
-/// they have no area. `O(n^2)`.
+/// Returns the points of a convex, counter-clockwise polygon that lie at least `by` inside all its sides. Returns
+/// `None` if they have no area. `O(n^2)`.
 ///
-/// The result can move by up to `by` in any direction and stays within the polygon.
+/// The result stays within the polygon if it is moved by up to `by` in any direction.
 #[must_use]
 pub fn inset(polygon: &[Point], by: f64) -> Option<Vec<Point>> {
     let mut left = polygon.to_vec();

@@ -1,8 +1,8 @@
 //! Insets of unions of adjoining convex pieces: every corner of the union moves inwards.
 //!
-//! Pieces adjoin if stretches of their sides coincide exactly. They must not overlap. A shared corner moves with all of
-//! its pieces, so the insets adjoin as well. `O(n log n)` for `n` sides, plus time for the corners above and below
-//! each.
+//! Two pieces adjoin if parts of their sides coincide exactly. Pieces must not overlap. A shared corner moves
+//! equally in all its pieces, so the insets adjoin as well. `O(n log n)` for `n` sides, plus time for the corners
+//! above and below each side.
 
 use super::{
     BoxTree, Convex, Orientation, Point, SimplePolygon, Vector, cross, hull, orientation, perpendicular,
@@ -10,7 +10,7 @@ use super::{
 };
 use std::collections::BTreeMap;
 
-/// Smallest bend that counts as a corner, radians. Rounding bends corners that users place on straight sides.
+/// Smallest bend that counts as a corner, radians. Rounding bends the corners that users place on straight sides.
 const MIN_BEND: f64 = 1e-7;
 
 /// Returns what remains of each piece when each corner of the union moves inwards by `distance`, as convex shapes.
@@ -83,7 +83,7 @@ fn cut(ring: Vec<Point>) -> Vec<Vec<Point>> {
         let turn = |a: usize, b: usize, c: usize| orientation(ring[a], ring[b], ring[c]);
         let is_straight = |&k: &usize| turn((k + count - 1) % count, k, (k + 1) % count) == Orientation::Collinear;
         let straight: Vec<usize> = (0..count).filter(is_straight).collect();
-        // The middle one, so that few cuts follow each other.
+        // Take the middle one of the straight corners, so that few cuts follow each other.
         let across = straight.get(straight.len() / 2).and_then(|&at| {
             let is_off = |k: &usize| turn(at, (at + 1) % count, *k) != Orientation::Collinear;
             let off: Vec<usize> = (2..count - 1).map(|by| (at + by) % count).filter(is_off).collect();
@@ -131,12 +131,12 @@ fn key(p: Point) -> Key {
 
 /// New positions of the corners of pieces.
 struct MovedCorners {
-    /// New positions by corner and its successor in the piece. Corners that pieces surround completely stay and are not
-    /// listed.
+    /// New positions, by a corner and its successor in the piece. Corners that pieces surround completely stay, and
+    /// are not listed.
     to: BTreeMap<[Key; 2], [Point; 2]>,
-    /// True if corners would have left the union, and stay.
+    /// True if some corner would have left the union. Such a corner stays where it is.
     leaves: bool,
-    /// True if a corner of the union belongs to several rings, or twice to one.
+    /// True if some corner of the union belongs to several rings, or twice to one ring.
     touches: bool,
 }
 
@@ -145,7 +145,7 @@ struct Corner {
     at: Point,
     next: Point,
     last: Point,
-    /// Keys of the corners of its pieces.
+    /// For each piece of the corner, the keys of the corner and of its successor.
     parts: Vec<[Key; 2]>,
     /// Bisector of the sides, with the cosine and the sine of half the angle between them. `None` if the sides coincide.
     inward: Option<(Vector, [f64; 2])>,
@@ -184,7 +184,7 @@ impl MovedCorners {
             corners.iter().enumerate().map(|(k, corner)| ([key(corner.at), key(of(corner))], k)).collect()
         };
         let (by_next, by_last) = (number(|corner| corner.next), number(|corner| corner.last));
-        // The next corner along the union's sides that bends.
+        // Returns the next corner along the union's sides at which they bend.
         let ahead = |from: usize, forwards: bool| {
             let mut at = from;
             for _ in 0..corners.len() {
@@ -208,7 +208,7 @@ impl MovedCorners {
             let moved = match corner.inward {
                 None => corner.at,
                 Some((inward, _)) if !corner.is_straight() => corner.at + inward * distance,
-                // As far inside as the line between the neighbouring bends at that place.
+                // A straight corner moves as far inside as the line between the neighbouring bends at that place.
                 Some((inward, _)) => ahead(k, false).zip(ahead(k, true)).map_or(corner.at, |(from, to)| {
                     let [behind, before] = [&from, &to].map(|end| (corner.at - end.0).norm());
                     let [start, end] = [from.1, behind + before - to.1];
@@ -280,7 +280,7 @@ mod tests {
         assert_eq!(radii, [0.3 - 0.1, 0.0]);
     }
 
-    /// Pieces of a bar with another bar on top. A side of the first continues beyond the second at both ends.
+    /// Uses a bar with another bar on top. A side of the first continues beyond the second at both ends.
     #[test]
     fn pieces_go_on_adjoining() {
         let left = inset_union(&[rectangle([0., 0.], [4., 1.]), rectangle([1., 1.], [2., 2.])], 0.1 * 2f64.sqrt());
@@ -332,7 +332,7 @@ mod tests {
         );
     }
 
-    /// Corners around the origin, on a grid in which midpoints of sides are exact.
+    /// Generates corners around the origin, on a grid on which midpoints of sides are exact.
     fn star(far: [f64; 2]) -> impl Strategy<Value = Vec<Point>> {
         prop::collection::vec(far[0]..far[1], 3..9).prop_map(|far| {
             let angle = |k: usize| std::f64::consts::TAU * k as f64 / far.len() as f64;
@@ -410,7 +410,7 @@ mod tests {
         all.iter().flatten().all(|part| together.of(part.core()).is_some())
     }
 
-    /// A comb on a straight side: each root is a corner on that of the piece below.
+    /// A comb has teeth on a straight side. The root of each tooth is a corner on the side of the piece below.
     #[test]
     fn combs_have_parts_for_each_tooth() {
         let teeth = 4000;

@@ -1,5 +1,5 @@
-//! Plane geometry: exact predicates, convex shapes, Minkowski differences, sets of intervals, and the angles (or the
-//! stretch) at which a moving convex shape meets a fixed one.
+//! Plane geometry: exact predicates, convex shapes, Minkowski differences, sets of intervals, and the angles or
+//! lengths at which a moving convex shape meets a fixed one.
 //!
 //! Lengths are metres, angles radians. Polygons are counter-clockwise lists of corners without repetition of the
 //! first. Every *sign* (which side, do they meet) comes from adaptive exact arithmetic; every *measure* (distance,
@@ -10,7 +10,7 @@
 //!
 //! let square = |x: f64| Convex::new([[x, 0.0], [x + 1.0, 0.0], [x + 1.0, 1.0], [x, 1.0]].map(Point::from).to_vec(), 0.0);
 //! let (a, b) = (square(0.0)?, square(0.75)?);
-//! // `b` may be moved by any vector inside the Minkowski difference of `a` and `b` and still meets `a`.
+//! // `b` meets `a` after a move by any vector inside the Minkowski difference of the two.
 //! assert_eq!(a.minkowski_difference(&b).area(), 4.0);
 //! assert!(shapes_meet(&a, &b));
 //! assert_eq!(penetration_depth(&a, &b), 0.25);
@@ -72,11 +72,11 @@ pub use turning::{normalized, product};
 
 /// A displacement in the plane, metres.
 pub type Vector = nalgebra::Vector2<f64>;
-/// A position in the plane, metres: its displacement from the origin. The same type as [`Vector`], so that nothing
-/// needs to be converted; signatures say which is meant.
+/// A position in the plane, metres, given as its displacement from the origin. It is the same type as [`Vector`], so
+/// nothing needs to be converted. Signatures state which of the two is meant.
 pub type Point = Vector;
 
-/// Returns `v` turned by a quarter turn counter-clockwise.
+/// Returns `v` rotated by a quarter turn counter-clockwise.
 #[must_use]
 pub fn perpendicular(v: Vector) -> Vector {
     Vector::new(-v.y, v.x)

@@ -121,7 +121,7 @@ impl<'a> Sweep<'a> {
         Some(if self.reflected { Side { start: to, end: from } } else { Side { start: from, end: to } })
     }
 
-    /// Passes one side, and those that continue it in the same direction.
+    /// Passes one side, and the sides that follow it in the same direction.
     fn pass(&mut self) {
         let Some(side) = self.side() else { return };
         self.passed += 1;

@@ -39,7 +39,7 @@ pub struct PointPenetration {
     /// lower bound on the distance to the polygon. If the polygon is a point, it is the negative distance to that
     /// point.
     pub depth: f64,
-    /// Side of least distance, the first if there are several. `None` if the polygon is a point.
+    /// The side of least distance; the first if several are equal. `None` if the polygon is a point.
     pub side: Option<usize>,
     /// Location of the point; exact.
     pub location: Location,
@@ -64,8 +64,8 @@ pub(super) fn core_penetration(point: Point, polygon: &[Point]) -> PointPenetrat
     let distances: Vec<f64> = (0..n).map(|i| signed_distance(point, polygon[i], polygon[(i + 1) % n])).collect();
     let (side, depth) =
         distances.iter().copied().enumerate().fold((0, f64::INFINITY), |best, d| if d.1 < best.1 { d } else { best });
-    // A point on the line of a side, and right of no side, is on the boundary. If it is on the lines of all sides, the
-    // polygon has no area and may end before the point.
+    // A point on the line of a side, and right of no side, is on the boundary. The exception is a point on the lines
+    // of all sides: the polygon then has no area, and may end before the point.
     let on_boundary =
         || distances.iter().any(|&d| d > 0.0) || sides(polygon).any(|(a, b)| point_on_segment(point, a, b));
     let location = if depth > 0.0 {
@@ -83,7 +83,7 @@ pub(super) fn core_penetration(point: Point, polygon: &[Point]) -> PointPenetrat
 pub struct CornerInside {
     /// Index of the corner.
     pub corner: usize,
-    /// Its depth, metres; 0 on the boundary.
+    /// Depth of the corner in the other polygon, metres; 0 on the boundary.
     pub depth: f64,
 }
 

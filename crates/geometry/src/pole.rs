@@ -4,7 +4,8 @@ use super::penetration::distance_to_segment;
 use super::{OrderedF64, Point};
 use std::collections::BinaryHeap;
 
-/// Largest number of cells examined. In a sliver almost every point is near the optimum, so more cells bring nothing.
+/// Largest number of cells examined. In a sliver almost every point is near the optimum, and more cells hardly
+/// improve it.
 const MAX_CELLS: usize = 4096;
 
 /// Finds the pole of inaccessibility (Garcia-Castellanos and Lombardo 2007) of a polygon, and its distance from the
@@ -45,7 +46,7 @@ pub fn pole_of_inaccessibility(corners: &[Point], precision: f64) -> Option<(Poi
     best
 }
 
-/// Returns the distance from the outline, positive inside.
+/// Returns the distance of `p` from the outline, negative outside.
 fn depth(corners: &[Point], p: Point) -> f64 {
     let (mut is_inside, mut least) = (false, f64::INFINITY);
     for (i, &a) in corners.iter().enumerate() {

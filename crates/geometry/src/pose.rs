@@ -7,8 +7,8 @@ use std::ops::Mul;
 
 /// A rigid motion of the plane: rotation, then translation. It is also the pose of a frame.
 ///
-/// It moves points and displacements differently, and both have the same type. So there is no product of a pose and a
-/// vector: [`Pose::point`] and [`Pose::direction`] say which is meant.
+/// It moves points and displacements differently, but both have the same type. So there is no product of a pose and
+/// a vector. [`Pose::point`] and [`Pose::direction`] state which is meant.
 ///
 /// ```
 /// use cplan_geometry::{Point, Pose, Vector};
@@ -50,14 +50,14 @@ impl Pose {
         Self { rotation: UnitComplex::identity(), translation: by }
     }
 
-    /// Returns a point after the motion: turned and translated.
+    /// Returns a point after the motion, which rotates and translates it.
     #[inline]
     #[must_use]
     pub fn point(&self, p: Point) -> Point {
         self.rotation * p + self.translation
     }
 
-    /// Returns a displacement after the motion: turned.
+    /// Returns a displacement after the motion, which only rotates it.
     #[inline]
     #[must_use]
     pub fn direction(&self, v: Vector) -> Vector {
@@ -78,14 +78,14 @@ impl Pose {
         self.rotation.inverse() * v
     }
 
-    /// Returns `other` relative to this pose.
+    /// Returns `other` in the frame of this pose.
     #[must_use]
     pub fn inverse_pose(&self, other: &Self) -> Self {
         let back = self.rotation.inverse();
         Self { rotation: back * other.rotation, translation: back * (other.translation - self.translation) }
     }
 
-    /// Returns the opposite motion.
+    /// Returns the inverse motion.
     #[must_use]
     pub fn inverse(&self) -> Self {
         let back = self.rotation.inverse();
@@ -99,7 +99,7 @@ impl Pose {
         Self { translation: by + self.translation, ..*self }
     }
 
-    /// Returns the motion after a translation: the pose moved along the axes of its own frame.
+    /// Returns the motion preceded by a translation: the pose moved along the axes of its own frame.
     #[inline]
     #[must_use]
     pub fn shifted_in_frame(&self, by: Vector) -> Self {
@@ -107,7 +107,7 @@ impl Pose {
     }
 }
 
-/// The motion `self` after the motion `first`.
+/// Returns the motion `first`, followed by `self`.
 impl Mul for Pose {
     type Output = Self;
 
@@ -141,7 +141,7 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(256))]
 
-        /// All results have the bits of nalgebra's isometries.
+        /// All results are bitwise equal to those of nalgebra's isometries.
         #[test]
         fn computes_what_nalgebra_does(v in prop::array::uniform8(-10.0..10.0_f64)) {
             let [a, b, p] = [0, 2, 4].map(|k| Vector::new(v[k], v[k + 1]));

@@ -118,7 +118,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// Returns the side of `c` in integers: no rounding, no shared code.
+    /// Returns the side of `c` in integers, without rounding and without shared code.
     fn side(a: (i64, i64), b: (i64, i64), c: (i64, i64)) -> i64 {
         ((b.0 - a.0) * (c.1 - a.1) - (b.1 - a.1) * (c.0 - a.0)).signum()
     }

@@ -6,8 +6,8 @@ use super::{Convex, Point, Pose, Vector, perpendicular};
 /// Signed distance of two convex shapes, and its direction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Separation {
-    /// The distance if positive. If negative, minus the *penetration depth*: the length of the shortest translation
-    /// that separates the shapes. Metres.
+    /// The distance of the shapes if they are apart, metres. If they overlap, minus their *penetration depth*: the
+    /// length of the shortest translation that separates them.
     pub distance: f64,
     /// Unit direction from the first shape to the second, along which `distance` is measured.
     pub direction: Vector,
@@ -46,8 +46,9 @@ pub fn separation_at<R>(a: &Convex, pose: &Pose, b: &Convex, and: impl FnOnce(&[
     and(corners, Separation { distance: core.distance - a.radius() - b.radius(), direction: core.direction })
 }
 
-/// Returns the gap between the supporting lines of `b` and of `a` moved by a pose, along a unit direction. Negative if
-/// they overlap. No gap exceeds the [`separation`], which is the greatest of them. `O(n + m)`.
+/// Returns the gap along a unit direction between the supporting lines of two shapes: of `a` moved by a pose, and of
+/// `b`. It is negative if the shapes overlap along that direction. The [`separation`] is the greatest gap over all
+/// directions. `O(n + m)`.
 pub fn gap_along(a: &Convex, pose: &Pose, b: &Convex, direction: Vector) -> f64 {
     let own = pose.inverse_direction(direction);
     let of_a = a.core().iter().map(|p| own.dot(p)).fold(f64::NEG_INFINITY, f64::max);
@@ -67,7 +68,8 @@ fn core_separation(a: &[Point], b: &[Point]) -> Separation {
     let error = ROUNDING * largest(a).max(largest(b));
     let Some(Face { distance, normal, is_beside }) = face else { return nearest_features(a, b, error) };
     let face = Separation { distance, direction: normal };
-    // No two points are closer than the gap along any direction, and these two are exactly that close.
+    // No two points are closer than the gap along any direction, and the face and its nearest corner are exactly
+    // that close.
     if distance < -error || is_beside && distance > 4.0 * error {
         return face;
     }
@@ -99,7 +101,8 @@ struct Face {
     is_beside: bool,
 }
 
-/// Returns the side of `a` that `b` is farthest outside of (or least deep inside), if one exceeds `most`.
+/// Returns the side of `a` that `b` is farthest outside of (or least deep inside). Returns `None` if no side exceeds
+/// `most`.
 fn best_face(a: &[Point], b: &[Point], mut most: f64) -> Option<Face> {
     let mut best: Option<(f64, Vector, [&Point; 3])> = None;
     for (p, q) in sides(a) {

@@ -1,13 +1,13 @@
-//! The stretch along which a sliding convex shape meets a fixed one.
+//! The interval of displacements at which a sliding convex shape meets a fixed one.
 
 use super::turning::ROUNDING;
 use super::{Convex, Point, Vector, cross};
 
-/// Returns the closed interval of `s` for which `part`, moved by `s * direction`, comes within `grow` of `piece`. Both
-/// shapes are convex, so there is at most one. `direction` is a unit vector. `O(n m)`.
+/// Returns the closed interval of `s` for which `part`, moved by `s * direction`, is within `grow` of `piece`. Both
+/// shapes are convex, so there is at most one interval. `direction` is a unit vector. `O(n m)`.
 ///
-/// A negative `grow` asks for an overlap of that depth, up to the sum of the radii. Exact up to [`ROUNDING`]; touching
-/// counts.
+/// If `grow` is negative, the shapes must overlap by that depth, which may be up to the sum of the radii. Exact up
+/// to [`ROUNDING`]; touching counts.
 #[must_use]
 pub fn sliding(part: &Convex, direction: Vector, piece: &Convex, grow: f64) -> Option<[f64; 2]> {
     let part_track = along_and_across(part.core().iter(), Vector::zeros(), direction);
@@ -43,7 +43,7 @@ pub fn sliding_tracks(part: &[Vector], piece: &[Vector], radius: f64) -> Option<
     for a in part {
         for p in piece {
             let d = p - a;
-            // A corner on the line up to rounding counts as on it.
+            // A corner that is on the line up to rounding counts as on it.
             let square = radius * radius - d.y * d.y;
             if square >= 0.0 || d.y.abs() <= radius + ROUNDING / 2.0 {
                 let half = square.max(0.0).sqrt();
@@ -78,7 +78,7 @@ fn sides(core: &[Vector]) -> impl Iterator<Item = (Vector, Vector)> + '_ {
 /// Reports where the segment from `p` to `q`, moved by `radius` to either side, crosses the first axis.
 fn cross_line(p: Vector, q: Vector, radius: f64, include: &mut impl FnMut(f64)) {
     let along = q - p;
-    // A segment along the axis ends there, and its ends are tested separately.
+    // A segment along the axis crosses it at its ends, which are tested separately.
     if along.y == 0.0 {
         return;
     }

@@ -1,4 +1,5 @@
-//! Roadmap planners beside the visibility graph: random roadmaps, triangles of a triangulation, the Voronoi diagram.
+//! Roadmap planners other than the visibility graph: random roadmaps, triangles of a triangulation, and the Voronoi
+//! diagram.
 
 mod prm;
 mod triangles;

@@ -1,4 +1,4 @@
-//! Paths by a probabilistic roadmap.
+//! The probabilistic roadmap.
 
 use super::triangles::taut;
 use cplan_core::cspace::Regions;
@@ -13,29 +13,30 @@ use cplan_interrupt::checkpoint;
 use cplan_text::counted;
 use petgraph::graph::NodeIndex;
 
-/// Draws for each sample that is wanted, at most: a free share of a hundredth is enough.
+/// Largest number of random configurations per wanted sample. It is enough if a hundredth of the space is free.
 const MAX_DRAWS_PER_SAMPLE: usize = 100;
 
-/// The *probabilistic roadmap* (Kavraki, Svestka, Latombe, Overmars 1996), for comparison: random free configurations,
-/// each joined to the nearest ones that it sees.
+/// The *probabilistic roadmap* (Kavraki, Svestka, Latombe, Overmars 1996), for comparison. It joins random free
+/// configurations to the nearest ones that they see.
 ///
-/// Samples are uniform over free space; on circles each sample has all its copies within the window. Triangulated free
-/// space decides exactly whether a motion between samples is free. The seed determines the sequence of samples, and a
-/// smaller roadmap uses its first ones, so the same input gives the same roadmap.
+/// Samples are uniform over free space. On circles all copies of a sample within the window are nodes. Triangulated
+/// free space decides exactly whether a motion between samples is free. The seed determines the sequence of samples,
+/// and a roadmap with fewer samples uses the first ones. So the same input gives the same roadmap.
 ///
-/// If it finds no path it gives up, because a path may still exist. `O(n k log n)` for `n` samples with `k` neighbours,
-/// plus the triangles that motions cross.
+/// If the planner finds no path it gives up, because a path may still exist. `O(n k log n)` for `n` samples with `k`
+/// neighbours, plus the triangles that motions cross.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Prm {
     /// Number of free samples.
     pub samples: usize,
-    /// Number of nearest samples to which each is joined, if it sees them.
+    /// Number of nearest samples to which each sample is joined, if it sees them.
     pub nearest: usize,
-    /// Seed of the random samples.
+    /// Seed of the random configurations.
     pub seed: u64,
-    /// [`PathKind::Own`] leads from sample to sample; [`PathKind::Taut`] is pulled tight through the triangles that it crosses.
+    /// The kind of path. [`PathKind::Own`] leads from sample to sample; [`PathKind::Taut`] is pulled taut through
+    /// the triangles that it crosses.
     pub path: PathKind,
-    /// Search method for the roadmap.
+    /// The search method over the roadmap.
     pub search: RoadmapSearch,
 }
 
@@ -49,7 +50,7 @@ impl Default for Prm {
 #[derive(Debug, Clone)]
 pub struct PrmMap {
     mesh: Mesh,
-    /// The samples; node `k` of the roadmap is the `k`th of them.
+    /// The samples. Sample `k` is node `k` of the roadmap.
     samples: Nearby,
     roadmap: Roadmap,
 }
@@ -66,7 +67,7 @@ impl Planner for Prm {
         let nodes: Vec<NodeIndex> = samples.points().iter().map(|&at| roadmap.add(at)).collect();
         for (k, &at) in samples.points().iter().enumerate() {
             checkpoint();
-            // It is the nearest to itself.
+            // The sample itself is the nearest one.
             for other in samples.nearest(at, self.nearest + 1) {
                 if other != k && mesh.is_clear(at, samples.points()[other]) {
                     roadmap.join(nodes[k], nodes[other]);
@@ -92,7 +93,7 @@ impl Planner for Prm {
 }
 
 impl Prm {
-    /// Returns the free samples with all their copies in the window.
+    /// Returns the free samples, with all their copies in the window.
     fn drawn(&self, space: &Regions, mesh: &Mesh) -> Vec<Point> {
         let mut draws = SplitMix64::new(self.seed);
         let (mut points, mut found) = (Vec::new(), 0);
@@ -113,7 +114,8 @@ impl Prm {
         points
     }
 
-    /// Returns the roadmap with a query's ends, joined to each other and to the nearest samples.
+    /// Returns the roadmap with the start and the goals of a query. They are joined to the nearest samples, and the
+    /// start to the goals that it sees.
     fn query_graph(&self, map: &PrmMap, terminals: &Terminals) -> QueryGraph {
         let mut query_graph = map.roadmap.clone().query_graph(terminals.start);
         let start = query_graph.start;
@@ -137,8 +139,8 @@ impl Prm {
     }
 }
 
-/// Returns a polyline through free space as a path, either unchanged or pulled taut through the triangles that it
-/// crosses.
+/// Returns a polyline through free space as a path. For [`PathKind::Taut`] the path is pulled taut through the
+/// triangles that the polyline crosses, if that is possible.
 pub(super) fn along(mesh: &Mesh, own: Vec<Point>, kind: PathKind) -> Proposal {
     let waypoints = match kind {
         PathKind::Own | PathKind::Middles => own,
@@ -147,8 +149,8 @@ pub(super) fn along(mesh: &Mesh, own: Vec<Point>, kind: PathKind) -> Proposal {
     Proposal::Found(Path::new(waypoints))
 }
 
-/// Pulls a path taut through the triangles that it crosses. Returns `None` if it passes through a vertex or along a
-/// side.
+/// Pulls a path taut through the triangles that it crosses. Returns `None` if the path passes through a vertex or
+/// along a side.
 fn tightened(mesh: &Mesh, path: &[Point]) -> Option<Vec<Point>> {
     let crossed = |first: u32| {
         let (mut at, mut portals) = (first, Vec::new());
@@ -156,7 +158,7 @@ fn tightened(mesh: &Mesh, path: &[Point]) -> Option<Vec<Point>> {
             for portal in mesh.walk(at, leg[0], leg[1])? {
                 let back = mesh.twin(portal)?;
                 at = back / 3;
-                // A triangle left through the side of entry can be skipped.
+                // The path leaves the triangle through the side by which it entered, so skip the triangle.
                 if portals.last() == Some(&back) {
                     portals.pop();
                 } else {

@@ -1,4 +1,4 @@
-//! Paths by triangles of free space: from the middle of a side to that of another.
+//! Paths through the triangles of free space, from the middle of one side to that of another.
 
 use cplan_core::cspace::Regions;
 use cplan_core::planner::mesh::Mesh;
@@ -11,18 +11,19 @@ use cplan_geometry::planar::{Boundary, NO_ENTRY};
 use petgraph::graph::NodeIndex;
 use std::sync::Arc;
 
-/// The *triangular decomposition*: finds a channel of triangles from start to goal if one exists, and a path in it.
+/// The *triangular decomposition*. It finds a channel of triangles from start to goal whenever there is one, and a
+/// path in the channel.
 ///
-/// Free space is triangulated (constrained Delaunay). The nodes of the roadmap are the midpoints of sides shared by two
-/// triangles; those of one triangle are joined by straight motions, which lie within it (LaValle, *Planning
-/// Algorithms*, 2006, section 6.3.2). Even a taut path is not necessarily the shortest, because another channel may
-/// hold a shorter one. `O(n log n)` for `n` corners, with any search.
+/// Free space is triangulated (constrained Delaunay). The nodes of the roadmap are the midpoints of sides that two
+/// triangles share. The nodes of one triangle are joined by straight motions, which lie within the triangle
+/// (LaValle, *Planning Algorithms*, 2006, section 6.3.2). Even a taut path is not necessarily the shortest, because
+/// another channel may contain a shorter one. `O(n log n)` for `n` corners, with any search.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Triangles {
-    /// [`PathKind::Taut`] is pulled within the channel, so that it may touch obstacles; [`PathKind::Own`] leads through the
-    /// middles of sides.
+    /// The kind of path. [`PathKind::Taut`] is pulled taut within the channel, so it may touch obstacles.
+    /// [`PathKind::Own`] leads through the midpoints of sides.
     pub path: PathKind,
-    /// Search method for the roadmap.
+    /// The search method over the roadmap.
     pub search: RoadmapSearch,
 }
 
@@ -32,16 +33,16 @@ impl Default for Triangles {
     }
 }
 
-/// Triangulated free space, and the roadmap through the middles of its sides.
+/// Triangulated free space, and the roadmap through the midpoints of its sides.
 #[derive(Debug, Clone)]
 pub struct TrianglesMap {
     mesh: Mesh,
-    /// Corners of the triangles.
+    /// Corners of each triangle, for pictures.
     corners: Arc<[Vec<Configuration>]>,
     roadmap: Roadmap,
     /// For each node, one of the two half-edges of its side.
     sides: Vec<u32>,
-    /// The node at the middle of each half-edge, `NO_ENTRY` where that is part of the boundary.
+    /// For each half-edge, the node at its midpoint; `NO_ENTRY` if it is part of the boundary.
     middles: Vec<u32>,
 }
 
@@ -91,8 +92,8 @@ impl Planner for Triangles {
     }
 }
 
-/// Returns the shortest path from the start to the nearest goal through the given sides of triangles, each seen from
-/// the triangle before it.
+/// Returns the shortest path from the start to the nearest goal through the given sides of triangles. Each side is
+/// given as the half-edge of the triangle that the path leaves there.
 pub(super) fn taut(mesh: &Mesh, start: Point, goals: &Segment, sides: &[u32]) -> Vec<Point> {
     let portal = |&side: &u32| {
         let [right, left] = mesh.ends(side);
@@ -102,15 +103,15 @@ pub(super) fn taut(mesh: &Mesh, start: Point, goals: &Segment, sides: &[u32]) ->
     funnel_path(start, nearest_end(start, goals, &portals), &portals)
 }
 
-/// A way on the roadmap.
+/// A path on the roadmap.
 struct RoadmapPath {
-    /// Start, middles, goal.
+    /// The start, the midpoints, and the goal.
     own: Vec<Point>,
-    /// The triangles that it passes.
+    /// The triangles that the path passes.
     channel: Vec<u32>,
-    /// The sides by which it leaves them, one less.
+    /// The sides through which the path leaves the triangles, one fewer.
     portals: Vec<u32>,
-    /// The goals in the last triangle that it can end at.
+    /// The goals in the last triangle at which the path can end.
     goals: Segment,
 }
 
@@ -139,7 +140,7 @@ impl TrianglesMap {
         Self { mesh, corners, roadmap, sides, middles }
     }
 
-    /// Returns the path that a search finds, and the configurations that it expanded, in order.
+    /// Returns the path that a search finds, and the configurations that the search expanded, in order.
     fn route(&self, terminals: &Terminals, how: RoadmapSearch) -> (Option<RoadmapPath>, Vec<Configuration>) {
         let (mesh, start) = (&self.mesh, terminals.start);
         let euclid = Measure::from(Metric::Euclidean);
@@ -150,7 +151,7 @@ impl TrianglesMap {
         for side in first.iter().flat_map(|&triangle| mesh.portals(triangle)) {
             query_graph.join(begin, node(side));
         }
-        // Of each goal the triangle and the part that it is of.
+        // For each goal's node: its triangle, and the part of the goals in it.
         let mut goals: Vec<(NodeIndex, u32, Segment)> = Vec::new();
         for &(triangle, part) in &terminals.parts {
             let mut join = |from: NodeIndex| {
@@ -165,7 +166,7 @@ impl TrianglesMap {
         }
         let (route, expanded) = query_graph.search(how, terminals);
         let route = route.map(|nodes| {
-            // The triangles that a node is on.
+            // Returns the triangles to which a node belongs.
             let around = |node: NodeIndex| -> Vec<u32> {
                 if let Some(&side) = self.sides.get(node.index()) {
                     return [Some(side), mesh.twin(side)].into_iter().flatten().map(|side| side / 3).collect();

@@ -19,7 +19,8 @@ impl Cell {
         Configuration::new((self.lower[0] + self.upper[0]) / 2.0, (self.lower[1] + self.upper[1]) / 2.0)
     }
 
-    /// Returns half of each side, rounded up, so that the box about the rounded centre covers the cell.
+    /// Returns half of each side, rounded up so that a box of these half sides about the rounded centre covers the
+    /// cell.
     #[must_use]
     pub fn half(&self) -> [f64; 2] {
         [0, 1].map(|k| {
@@ -28,7 +29,8 @@ impl Cell {
         })
     }
 
-    /// Returns the part of a segment that meets the cell. Rounding may put its ends outside; they are clamped into the cell.
+    /// Returns the part of a segment that meets the cell, with its ends clamped into the cell. If rounding leaves no
+    /// such part, returns the point of the segment nearest to the centre.
     #[must_use]
     pub fn part(&self, piece: &Segment) -> Segment {
         if piece.is_point() {

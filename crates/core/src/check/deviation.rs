@@ -1,41 +1,44 @@
 //! Bounds on the distance between a link and an obstacle while the configuration deviates from a given one.
 //!
 //! Let `q` deviate from `m` by `d`, let `n` be the direction of least distance at `m`, and let `x(d)` be a corner of
-//! the link. Taylor's formula gives `n . x(d) <= n . x(0) + |n . J d| + K / 2` with `K` a bound on the second
-//! derivative along the motion. The link stays on its side of the obstacle's supporting line as long as this is below
-//! it for every corner. That bounds the distance from below: to first order, only motion *towards* the obstacle counts.
+//! the link. Taylor's formula gives `n . x(d) <= n . x(0) + |n . J d| + K / 2`, with the Jacobian `J` and a bound
+//! `K` on the second derivative along the motion. The obstacle has a supporting line with the normal `n`. As long as
+//! this sum is below that line for every corner, the link stays on its side of the line. That bounds the distance
+//! from below. To first order, only motion *towards* the obstacle counts.
 //!
-//! The same holds in the link's frame, where the obstacle's corners move and the link rests; the better of the two
-//! bounds counts. Both are far better than "no point moves farther than" (Schwarzer, Saha, Latombe 2005) when a link
-//! slides along an obstacle, as it does on shortest paths. That bound is the third one, and the best one at large
-//! distances.
+//! The same holds in the link's frame, where the obstacle's corners move and the link rests. A third bound is that
+//! no point moves farther than some length (Schwarzer, Saha, Latombe 2005). The greatest of the three bounds counts.
+//! The third is the best one at large distances. The other two are far better when a link slides along an obstacle,
+//! as it does on shortest paths.
 
 use super::drift::Drift;
 use crate::model::{Arm, JointType, Pair, Scene};
 use crate::space::Configuration;
 use cplan_geometry::{Convex, Point, Pose, Separation, Vector, perpendicular, reach, separation_at};
 
-/// Share of the lengths involved that bounds the rounding of one evaluation (a few dozen operations at 1.1e-16 each).
-/// Bounds are weakened by it, so that they hold in floating point too.
+/// Bound on the rounding of one evaluation, as a fraction of the lengths in it: a few dozen operations at 1.1e-16
+/// each. Bounds are lowered by it, so that they hold in floating point too.
 const ROUNDING: f64 = 1e-13;
 
-/// Share of the lengths for proofs that shapes collide. It is larger than the tolerance of the independent check
-/// ([`super::Disconnection::checked`], 1e-12), so that the check accepts these proofs.
+/// Allowance for rounding in proofs that shapes collide, as a fraction of the lengths. It is larger than the
+/// tolerance of the independent check ([`super::Disconnection::checked`], 1e-12), so that the check accepts these
+/// proofs.
 pub const COLLISION_ROUNDING: f64 = 2e-12;
 
 /// A set of deviations from a configuration, symmetric about it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Deviation {
-    /// Along a straight motion: `t d` for `-1 <= t <= 1`.
+    /// A straight motion: the deviations `t d` for `-1 <= t <= 1`.
     Along(Configuration),
-    /// A box: `|d_1| <= h_1` and `|d_2| <= h_2`.
+    /// A box: all deviations with `|d_1| <= h_1` and `|d_2| <= h_2`.
     Box([f64; 2]),
-    /// The sum of both: a straight motion with a box about each of its points, such as a curve about its chord.
+    /// The sums of a deviation along a straight motion and one in a box. It covers, for example, a curve about its
+    /// chord.
     Tube(Configuration, [f64; 2]),
 }
 
 impl Deviation {
-    /// Returns the greatest `|g_1 d_1 + g_2 d_2|`.
+    /// Returns the greatest value of `|g_1 d_1 + g_2 d_2|` over the deviations.
     fn linear(self, g: [f64; 2]) -> f64 {
         match self {
             Deviation::Along(d) => (g[0] * d[0] + g[1] * d[1]).abs(),
@@ -44,7 +47,8 @@ impl Deviation {
         }
     }
 
-    /// Returns the greatest `|g_1 d_1 + g_2 d_2 - t c|`, where `t` is the share of the straight motion that is done.
+    /// Returns the greatest value of `|g_1 d_1 + g_2 d_2 - t c|` over the deviations, with `t` as in
+    /// [`Deviation::Along`].
     fn linear_less(self, g: [f64; 2], c: f64) -> f64 {
         match self {
             Deviation::Along(d) => (g[0] * d[0] + g[1] * d[1] - c).abs(),
@@ -53,7 +57,7 @@ impl Deviation {
         }
     }
 
-    /// Returns the greatest `|d_1|` and `|d_2|`.
+    /// Returns the greatest values of `|d_1|` and `|d_2|` over the deviations.
     fn each(self) -> [f64; 2] {
         match self {
             Deviation::Along(d) => [d[0].abs(), d[1].abs()],
@@ -63,59 +67,60 @@ impl Deviation {
     }
 }
 
-/// The arm at one configuration, ready to judge deviations from it.
+/// An arm at one configuration, prepared for bounds on its distances nearby.
 #[derive(Debug, Clone)]
 pub struct Posture<'a> {
     scene: &'a Scene,
     q: Configuration,
     poses: [Pose; 3],
-    /// Positions of joint 2, here and with joint 1 at zero.
+    /// Positions of joint 2: at the configuration, and with joint 1 at zero instead.
     elbows: [Point; 2],
 }
 
-/// A pair at a posture: its distance there, and a lower bound on it nearby.
+/// The distance of a pair at a posture, and a lower bound on it nearby.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SeparationBound {
-    /// Signed distance at the posture.
+    /// Signed distance at the posture, with its direction.
     pub here: Separation,
-    /// Lower bound on the signed distance over the deviation, metres.
+    /// Lower bound on the signed distance over all deviations, metres.
     pub least: f64,
 }
 
-/// The shapes of a pair, and the obstacle's motion while the configuration deviates, if it moves. At the deviation `t
-/// d` the obstacle is where it is `t` half spans from the middle of the drift.
+/// The shapes of a pair, and the drift of its obstacle, if any. While the arm deviates by `t d`, the obstacle is at
+/// its position `t` half spans after the middle of the drift.
 #[derive(Clone, Copy)]
 struct Shapes<'s> {
     link: usize,
-    /// The link's shape, in its frame.
+    /// The link's shape, in the link's frame.
     local: &'s Convex,
-    /// The obstacle's shape, in the plane, at its place in the middle of the drift.
+    /// The obstacle's shape in plane coordinates, at the middle of the drift.
     piece: &'s Convex,
     drift: Option<&'s Drift>,
 }
 
-/// A bound on the second derivative of the motion of points, per squared parameter of the deviation.
+/// A bound on the second derivative of the motion of a point `p` by the deviation's parameter:
+/// `(|p - center| + shift) factor^2 + constant`.
 #[derive(Debug, Clone, Copy)]
 pub struct Curvature {
-    /// The bound grows with the distance from here, ...
+    /// The point from which the distance of `p` counts.
     center: Point,
-    /// ... and this, ...
+    /// A length added to that distance, metres.
     shift: f64,
-    /// ... times the square of this, ...
+    /// Bound on the rotation, radians.
     factor: f64,
-    /// ... plus this.
+    /// The part of the bound that is the same for all points, metres.
     constant: f64,
 }
 
 impl Curvature {
-    /// Returns the bound for a point.
+    /// Returns the bound for the point `p`.
     pub fn of(&self, p: Point) -> f64 {
         ((p - self.center).norm() + self.shift) * self.factor * self.factor + self.constant
     }
 }
 
 impl<'a> Posture<'a> {
-    /// Returns the arm of `scene` at `q`.
+    /// Prepares the arm of `scene` at `q`.
     #[must_use]
     pub fn new(scene: &'a Scene, q: Configuration) -> Self {
         let poses = scene.arm().pair_poses(q);
@@ -129,29 +134,30 @@ impl<'a> Posture<'a> {
         self.q
     }
 
-    /// Returns the pose of a link.
+    /// Returns the pose of the moving part of a pair, for each value of [`Pair::link`].
     pub fn pose(&self, link: usize) -> Pose {
         self.poses[link]
     }
 
-    /// Returns the distance of a pair here.
+    /// Returns the signed distance of a pair at the posture.
     pub fn separation(&self, pair: Pair) -> Separation {
         separation_at(self.scene.part(pair), &self.poses[pair.link], self.scene.piece(pair), |_, here| here)
     }
 
-    /// Returns the distance of a pair here and a lower bound on it over `deviation`.
+    /// Returns the distance of a pair at the posture, and a lower bound on it over `deviation`.
     #[must_use]
     pub fn bound(&self, pair: Pair, deviation: Deviation) -> SeparationBound {
         self.bound_up_to(pair, deviation, |_| f64::INFINITY)
     }
 
-    /// Returns the same as [`Posture::bound`], but stops as soon as the bound is good enough for the distance here.
+    /// Does the same as [`Posture::bound`], but stops as soon as the bound is at least the value that `enough`
+    /// returns for the distance at the posture.
     pub fn bound_up_to(&self, pair: Pair, deviation: Deviation, enough: impl Fn(f64) -> f64) -> SeparationBound {
         self.least(self.shapes(pair), deviation, enough)
     }
 
-    /// Returns the same as [`Posture::bound_up_to`] for a loose obstacle. The posture is that in the middle of the
-    /// drift's span, and the deviation is the arm's motion in that span.
+    /// Does the same as [`Posture::bound_up_to`] for a loose obstacle that drifts. The posture is the arm's in the
+    /// middle of the drift's span, and the deviation is the arm's motion in that span.
     pub fn bound_drifting(
         &self,
         pair: Pair,
@@ -164,7 +170,7 @@ impl<'a> Posture<'a> {
         self.least(Shapes { piece: &piece, drift: Some(drift), ..standing }, deviation, enough)
     }
 
-    /// Same as [`Posture::disc_bound`] for a loose obstacle.
+    /// Does the same as [`Posture::disc_bound`] for a loose obstacle that drifts.
     pub fn apart_drifting(&self, pair: Pair, deviation: Deviation, drift: &Drift) -> f64 {
         let (center, around) = disc(self.scene.piece(pair));
         let drifts = drift.farthest(center.norm() + around);
@@ -193,8 +199,8 @@ impl<'a> Posture<'a> {
         })
     }
 
-    /// Returns a lower bound on the distance of a pair over `deviation` from discs around the shapes. It is far below
-    /// [`Posture::bound`]'s where shapes are near each other, at a small part of its cost.
+    /// Returns a lower bound on the distance of a pair over `deviation`, from discs around the two shapes. It costs
+    /// a small part of what [`Posture::bound`] costs. If the shapes are near each other, it is far lower.
     pub fn disc_bound(&self, pair: Pair, deviation: Deviation) -> f64 {
         let (fixed, around) = disc(self.scene.piece(pair));
         self.disc_bound_from(pair, deviation, fixed, around)
@@ -207,17 +213,17 @@ impl<'a> Posture<'a> {
         between - extent - around - ROUNDING * scale
     }
 
-    /// Returns a disc that holds the part of a pair over `deviation`.
+    /// Returns centre and radius of a disc that contains the part of a pair over `deviation`.
     pub fn place(&self, pair: Pair, deviation: Deviation) -> (Point, f64) {
         let (center, extent) = disc(self.scene.part(pair));
         (self.poses[pair.link].point(center), extent + self.farthest_motion(pair, deviation))
     }
 
-    /// Returns an upper bound on the signed distance of a pair over `deviation`: if it is negative, the pair collides
-    /// everywhere in it.
+    /// Returns an upper bound on the signed distance of a pair over `deviation`. If it is negative, the pair
+    /// collides at every deviation.
     ///
-    /// If the shapes were separate at some deviation, a separating line there, moved back by the farthest motion of a
-    /// point, would bound the depth here by that motion.
+    /// The reason: if the shapes were apart at some deviation, a line would separate them there. Moved back by the
+    /// farthest motion of a point, that line would bound the depth at the posture by this motion.
     #[must_use]
     pub fn greatest(&self, pair: Pair, deviation: Deviation) -> f64 {
         let (local, piece) = (self.scene.part(pair), self.scene.piece(pair));
@@ -227,14 +233,14 @@ impl<'a> Posture<'a> {
         })
     }
 
-    /// Returns the magnitude of the coordinates that enter a distance.
+    /// Returns a bound on all lengths in the computation of a distance, to which its rounding is relative.
     pub fn scale(&self, corners: &[Point], radius: f64, piece: &Convex) -> f64 {
         let base = self.scene.arm().base;
         base.norm() + reach(corners, base) + radius.max(0.0) + piece.reach_from(base)
     }
 
-    /// Returns a bound with the separating direction fixed in the plane: the link's corners move, and those of a moving
-    /// obstacle.
+    /// Returns a bound with the separating direction fixed in the plane. The link's corners move, and those of a
+    /// drifting obstacle as well.
     fn least_in_plane(&self, shapes: Shapes, corners: &[Point], n: Vector, deviation: Deviation) -> f64 {
         let Shapes { link, local, piece, drift } = shapes;
         let curvature = self.curvature_in_plane(link, deviation);
@@ -248,7 +254,7 @@ impl<'a> Posture<'a> {
             }
             return least;
         };
-        // Both move by the same share of the span, so motion that they have in common does not count.
+        // Both shapes move by the same fraction of the span, so motion that they have in common does not count.
         let mut least = f64::INFINITY;
         for (x, a) in corners.iter().zip(local.core()) {
             let rates = self.rates(link, *x, n);
@@ -260,8 +266,8 @@ impl<'a> Posture<'a> {
         least
     }
 
-    /// Returns a bound with the separating direction fixed in the link. The obstacle's corners move, with the opposite
-    /// of the velocity that a point of the link has at their place.
+    /// Returns a bound with the separating direction fixed in the link. The obstacle's corners move: each has the
+    /// opposite of the velocity of the link's point at the same place.
     fn least_in_link(&self, shapes: Shapes, corners: &[Point], n: Vector, deviation: Deviation) -> f64 {
         let Shapes { link, piece, .. } = shapes;
         let line = corners.iter().map(|p| n.dot(p)).fold(f64::NEG_INFINITY, f64::max);
@@ -275,7 +281,7 @@ impl<'a> Posture<'a> {
         least
     }
 
-    /// Returns the rate along `n`, for each joint, of the point of link `link` that is at `x` now.
+    /// Returns the velocity along `n`, per unit of each joint, of the point of link `link` that is now at `x`.
     fn rates(&self, link: usize, x: Point, n: Vector) -> [f64; 2] {
         let arm = self.scene.arm();
         let first = match arm.joints[0].joint_type {
@@ -292,7 +298,7 @@ impl<'a> Posture<'a> {
         [first, second]
     }
 
-    /// Returns the curvature of points of the link (link frame) in the plane.
+    /// Returns the curvature of the motion in the plane of points given in the link's frame.
     pub fn curvature_in_plane(&self, link: usize, deviation: Deviation) -> Curvature {
         use JointType::{Prismatic, Revolute};
         let arm = self.scene.arm();
@@ -314,7 +320,7 @@ impl<'a> Posture<'a> {
         }
     }
 
-    /// Returns the curvature of points of the plane, as seen from the link.
+    /// Returns the curvature of the motion in the link's frame of points at rest in the plane.
     pub fn curvature_in_link(&self, link: usize, deviation: Deviation) -> Curvature {
         use JointType::{Prismatic, Revolute};
         let arm = self.scene.arm();
@@ -336,7 +342,7 @@ impl<'a> Posture<'a> {
         }
     }
 
-    /// Returns a bound on the motion of any point of the pair's link part.
+    /// Returns an upper bound on the motion over `deviation` of all points of the pair's part, metres.
     pub fn farthest_motion(&self, pair: Pair, deviation: Deviation) -> f64 {
         self.farthest_motion_of(pair.link, self.scene.part(pair), deviation)
     }
@@ -365,7 +371,7 @@ impl<'a> Posture<'a> {
     }
 }
 
-/// Returns a disc around a shape.
+/// Returns centre and radius of a disc that contains a shape.
 fn disc(shape: &Convex) -> (Point, f64) {
     let core = shape.core();
     let center = core.iter().sum::<Vector>() / core.len() as f64;
@@ -373,7 +379,7 @@ fn disc(shape: &Convex) -> (Point, f64) {
     (center, extent2.sqrt() + shape.radius())
 }
 
-/// Returns the greatest turn of link 2 against the plane when both joints turn.
+/// Returns the greatest angle by which link 2 turns in the plane when both joints turn, radians.
 fn turn_of_link_2(arm: &Arm, deviation: Deviation) -> f64 {
     let sign = |k: usize| match arm.joints[k].joint_type {
         JointType::Revolute { sign } => sign,

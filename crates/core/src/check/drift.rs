@@ -2,31 +2,32 @@
 
 use cplan_geometry::{Point, Pose, Vector, perpendicular};
 
-/// The motion of a loose obstacle while a curve's parameter, such as the time, goes through a span, relative to the pose
-/// in the middle of the span.
+/// The motion of a loose obstacle while a parameter such as the time goes through a span. It is given relative to
+/// the pose in the middle of the span.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Drift {
-    /// Pose of the obstacle's frame in the middle.
+    /// Pose of the obstacle's frame in the middle of the span.
     pub middle: Pose,
-    /// Velocity of its origin then, metres per unit of the parameter, ...
+    /// Velocity of the frame's origin, metres per unit of the parameter, if it is constant in the span. Otherwise
+    /// zero.
     pub velocity: Vector,
-    /// ... and angular velocity, radians per unit, ...
+    /// Angular velocity, radians per unit of the parameter, if it is constant in the span. Otherwise zero.
     pub turn: f64,
-    /// ... for this change of the parameter to either side.
+    /// Half the length of the span, in units of the parameter.
     pub half: f64,
-    /// Bounds on velocities in unknown directions: metres per unit, and radians per unit. For spans in which the
-    /// velocity changes.
+    /// Bounds on the speed of the origin (metres per unit) and on the angular speed (radians per unit) in a span in
+    /// which the velocity changes. Zero if it is constant.
     pub any: [f64; 2],
 }
 
 impl Drift {
-    /// Returns the displacement, per half of the span, of the point that is at `p` in the middle, to first order.
+    /// Returns the displacement, to first order, during half of the span of the point that is at `p` in the middle.
     #[must_use]
     pub fn of(&self, p: Point) -> Vector {
         (self.velocity + perpendicular(p - self.origin()) * self.turn) * self.half
     }
 
-    /// Returns a bound on the difference between the displacement of that point and [`Drift::of`], metres.
+    /// Returns a bound on the difference between that point's actual displacement and [`Drift::of`], metres.
     #[must_use]
     pub fn beyond(&self, p: Point) -> f64 {
         let reach = (p - self.origin()).norm();
@@ -34,7 +35,8 @@ impl Drift {
         turned * turned * reach / 2.0 + (self.any[0] + self.any[1] * reach) * self.half
     }
 
-    /// Returns the farthest that a point within `reach` of the frame's origin moves, metres.
+    /// Returns an upper bound on the motion during half of the span, metres, of points within `reach` of the frame's
+    /// origin.
     #[must_use]
     pub fn farthest(&self, reach: f64) -> f64 {
         (self.velocity.norm() + self.any[0] + (self.turn.abs() + self.any[1]) * reach) * self.half

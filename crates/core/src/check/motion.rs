@@ -6,31 +6,37 @@ use crate::model::{Contact, Pair, Scene};
 use crate::space::{Configuration, Path};
 use cplan_interrupt::checkpoint;
 
-/// The proven clearance is at least this share of the true one. Below it, pieces of the path are halved and bounded
-/// again. A value nearer to 1 costs more evaluations, a few more for every halving of the gap.
+/// A lower bound for a piece of the path is accepted if it is at least this fraction of the least distance seen.
+/// Otherwise the piece is halved. So the proven clearance is at least this fraction of the true one. A value nearer
+/// to 1 costs more evaluations: a few more for every halving of the gap.
 const TIGHTNESS: f64 = 0.9;
 
-/// Greatest number of checks of a pair and a piece of a path: some seconds' worth, ...
+/// Number of checks of a pair on a piece of a path before the search gives up, if the path has few waypoints. They
+/// take some seconds.
 const MAX_EVALUATIONS: usize = 5_000_000;
-/// ... plus some for each straight piece, since paths through mazes have hundreds of thousands.
+/// Number of checks per waypoint that are added to [`MAX_EVALUATIONS`]. Paths through mazes have hundreds of
+/// thousands of waypoints.
 const EVALUATIONS_PER_PIECE: usize = 500;
 
-/// Rounding of a configuration on a segment, relative to the larger of its ends: three operations. It matters where joints on
-/// circles are many turns from zero, where doubles lie far apart.
+/// Rounding error of a configuration on a segment, relative to the larger of the segment's ends: three operations.
+/// On circles joint values may be many turns from zero, where doubles lie far apart.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
-/// Number of parts of a curve whose postures all pairs share: four levels of halves.
+/// Parts of a curve with numbers below this have one posture for all pairs. These parts are the whole curve and
+/// three levels of halves.
 const SHARED_PARTS: usize = 16;
 
-/// Rounding of a place where two paths join, relative to its size.
+/// Allowed distance of the end of one path from the start of the next, relative to the size of the joint values.
 const JOIN_ROUNDING: f64 = 1e-9;
 
-/// Pairs at more than this multiple of the least distance seen are not checked, because the proven clearance is that of
-/// a nearer pair. Larger than the inverse of [`TIGHTNESS`], with room for rounding.
+/// Pairs are not checked if their distance exceeds this multiple of the target, which is at least [`TIGHTNESS`] of
+/// the least distance seen. A nearer pair then determines the proven clearance. Must exceed the inverse of
+/// [`TIGHTNESS`], with room for rounding.
 const DISTANCE_CUTOFF: f64 = 2.0;
 
 /// A path whose whole continuous motion is proven to be within the joint limits and to keep its clearance. Only
-/// [`certify`] makes one.
+/// [`certify`] makes one from a path; [`CertifiedPath::then`], [`CertifiedPath::part`] and [`CertifiedPath::within`]
+/// derive others.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CertifiedPath {
     path: Path,
@@ -38,33 +44,34 @@ pub struct CertifiedPath {
     nearest: Option<Nearest>,
 }
 
-/// The place where a path comes nearest to an obstacle, as far as the search looked.
+/// The least distance from an obstacle among the configurations that the search examined.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Nearest {
-    /// The configuration of the nearest approach.
+    /// The configuration at which it was found.
     pub at: Configuration,
-    /// The shapes and their distance there, an upper bound on the true clearance.
+    /// The shapes and their distance at that configuration. It is an upper bound on the true clearance.
     pub contact: Contact,
 }
 
 impl CertifiedPath {
-    /// Returns the path that was shown to be free.
+    /// Returns the path that was proven to be free.
     #[must_use]
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Returns the path with a lower clearance, if this is lower, and another nearest place. For motions that leave the
-    /// path.
+    /// Returns the same path with another nearest place, and with `clearance` if that is lower than the present one.
+    /// For motions that deviate from the path.
     #[must_use]
     pub fn within(self, clearance: f64, nearest: Option<Nearest>) -> Self {
         Self { clearance: self.clearance.min(clearance), nearest, ..self }
     }
 
-    /// Returns this path followed by another one that begins where this ends. The clearance is the lower one of both.
+    /// Returns this path followed by `next`, which begins where this path ends. The clearance is the lower one of
+    /// the two.
     ///
     /// # Panics
-    /// If the other path begins elsewhere, by more than rounding.
+    /// If `next` begins elsewhere, by more than rounding.
     #[must_use]
     pub fn then(self, next: &Self) -> Self {
         let (goal, start) = (self.path.goal(), next.path.start());
@@ -79,54 +86,55 @@ impl CertifiedPath {
         Self { path: Path::new(waypoints), clearance: self.clearance.min(next.clearance), nearest }
     }
 
-    /// Returns the part between two distances along the path, backwards if the first is the greater. A part of a
-    /// certified path is certified, and so is its reverse. The reported clearance is that of the whole path, and the
-    /// part keeps at least that.
+    /// Returns the part between two distances along the path, reversed if the first is greater. A part of a
+    /// certified path is certified, in either direction. Its reported clearance is that of the whole path, which is
+    /// a lower bound.
     #[must_use]
     pub fn part(&self, from: f64, to: f64) -> Self {
         Self { path: self.path.part(from, to), ..self.clone() }
     }
 
-    /// Returns the proven lower bound on the distance between arm and obstacles along the whole motion, metres;
-    /// infinite if nothing can meet. It is positive and at least the required clearance. It is at least 0.9 of the true
-    /// value unless the required clearance is nearer to that.
+    /// Returns the proven lower bound on the distance between the arm and obstacles along the whole motion, metres;
+    /// infinite if nothing can meet. It is positive and at least the required clearance. It is also at least 0.9 of
+    /// the true clearance.
     #[must_use]
     pub fn clearance(&self) -> f64 {
         self.clearance
     }
 
-    /// Returns the place where the path comes nearest to an obstacle; `None` if nothing can meet.
+    /// Returns the nearest approach to an obstacle that the search found; `None` if nothing can meet.
     #[must_use]
     pub fn nearest(&self) -> Option<Nearest> {
         self.nearest
     }
 }
 
-/// Why a path is not certified.
+/// The reason why a path is not certified.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Rejection {
     /// A waypoint is outside a joint's limits.
     OutOfLimits {
         /// Index of the waypoint.
         waypoint: usize,
-        /// 0 or 1.
+        /// Index of the joint, 0 or 1.
         joint: usize,
     },
-    /// The shapes touch, overlap, or are nearer than the clearance to keep, at this configuration on the path.
+    /// At this configuration on the path, two shapes touch, overlap, or are nearer than the required clearance.
     TooClose(Nearest),
-    /// The search ran out here: the distance is too near to the clearance to keep to decide which is larger.
+    /// The search gave up at this configuration: the distance is too near to the required clearance to decide which
+    /// is larger.
     Undecided(Nearest),
 }
 
-/// Checks the whole motion along `path`, straight in joint space between waypoints: limits, and a distance of more
-/// than zero and at least `clearance` metres between every pair that can meet.
+/// Checks the whole motion along `path`, which is straight in joint space between waypoints. It must be within the
+/// joint limits. Every pair that can meet must keep a distance of more than zero and at least `clearance` metres.
 ///
-/// For every pair and segment the lower bound of [`Posture::bound`] about the middle decides; otherwise both halves are
-/// checked. The search ends because a motion that keeps more than the clearance exceeds it by a positive amount; the
-/// number of halvings grows like the square root of its inverse.
+/// For each pair and segment, the lower bound of [`Posture::bound`] about the middle decides; if it is too low, both
+/// halves are checked. The search ends if the motion's least distance exceeds the clearance. The number of pieces
+/// then grows like the square root of the inverse of the excess.
 ///
 /// # Errors
-/// [`Rejection`]; `TooClose` is a proof that the path fails, the others are not.
+/// [`Rejection`]: `OutOfLimits` and `TooClose` prove that the path fails, `Undecided` does not.
 pub fn certify(scene: &Scene, path: Path, clearance: f64) -> Result<CertifiedPath, Rejection> {
     let topology = scene.arm().topology();
     for (waypoint, q) in path.waypoints().iter().enumerate() {
@@ -141,7 +149,7 @@ pub fn certify(scene: &Scene, path: Path, clearance: f64) -> Result<CertifiedPat
         let posture = Posture::new(scene, q);
         let here = Deviation::Box([0.0, 0.0]);
         vicinity.near(&posture, here, search.least_distance(), |pair| {
-            // Pairs farther off than the nearest so far are of no interest.
+            // Pairs farther apart than the nearest pair so far need no exact distance.
             if posture.disc_bound(pair, here) < search.least_distance() {
                 search.record(q, Contact { pair, separation: posture.separation(pair) })?;
             }
@@ -156,8 +164,8 @@ pub fn certify(scene: &Scene, path: Path, clearance: f64) -> Result<CertifiedPat
     Ok(CertifiedPath { path, clearance: search.proven, nearest: search.nearest })
 }
 
-/// A check of many straight motions in one scene. For each it only decides whether the motion keeps the clearance, not
-/// how much more it keeps. That is a small part of the cost of [`certify`].
+/// A check of many straight motions in one scene. It decides only whether each motion keeps the clearance, not by
+/// how much. That costs a small part of what [`certify`] costs.
 pub struct StraightMotions<'a> {
     scene: &'a Scene,
     vicinity: Vicinity<'a>,
@@ -165,14 +173,14 @@ pub struct StraightMotions<'a> {
 }
 
 impl<'a> StraightMotions<'a> {
-    /// Creates a check for motions that keep more than zero and at least `clearance` metres. `O(n log n)` in the pairs
+    /// Creates a check for a distance of more than zero and at least `clearance` metres. `O(n log n)` in the pairs
     /// that can meet.
     #[must_use]
     pub fn new(scene: &'a Scene, clearance: f64) -> Self {
         Self { scene, vicinity: Vicinity::new(scene), clearance }
     }
 
-    /// Returns true if a motion is shown to be free, within the joint limits.
+    /// Returns true if the straight motion is proven to be free and within the joint limits.
     #[must_use]
     pub fn is_free(&self, from: Configuration, to: Configuration) -> bool {
         let topology = self.scene.arm().topology();
@@ -184,27 +192,28 @@ impl<'a> StraightMotions<'a> {
     }
 }
 
-/// Returns the part of a segment within the share `half` on either side of a place, plus the rounding of that place.
+/// Returns the deviations from a place on a segment to all places within the fraction `half` of the segment on
+/// either side, plus the rounding of that place.
 fn part_of(from: Configuration, to: Configuration, half: f64) -> Deviation {
     let rounded = [0, 1].map(|k| ROUNDING * from[k].abs().max(to[k].abs()));
     Deviation::Tube((to - from) * half, rounded)
 }
 
-/// Judges the pieces of a motion one after the other, along any curves.
+/// A check of a motion along any curves, piece by piece.
 #[derive(Debug, Clone)]
 pub struct CurveSearch<'a> {
     scene: &'a Scene,
     required: f64,
-    /// A bound is accepted if it is at least this share of the least distance seen.
+    /// A bound is accepted if it is at least this fraction of the least distance seen; 0 if only `required` counts.
     tightness: f64,
-    /// Least of the accepted bounds.
+    /// The least of the accepted bounds.
     proven: f64,
-    /// Least distance seen.
+    /// The nearest approach found so far.
     nearest: Option<Nearest>,
-    /// Number of remaining checks.
+    /// Number of checks of pairs that remain before the search gives up.
     budget: usize,
-    /// Parts of a curve as (number, middle, half width) of the parameter, the next one last. The whole has number 1,
-    /// the halves of `n` have `2 n` and `2 n + 1`.
+    /// Parts of a curve that are still to be checked, the next one last: number, middle and half width of the
+    /// parameter. The whole curve has number 1; the halves of part `n` have `2 n` and `2 n + 1`.
     open: Vec<(usize, f64, f64)>,
 }
 
@@ -213,26 +222,27 @@ impl<'a> CurveSearch<'a> {
         Self { scene, required, tightness: TIGHTNESS, proven: f64::INFINITY, nearest: None, budget, open: Vec::new() }
     }
 
-    /// Returns a search that only decides if the distance `required` is kept, not how much more, with at most `budget`
-    /// checks of pairs.
+    /// Creates a search that decides only whether the distance `required` is kept, not by how much, with at most
+    /// `budget` checks of pairs.
     #[must_use]
     pub fn deciding(scene: &'a Scene, required: f64, budget: usize) -> Self {
         Self { tightness: 0.0, ..Self::new(scene, required, budget) }
     }
 
-    /// Returns a search that continues from the known clearance of a path, and finds the clearance of both.
+    /// Creates a search that continues from a certified path, and finds the clearance of the path together with the
+    /// curves.
     #[must_use]
     pub fn continued_from(known: &CertifiedPath, scene: &'a Scene, required: f64, budget: usize) -> Self {
         Self { proven: known.clearance, nearest: known.nearest, ..Self::new(scene, required, budget) }
     }
 
-    /// Returns the proven clearance of all pieces so far, and the place where they come nearest to an obstacle.
+    /// Returns the proven clearance of all pieces so far, and the nearest approach found.
     #[must_use]
     pub fn proven_clearance(&self) -> (f64, Option<Nearest>) {
         (self.proven, self.nearest)
     }
 
-    /// Records a distance on the path.
+    /// Records the distance of a pair at a configuration of the motion. Fails if it is too small.
     fn record(&mut self, at: Configuration, contact: Contact) -> Result<(), Rejection> {
         let distance = contact.separation.distance;
         if self.nearest.is_none_or(|n| distance < n.contact.separation.distance) {
@@ -244,12 +254,12 @@ impl<'a> CurveSearch<'a> {
         Ok(())
     }
 
-    /// Returns the least distance seen.
+    /// Returns the least distance found so far; infinite if there is none.
     fn least_distance(&self) -> f64 {
         self.nearest.map_or(f64::INFINITY, |n| n.contact.separation.distance)
     }
 
-    /// Returns the value that a bound must reach to be accepted, once this distance is seen, too.
+    /// Returns the value at which a bound is accepted, given that `distance` was seen as well.
     fn target(&self, distance: f64) -> f64 {
         if self.tightness > 0.0 {
             (self.tightness * self.least_distance().min(distance)).max(self.required)
@@ -267,11 +277,11 @@ impl<'a> CurveSearch<'a> {
         self.curve(vicinity, |middle, half| (from + (to - from) * middle, part_of(from, to, half)))
     }
 
-    /// Judges a curve. Its parameter goes from 0 to 1. `part` takes a middle and a half width of the parameter, and
-    /// returns the configuration there and the deviations from it that hold all of that part.
+    /// Judges a curve, whose parameter goes from 0 to 1. `part` takes the middle and the half width of a range of
+    /// the parameter. It returns the configuration in the middle, and deviations from it that cover the range.
     ///
     /// # Errors
-    /// [`Rejection`], if the curve does not keep the required distance, or is not shown to keep it.
+    /// [`Rejection`] if the curve does not keep the required distance, or is not proven to keep it.
     pub fn curve(
         &mut self,
         vicinity: &Vicinity,
@@ -287,7 +297,7 @@ impl<'a> CurveSearch<'a> {
         vicinity.near(&whole.0, whole.1, self.cutoff(), |pair| self.pair(pair, &whole, &mut shared, posed))
     }
 
-    /// Judges one pair along a curve. The postures of its first parts are shared with other pairs.
+    /// Judges one pair along a curve. The postures of parts with low numbers are shared with other pairs.
     fn pair(
         &mut self,
         pair: Pair,

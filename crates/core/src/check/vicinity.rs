@@ -1,4 +1,4 @@
-//! Finds the obstacles that are near a part of the arm.
+//! Finds the pairs whose obstacle is near a part of the arm.
 
 use super::deviation::{Deviation, Posture};
 use crate::model::{Pair, Scene};
@@ -8,7 +8,7 @@ use std::borrow::Cow;
 /// The pairs of a scene, indexed by the place of the obstacle's piece.
 pub struct Vicinity<'a> {
     pairs: Cow<'a, [Pair]>,
-    /// Stretches of pairs with the same part, and the boxes of their pieces.
+    /// For each part, the index of its first pair and the bounding boxes of the pieces in its pairs.
     parts: Vec<(usize, BoxTree)>,
 }
 
@@ -18,7 +18,7 @@ impl<'a> Vicinity<'a> {
         Self::of(scene, Cow::Borrowed(scene.pairs()))
     }
 
-    /// Creates an index of some pairs, in their order.
+    /// Creates an index of these pairs, which must be grouped by part.
     pub fn of(scene: &Scene, pairs: Cow<'a, [Pair]>) -> Self {
         let mut from = 0;
         let stretches = pairs.chunk_by(|a, b| (a.link, a.part) == (b.link, b.part)).map(|stretch| {
@@ -30,8 +30,8 @@ impl<'a> Vicinity<'a> {
         Self { pairs, parts }
     }
 
-    /// Calls `f` with pairs in their order: all that come within `distance` of each other while the configuration
-    /// deviates from the posture, and possibly some others. Ends with the first error.
+    /// Calls `f` with pairs in their order: all that are within `distance` of each other at some deviation from the
+    /// posture, and possibly some others. Stops at the first error of `f`.
     pub fn near<E>(
         &self,
         posture: &Posture,

@@ -1,22 +1,23 @@
-//! A configuration space as bits.
+//! A configuration space with one bit per cell.
 
 use crate::model::{Contacts, Scene, on_axis};
 use crate::space::JointRange;
 use std::ops::Range;
 
-/// Cells as in [`super::Grid`], one bit each: set if the cell's *centre* comes within the clearance of an obstacle.
+/// The cells of a [`super::Grid`] with one bit each: set if the cell's *centre* is within the clearance of an
+/// obstacle.
 ///
-/// Proof: about the centres, exactly up to [`cplan_geometry::ROUNDING`]; nothing between them
-/// ([`super::Proves::Sampled`]).
+/// The bits prove the state of the centres, up to [`cplan_geometry::ROUNDING`], and nothing about configurations in
+/// between ([`super::Proves::Sampled`]).
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Bitmap {
     cells: [usize; 2],
-    /// Words per row.
+    /// Number of words per row.
     words: usize,
     bits: Vec<u64>,
 }
 
-/// Bits of a word.
+/// Number of bits in a word.
 const WORD_BITS: usize = u64::BITS as usize;
 
 impl Bitmap {
@@ -42,7 +43,7 @@ impl Bitmap {
         self.bits.iter().map(|word| word.count_ones() as usize).sum()
     }
 
-    /// Returns the words of row `i`, with cell 0 in the lowest bit of the first; bits beyond the last cell are 0.
+    /// Returns the words of row `i`. Cell 0 is the lowest bit of the first word; bits beyond the last cell are 0.
     ///
     /// # Panics
     /// If the row does not exist.
@@ -52,8 +53,9 @@ impl Bitmap {
     }
 }
 
-/// Computes the bitmap of a scene: [`super::grid_from_slices`] in an eighth of the memory. Works pair by pair, only in
-/// the rows where link 2 reaches the piece. `O(reached slices * contacts + cells / 64)`.
+/// Computes the bitmap of a scene. It has the same cells as [`super::grid_from_slices`], in an eighth of the memory.
+/// Each pair is examined only in the rows where link 2 can reach its piece.
+/// `O(reached slices * contacts + cells / 64)`.
 #[must_use]
 pub fn bitmap(scene: &Scene, cells: [usize; 2], clearance: f64) -> Bitmap {
     let slices = Contacts::new(scene);
@@ -75,7 +77,7 @@ pub fn bitmap(scene: &Scene, cells: [usize; 2], clearance: f64) -> Bitmap {
         reached.clear();
         let hits = slices.reach_range(index, clearance, &mut reached);
         on_axis(&scene.arm().joints[0], hits, &reached, |range| {
-            // One row more at either end, for the rounding of the range.
+            // Add a row at either end, for the rounding of the range.
             let range = lines.within(range);
             let range = range.start.saturating_sub(1)..(range.end + 1).min(cells[0]);
             for i in without(range, &banned) {
@@ -93,7 +95,7 @@ pub fn bitmap(scene: &Scene, cells: [usize; 2], clearance: f64) -> Bitmap {
     Bitmap { cells, words, bits }
 }
 
-/// The centres of an axis's cells.
+/// The centres of the cells along one axis.
 struct Centers {
     lower: f64,
     step: f64,
@@ -111,7 +113,7 @@ impl Centers {
         self.lower + (i as f64 + 0.5) * self.step
     }
 
-    /// Returns the cells whose centre lies in the closed interval.
+    /// Returns the cells whose centres lie in the closed interval.
     fn within(&self, [start, end]: [f64; 2]) -> Range<usize> {
         // Conversions truncate and saturate, which is cheaper than rounding up or down without SSE 4.1.
         let at = |value: f64| (value - self.lower) * self.per_cell - 0.5;
@@ -123,14 +125,14 @@ impl Centers {
     }
 }
 
-/// Iterates over the members of a range that lie outside all the other, ascending ranges.
+/// Iterates over the members of `range` outside all of the `others`, which must be ascending.
 fn without<'a>(range: Range<usize>, others: &'a [Range<usize>]) -> impl Iterator<Item = usize> + 'a {
     let ends = others.iter().map(|o| o.start).chain([usize::MAX]);
     let starts = [0].into_iter().chain(others.iter().map(|o| o.end));
     starts.zip(ends).flat_map(move |(from, to)| from.max(range.start)..to.min(range.end))
 }
 
-/// Sets the bits `from..to`.
+/// Sets the bits from `from` to before `to`.
 fn fill(words: &mut [u64], from: usize, to: usize) {
     if from >= to {
         return;

@@ -1,11 +1,11 @@
-//! Proof that a straight motion between two configurations keeps a link part away from an obstacle piece.
+//! Proves that a straight motion keeps a part of link 2 away from a piece of an obstacle.
 
 use crate::model::{Arm, JointType};
 use crate::space::Configuration;
 use cplan_geometry::{Convex, Pose, Separation, Vector, separation};
 use std::f64::consts::TAU;
 
-/// A configuration of link 2, with the direction along which part and piece are separated there.
+/// A configuration, with the direction from part to piece along which they are separated there.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Contact {
     /// Unwrapped joint values.
@@ -15,52 +15,54 @@ pub(super) struct Contact {
 }
 
 impl Contact {
-    /// Returns the contact with joint 2, which must be revolute, turned by whole turns.
+    /// Returns the same contact with joint 2, which must be revolute, moved by whole turns.
     pub fn turned(&self, turns: f64) -> Self {
         Self { q: Configuration::new(self.q[0], self.q[1] + turns * TAU), ..*self }
     }
 }
 
-/// A part of link 2 and an obstacle piece, in their motion relative to each other.
+/// A part of link 2 and a piece of an obstacle, whose distance on straight motions has a lower bound.
 ///
-/// The bound of [`PairMotion::least_distance`]. The distance of two convex sets is the greatest gap over all
-/// directions, so any choice of a direction at every point of the motion gives a lower bound. Take the unit directions
-/// `m`, `n` of the greatest gap at both ends, `c = m . n`, and between them the normalised `(1-t) m + t n`. For a
-/// corner `a` of the part and `b` of the piece the offset `y = b - a` is a smooth function of `t`, at most
-/// `k t(1-t)/2` from the straight line between its values at the ends, where `k` bounds its second derivative. With
-/// `G` the smaller gap at the ends and `D = 2 G - (gap at start along n) - (gap at end along m)`, at `x = t(1-t)`
+/// [`PairMotion::least_distance`] computes the bound as follows. The distance of two convex sets is the greatest gap
+/// over all directions, so any choice of a direction at each point of the motion gives a lower bound. Let `m` and
+/// `n` be the unit directions of the greatest gap at the two ends, and `c = m . n`. Between the ends take the
+/// normalised `(1-t) m + t n`. For a corner `a` of the part and a corner `b` of the piece, the offset `y = b - a` is
+/// a smooth function of `t`. It is at most `k t(1-t)/2` from the straight line between its values at the ends, where
+/// `k` bounds its second derivative. Let `G` be the smaller gap at the ends, and
+/// `D = 2 G - (gap at start along n) - (gap at end along m)`. Then, at `x = t(1-t)`,
 ///
 /// ```text
-/// gap >= (G - x D) / sqrt(1 - 2x(1-c)) - x k/2  >=  (G - x D)(1 + x(1-c)) - x k/2,
+/// gap >= (G - x D) / sqrt(1 - 2x(1-c)) - x k/2  >=  (G - x D)(1 + x(1-c)) - x k/2.
 /// ```
 ///
-/// which is concave in `x` for `D >= 0`, hence at least the lesser of its values at `x = 0` and `x = 1/4`. The same
-/// holds with all vectors in the link's frame, where the corners of the piece move instead. Of the three contacts, the
-/// first view is sharp for a corner of the link on an obstacle's side (`m = n`, `D = 0`), the second for an obstacle's
-/// corner on a side of the link, both for two corners.
+/// For `D >= 0` the right side is concave in `x`, so it is at least the lesser of its values at `x = 0` and
+/// `x = 1/4`. The same holds with all vectors in the link's frame, where the corners of the piece move instead.
+///
+/// The bound in the plane is sharp for a corner of the link on a side of the obstacle (`m = n`, `D = 0`). The bound
+/// in the link's frame is sharp for a corner of the obstacle on a side of the link. Both are sharp for two corners.
 #[derive(Debug, Clone)]
 pub(super) struct PairMotion<'a> {
     arm: &'a Arm,
     part: &'a Convex,
     piece: &'a Convex,
-    /// Greatest distance of a corner of the part's core from link 2's origin.
+    /// Greatest distance of a corner of the part's core from the origin of link 2's frame, metres.
     part_reach: f64,
-    /// Greatest distance of a corner of the piece's core from the base.
+    /// Greatest distance of a corner of the piece's core from the base, metres.
     piece_reach: f64,
 }
 
 impl<'a> PairMotion<'a> {
-    /// Creates the pair; `part` is in link 2's frame.
+    /// Creates the pair. `part` is in link 2's frame, `piece` in plane coordinates.
     pub fn new(arm: &'a Arm, part: &'a Convex, piece: &'a Convex) -> Self {
         let part_reach = part.core().iter().map(|a| a.norm()).fold(0.0, f64::max);
         let piece_reach = piece.core().iter().map(|b| (b - arm.base).norm()).fold(0.0, f64::max);
         Self { arm, part, piece, part_reach, piece_reach }
     }
 
-    /// Returns a bound on the change of the pair's distance per unit of `q1` at fixed `q2`.
+    /// Returns a bound on the change of the pair's distance per unit of `q1`, with `q2` fixed.
     ///
-    /// Seen from link 1, a revolute joint 1 turns the piece about the base. If joint 2 is revolute too, link 2 stays
-    /// within a fixed distance of the base; the smaller of both bounds counts.
+    /// A revolute joint 1 turns the piece about the base, as seen from link 1. If joint 2 is revolute as well, link
+    /// 2 also stays within a fixed distance of the base, and the smaller of these two distances counts.
     pub fn speed(&self) -> f64 {
         match (self.arm.joints[0].joint_type, self.arm.joints[1].joint_type) {
             (JointType::Prismatic { .. }, _) => 1.0,
@@ -76,14 +78,14 @@ impl<'a> PairMotion<'a> {
         separation(&self.part.at(&self.arm.pose(1, q)), self.piece)
     }
 
-    /// Returns the configuration `q` as an end of a motion.
+    /// Prepares the configuration `q` as an end of a motion.
     pub fn contact(&self, q: Configuration) -> Contact {
         let pose = self.arm.pose(1, q);
         Contact { q, pose, direction: separation(&self.part.at(&pose), self.piece).direction }
     }
 
-    /// Returns a lower bound on the signed distance of the pair on the straight motion from `from` to `to`, or minus
-    /// infinity if the argument gives none.
+    /// Returns a lower bound on the signed distance of the pair on the straight motion from `from` to `to`. Returns
+    /// minus infinity if the argument above gives no bound.
     pub fn least_distance(&self, from: &Contact, to: &Contact) -> f64 {
         let ends = [self.gap(&from.pose, from.direction), self.gap(&to.pose, to.direction)];
         let least = ends[0].min(ends[1]);
@@ -93,7 +95,7 @@ impl<'a> PairMotion<'a> {
         let across = [self.gap(&from.pose, to.direction), self.gap(&to.pose, from.direction)];
         let seen_from_world = bound(least, across, from.direction.dot(&to.direction), world);
 
-        // The directions carried along by the link's rotation.
+        // Rotate the directions with the link.
         let turn = to.pose.rotation * from.pose.rotation.inverse();
         let (carried_on, carried_back) = (turn * from.direction, turn.inverse() * to.direction);
         let across = [self.gap(&from.pose, carried_back), self.gap(&to.pose, carried_on)];
@@ -102,7 +104,8 @@ impl<'a> PairMotion<'a> {
         seen_from_world.max(seen_from_link) - radii
     }
 
-    /// Returns the gap between the cores along the unit direction `n` (from part to piece) with the link at `pose`.
+    /// Returns the gap between the two cores along the unit direction `n`, from part to piece, with the link at
+    /// `pose`.
     fn gap(&self, pose: &Pose, n: Vector) -> f64 {
         let in_link = pose.inverse_direction(n);
         let part = self.part.core().iter().map(|a| in_link.dot(a)).fold(f64::NEG_INFINITY, f64::max);
@@ -110,8 +113,8 @@ impl<'a> PairMotion<'a> {
         piece - part - n.dot(&pose.translation)
     }
 
-    /// Bounds on the second derivative, along the straight motion over a unit of time, of a corner of the part seen from
-    /// the world, and of a corner of the piece seen from the link.
+    /// Returns bounds on second derivatives along the straight motion, which takes one unit of time. The first is
+    /// for corners of the part in the plane, the second for corners of the piece in the link's frame.
     pub fn curvatures(&self, from: Configuration, to: Configuration) -> [f64; 2] {
         let d = to - from;
         let (offset, part, piece) = (self.arm.offset, self.part_reach, self.piece_reach);
@@ -136,10 +139,10 @@ impl<'a> PairMotion<'a> {
     }
 }
 
-/// Computes the bound of [`PairMotion`]. `least` is its `G`, `across` the gaps at start and end along each other's
-/// direction.
+/// Computes the bound of [`PairMotion`]. `least` is `G`. `across` has the gap at the start along the direction of
+/// the end, and the gap at the end along the direction of the start.
 fn bound(least: f64, across: [f64; 2], cosine: f64, curvature: f64) -> f64 {
-    // The directions at the ends are the best ones there, so this is negative only by rounding.
+    // At each end its own direction gives the greatest gap, so only rounding can make this negative.
     let defect = (2.0 * least - across[0] - across[1]).max(0.0);
     let middle = least - defect / 4.0;
     if middle <= 0.0 || cosine <= 0.0 {

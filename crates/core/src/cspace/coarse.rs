@@ -1,30 +1,33 @@
-//! Simpler shapes around shapes with many corners, since no configuration space shows more detail than its margin.
+//! Simpler shapes around shapes with many corners. Their details are smaller than the margin of the configuration
+//! space.
 
 use super::covering::covering;
 use crate::model::{Obstacle, Scene, Shape};
 use cplan_geometry::{Convex, Point, SimplePolygon, Vector, cross, farthest, perpendicular};
 use std::borrow::Cow;
 
-/// Shapes with at most this many corners stay unchanged.
+/// Shapes with at most this many corners stay unchanged, since simpler ones would hardly save time.
 const MAX_UNCHANGED_CORNERS: usize = 16;
 
-/// An obstacle of more pieces, however its outline is simplified, is covered by polygons made of small cells, if these are fewer.
+/// If an obstacle still has more pieces than this after its outline is simplified, small cells cover it, if that
+/// gives fewer pieces.
 const MAX_PIECES: usize = 512;
 
-/// Number of attempts to simplify a polygon whose coarse outline crosses itself, each with a quarter of the tolerance.
+/// Number of attempts to simplify a polygon whose coarse outline crosses itself. Each attempt has a quarter of the
+/// tolerance of the one before.
 const ATTEMPTS: usize = 3;
 
-/// Share of the tolerance for the corners of polygons made of cells.
+/// Fraction of the tolerance for the corners of polygons made of cells.
 const CELL_CORNER_SHARE: f64 = 0.25;
 
-/// Outlines are moved out by this share of the coordinates, more than what rounding takes off them.
+/// Fraction of the coordinates by which outlines are moved outwards, to make up for rounding.
 const ROUNDING: f64 = 1e-13;
 
-/// Returns a scene whose shapes contain those of the given one and extend at most `within` metres beyond them in total.
-/// Parts and pieces with few corners are unchanged. For obstacles with many pieces, pieces may be omitted that the arm
-/// keeps farther than `near` away in all configurations. `O(n log n)`.
+/// Returns a scene whose shapes contain those of `scene` and extend at most `within` metres beyond them in total. A
+/// part or piece with few corners is unchanged. An obstacle with many pieces may lose pieces that the arm cannot
+/// come within `near` of. `O(n log n)`.
 ///
-/// Configurations that are free among coarse shapes are free among the true ones.
+/// A configuration that is free in the coarse scene is free in `scene`.
 pub(super) fn coarse(scene: &Scene, within: f64, near: f64) -> Cow<'_, Scene> {
     let fine = |shape: &Convex| shape.core().len() > MAX_UNCHANGED_CORNERS;
     let many = |obstacle: &Obstacle| {
@@ -35,7 +38,7 @@ pub(super) fn coarse(scene: &Scene, within: f64, near: f64) -> Cow<'_, Scene> {
     if within <= 0.0 || !parts.clone().any(|part| fine(&part.shape)) && !scene.workspace().obstacles.iter().any(many) {
         return Cow::Borrowed(scene);
     }
-    // If parts of the arm become coarser as well, they share the allowance with the obstacles.
+    // Arm and obstacles share the tolerance if the arm has parts that become coarser.
     let each = if parts.clone().any(|part| fine(&part.shape)) { within / 2.0 } else { within };
     let reach = reach(scene).map(|reach| reach + near);
     let can_meet = |piece: &Convex| reach.is_none_or(|reach| distance_of_bounds(piece, scene.arm().base) <= reach);
@@ -64,27 +67,29 @@ pub(super) fn coarse(scene: &Scene, within: f64, near: f64) -> Cow<'_, Scene> {
     Cow::Owned(scene.reshaped(|part| part.shape = around(&part.shape, each), pieces))
 }
 
-/// Returns the greatest distance of the arm from the base, in simple cases: two revolute joints and no attachment.
+/// Returns the greatest distance of the arm from the base, metres; `None` unless both joints are revolute and there
+/// is no attachment.
 fn reach(scene: &Scene) -> Option<f64> {
     let turns = scene.arm().joints.iter().all(|joint| joint.joint_type.is_revolute());
     (turns && scene.attachment().is_none()).then(|| scene.arm().reach() * (1.0 + ROUNDING))
 }
 
-/// Returns the distance of a shape's bounds from a point, which is at most that of the shape.
+/// Returns the distance of a shape's bounding box from a point. It is a lower bound on the distance of the shape.
 fn distance_of_bounds(shape: &Convex, from: Point) -> f64 {
     let [lower, upper] = shape.bounds();
     (0..2).map(|k| (lower[k] - from[k]).max(from[k] - upper[k]).max(0.0)).fold(0.0, f64::hypot)
 }
 
-/// [`covering`] of pieces without curves, with few corners each.
+/// Returns the [`covering`] of pieces by polygons with few corners each. `None` if a piece is rounded, or if the
+/// covering would take too long.
 fn covered(pieces: &[Convex], within: f64) -> Option<Vec<Convex>> {
     let straight = pieces.iter().all(|piece| piece.radius() == 0.0);
     let covering = if straight { covering(pieces, within * (1.0 - CELL_CORNER_SHARE)) } else { None };
     covering.map(|covering| covering.iter().map(|piece| around(piece, within * CELL_CORNER_SHARE)).collect())
 }
 
-/// Returns a convex shape with few corners that contains a given one and extends at most `within` beyond it: some of
-/// its sides, extended until they meet. `O(n)`.
+/// Returns a convex shape with few corners that contains `shape` and extends at most `within` beyond it. Its sides
+/// are some of the shape's sides, extended until they meet. `O(n)`.
 fn around(shape: &Convex, within: f64) -> Convex {
     let core = shape.core();
     if core.len() <= MAX_UNCHANGED_CORNERS {
@@ -93,14 +98,15 @@ fn around(shape: &Convex, within: f64) -> Convex {
     Convex::trusted(around_convex(core, within).unwrap_or_else(|| core.to_vec()), shape.radius())
 }
 
-/// Returns the extended sides of a strictly convex polygon, or `None` if too few sides are left.
+/// Returns the polygon of some extended sides of a strictly convex polygon; `None` if fewer than three sides are
+/// left.
 fn around_convex(core: &[Point], within: f64) -> Option<Vec<Point>> {
     let n = core.len();
     let corner = |i: usize| core[i % n];
     let mut outline = Vec::new();
     let mut side = 0;
     while side < n {
-        // As far on as the corner that this side and a later one make stays near the corners between them.
+        // Continue while this side and a later one meet near the corners between them.
         let (mut next, mut meeting) = (side + 1, corner(side + 1));
         while next < n {
             let Some(at) = where_lines_meet([corner(side), corner(side + 1)], [corner(next + 1), corner(next + 2)])
@@ -121,8 +127,8 @@ fn around_convex(core: &[Point], within: f64) -> Option<Vec<Point>> {
     (outline.len() > 2).then_some(outline)
 }
 
-/// Returns where the line of one side, beyond its end, meets that of a later side before its start, or `None` if they
-/// turn by more than a right angle.
+/// Returns the point where the line of a side, beyond the side's end, meets the line of a later side, before that
+/// side's start. Returns `None` if the two directions differ by more than a right angle.
 fn where_lines_meet([a, b]: [Point; 2], [c, d]: [Point; 2]) -> Option<Point> {
     let (u, v) = (b - a, d - c);
     let turn = cross(u, v);
@@ -138,12 +144,12 @@ fn distance_from_line(p: Point, a: Point, b: Point) -> f64 {
     cross(along, p - a).abs() / along.norm()
 }
 
-/// Returns convex pieces around a simple polygon, none farther than `within` from it: its outline is cut into straight
-/// runs; the pieces are a rectangle around each run, and the polygon of the runs' ends.
+/// Returns convex pieces around a simple polygon, none farther than `within` from it. `None` if the simplified
+/// polygon crosses itself.
 ///
-/// The runs can be deformed into the outline within the rectangles, so both have the same winding number around a point
-/// outside of all rectangles. So each point of the polygon is in a rectangle or in the polygon of the runs. Returns
-/// `None` if that polygon crosses itself.
+/// The outline is cut into nearly straight runs. The pieces are a rectangle around each run, and the polygon of the
+/// runs' ends. They cover the polygon for this reason: the runs can be deformed into the outline within the
+/// rectangles. So around a point outside all rectangles both have the same winding number.
 fn around_polygon(corners: &[Point], within: f64) -> Option<Vec<Convex>> {
     let polygon = SimplePolygon::new(corners.to_vec()).ok()?;
     if polygon.is_convex() {
@@ -164,16 +170,16 @@ fn strictly_convex(corners: &[Point]) -> Vec<Point> {
     cplan_geometry::hull(corners)
 }
 
-/// Returns convex pieces around a polyline, none farther than `within` from it.
+/// Returns convex pieces that cover a polyline, none farther than `within` from it.
 fn around_polyline(points: &[Point], within: f64) -> Vec<Convex> {
     let piece =
         |run: &[Point]| if run.len() > 2 { rectangle(run) } else { Convex::between(run[0], run[run.len() - 1]) };
     straight_runs(points, within).into_iter().map(piece).collect()
 }
 
-/// Cuts a polyline into runs that share their ends. Each lies within a band of half the width `within` around the line
-/// through its ends, and hardly extends beyond them. So no point of the rectangle around it is farther than `within`
-/// from it. Runs are found by galloping search: `O(n log n)`.
+/// Cuts a polyline into runs that share their ends. Each run lies within `within / 4` of the line through its ends,
+/// and extends at most that much beyond them. So no point of the rectangle around a run is farther than `within`
+/// from it. Galloping search finds the runs in `O(n log n)`.
 fn straight_runs(points: &[Point], within: f64) -> Vec<&[Point]> {
     let straight = |from: usize, to: usize| {
         let (a, b) = (points[from], points[to]);
@@ -195,7 +201,7 @@ fn straight_runs(points: &[Point], within: f64) -> Vec<&[Point]> {
     runs
 }
 
-/// Returns the rectangle around a run with two sides parallel to the line through its ends.
+/// Returns the rectangle around a run with two sides parallel to the line through the run's ends.
 fn rectangle(run: &[Point]) -> Convex {
     let (a, b) = (run[0], run[run.len() - 1]);
     let along = (b - a).normalize();

@@ -1,23 +1,23 @@
-//! Covers many small pieces by few polygons: joined cells of a lattice that the pieces meet.
+//! Covers many small pieces by few polygons, made of the cells of a lattice that the pieces meet.
 
 use cplan_geometry::{Convex, Point, farthest, hull};
 use cplan_interrupt::checkpoint;
 
-/// Relative enlargement of pieces, which exceeds the rounding of cells.
+/// Relative enlargement of pieces. It exceeds the rounding of cells.
 const ROUNDING: f64 = 1e-13;
 
-/// Rows of cells that all pieces cross together, at most; more would take more time than they save.
+/// Greatest number of rows of cells that all pieces cross together. More would take longer than a covering saves.
 const MAX_CROSSINGS: f64 = 4e7;
 
-/// Cells of a row, from the first to the last.
+/// Adjacent cells of a row, from the first column to the last.
 type Run = [i64; 2];
 
-/// Returns convex polygons whose union contains all `pieces`, which must not be rounded, and extends at most `within`
-/// beyond them. Returns `None` if it would take too much time.
+/// Returns convex polygons whose union contains all `pieces` and extends at most `within` beyond them. No piece may
+/// be rounded. Returns `None` if the covering would take too long.
 ///
-/// Half of `within` is the diagonal of a cell, so every point of a cell that a piece meets is that close to it. Runs of
-/// such cells in consecutive rows form a stack. A stack is cut into convex polygons that extend at most the other half
-/// beyond its cells. There are at most as many polygons as runs, that is, as cells along the outline, for any number of
+/// The diagonal of a cell is half of `within`, so every point of a cell that a piece meets is that close to the
+/// piece. Runs of such cells in consecutive rows form a stack. Each stack is cut into convex polygons that extend at
+/// most the other half of `within` beyond its cells. There are at most as many polygons as runs, for any number of
 /// pieces. `O(n log n)` for `n` crossings of pieces with rows.
 pub(super) fn covering(pieces: &[Convex], within: f64) -> Option<Vec<Convex>> {
     debug_assert!(pieces.iter().all(|piece| piece.radius() == 0.0), "pieces with corners");
@@ -30,18 +30,19 @@ pub(super) fn covering(pieces: &[Convex], within: f64) -> Option<Vec<Convex>> {
     Some(polygons)
 }
 
-/// Square cells, by column and row.
+/// A lattice of square cells, numbered by column and row.
 struct Lattice {
     origin: Point,
-    /// Side of a cell, metres.
+    /// Length of a cell's side, metres.
     side: f64,
     rows: usize,
-    /// Enlargement of pieces, metres.
+    /// Distance by which pieces are enlarged, metres.
     pad: f64,
 }
 
 impl Lattice {
-    /// Creates a raster of cells with this diagonal over all pieces.
+    /// Creates a lattice of cells with this diagonal that covers all pieces. Returns `None` if the pieces cross too
+    /// many rows, or if the cells are too small for the coordinates.
     fn new(pieces: &[Convex], diagonal: f64) -> Option<Self> {
         let first = pieces.first()?.bounds();
         let [lower, upper] = pieces.iter().map(Convex::bounds).fold(first, |[l, u], b| [l.inf(&b[0]), u.sup(&b[1])]);
@@ -50,7 +51,7 @@ impl Lattice {
         let height = |[lower, upper]: [Point; 2]| (upper.y - lower.y) / side + 2.0;
         let crossings: f64 = pieces.iter().map(|piece| height(piece.bounds())).sum();
         let few = crossings <= MAX_CROSSINGS && (upper.x - lower.x) / side <= MAX_CROSSINGS;
-        // Cells must be much larger than the rounding, or they would not contain the pieces.
+        // If cells were not much larger than rounding errors, they might not contain the pieces.
         (few && pad < side / 1024.0).then(|| {
             let pads = cplan_geometry::Vector::repeat(pad);
             let rows = height([lower, upper]) as usize + 1;
@@ -70,10 +71,10 @@ impl Lattice {
         Point::new(self.origin.x + column as f64 * self.side, self.origin.y + row as f64 * self.side)
     }
 
-    /// Returns for each row the runs of cells that pieces meet: disjoint, not adjacent, ascending.
+    /// Returns, for each row, the runs of cells that pieces meet. They are disjoint, not adjacent, and ascending.
     fn runs(&self, pieces: &[Convex]) -> Vec<Vec<Run>> {
         let mut rows = vec![Vec::new(); self.rows];
-        // Rows with this many runs are merged, to limit the memory.
+        // A row with this many runs is merged, to limit the memory.
         let mut full = vec![64; self.rows];
         for piece in pieces {
             checkpoint();
@@ -93,8 +94,8 @@ impl Lattice {
         rows
     }
 
-    /// Cuts a stack into convex polygons that reach no farther than `within` beyond its cells, each of as many rows as that
-    /// allows, as doubling and halving find. `O(n log n)`.
+    /// Cuts a stack into convex polygons that extend at most `within` beyond its cells. Galloping search finds for
+    /// each polygon the greatest number of rows. `O(n log n)`.
     fn convex(&self, stack: &Stack, within: f64, out: &mut Vec<Convex>) {
         let allowed = within / self.side;
         let fits = |from: usize, to: usize| {
@@ -117,8 +118,8 @@ impl Lattice {
     }
 }
 
-/// Returns the least and the greatest abscissa of a convex polygon, segment or point within a strip, or `None` if it
-/// does not meet the strip.
+/// Returns the least and the greatest abscissa of the part of a convex polygon, segment or point within a horizontal
+/// strip. Returns `None` if it does not meet the strip.
 fn extent(core: &[Point], bottom: f64, top: f64) -> Option<[f64; 2]> {
     let mut extent = [f64::INFINITY, f64::NEG_INFINITY];
     let mut add = |x: f64| extent = [extent[0].min(x), extent[1].max(x)];
@@ -129,7 +130,7 @@ fn extent(core: &[Point], bottom: f64, top: f64) -> Option<[f64; 2]> {
         let b = core[(i + 1) % core.len()];
         for y in [bottom, top] {
             if (a.y < y) != (b.y < y) {
-                // Rounded into the side's range.
+                // Rounding must not put the crossing outside the side's range.
                 add((a.x + (b.x - a.x) * ((y - a.y) / (b.y - a.y))).clamp(a.x.min(b.x), a.x.max(b.x)));
             }
         }
@@ -137,7 +138,7 @@ fn extent(core: &[Point], bottom: f64, top: f64) -> Option<[f64; 2]> {
     (extent[0] <= extent[1]).then_some(extent)
 }
 
-/// Merges runs into disjoint, non-adjacent, ascending ones that cover the same cells.
+/// Merges runs into disjoint, non-adjacent, ascending runs of the same cells.
 fn merge(runs: &mut Vec<Run>) {
     runs.sort_unstable();
     runs.dedup_by(|next, kept| {
@@ -149,9 +150,9 @@ fn merge(runs: &mut Vec<Run>) {
     });
 }
 
-/// Runs in consecutive rows. Each meets only the next one.
+/// Runs in consecutive rows, of which each meets only the next one.
 struct Stack {
-    /// Row of the first run.
+    /// The row of the first run.
     bottom: usize,
     runs: Vec<Run>,
 }
@@ -160,7 +161,7 @@ struct Stack {
 fn stacks(rows: Vec<Vec<Run>>) -> Vec<Stack> {
     let (mut done, mut open): (Vec<Stack>, Vec<Stack>) = (Vec::new(), Vec::new());
     for (row, runs) in rows.into_iter().enumerate() {
-        // For each stack and each run, how many of the others it meets, and the last of these.
+        // For each stack and each run: how many of the other kind it meets, and the last one of these.
         let mut of_stack = vec![(0, 0); open.len()];
         let mut of_run = vec![(0, 0); runs.len()];
         let (mut i, mut j) = (0, 0);
@@ -190,16 +191,17 @@ fn stacks(rows: Vec<Vec<Run>>) -> Vec<Stack> {
     done
 }
 
-/// Returns how far the convex hull of a stack extends beyond its left side, in cells, given the columns at which rows
-/// start.
+/// Returns how far the convex hull of a stack extends beyond the stack's left side, in cells. `columns` are the
+/// columns at which the rows start.
 ///
-/// Between two corners of the hull, the side lies within a band along their chord, as wide as the distance of its
-/// farthest corner from the chord. Points between chord and side are at most that far from the side.
+/// Between two corners of the hull, the left side lies within a band along their chord. The band is as wide as the
+/// distance of the side's farthest corner from the chord. So points between chord and side are at most that far from
+/// the side.
 fn bulge(columns: impl Iterator<Item = i64>) -> f64 {
-    // Corners of the side from bottom to top.
+    // The corners of the left side, from bottom to top.
     let side: Vec<[i64; 2]> = columns.enumerate().flat_map(|(row, x)| [0, 1].map(|at| [x, row as i64 + at])).collect();
     let cross = |a: [i64; 2], b: [i64; 2], c: [i64; 2]| (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
-    // The left side of the hull: upwards it turns right.
+    // The left side of the hull, which turns right on the way up.
     let mut chain: Vec<usize> = Vec::new();
     for (k, &corner) in side.iter().enumerate() {
         while let &[.., a, b] = chain.as_slice()
@@ -228,7 +230,7 @@ mod tests {
         shapes.iter().map(to).fold(f64::INFINITY, f64::min)
     }
 
-    /// Points of a shape: weighted means of its corners, the corners among them.
+    /// Returns points of a shape: its corners, and weighted means of its corners.
     fn points_of(shape: &Convex, shares: &[f64]) -> Vec<Point> {
         let core = shape.core();
         let between = |k: usize| {
@@ -240,11 +242,10 @@ mod tests {
         (0..3 * core.len()).flat_map(between).collect()
     }
 
-    /// Returns true if polygons cover pieces, and extend at most `within` beyond them; distances of sampled points are
-    /// the oracle.
+    /// Asserts that polygons cover pieces, and extend at most `within` beyond them. Tests sampled points.
     fn covers(pieces: &[Convex], polygons: &[Convex], within: f64, shares: &[f64]) {
         for p in pieces.iter().flat_map(|piece| points_of(piece, shares)) {
-            // Means of corners are off a segment, or a side, by their rounding.
+            // Rounding puts a weighted mean of corners off its segment or side.
             let dot = Convex::point(p).grown(1e-14);
             assert!(polygons.iter().any(|polygon| shapes_meet(&dot, polygon)), "{p} is left out");
         }
@@ -254,10 +255,11 @@ mod tests {
         }
     }
 
-    /// Points, where and how large, and whether they may lie anywhere.
+    /// Points, position and size of a piece, and whether its corners may lie anywhere.
     type Given = (Vec<(f64, f64)>, (f64, f64, f64), bool);
 
-    /// Corners on a lattice (so that sides touch lattice lines, are level or upright) or anywhere.
+    /// Pieces with corners on a lattice (so that sides touch lattice lines, or are horizontal or vertical) or
+    /// anywhere.
     fn pieces() -> impl Strategy<Value = Vec<Convex>> {
         let spread = |free: bool, v: f64| if free { v } else { (v * 8.0).round() / 8.0 };
         let piece = prop::collection::vec((-0.5..0.5f64, -0.5..0.5f64), 1..6);
@@ -283,10 +285,10 @@ mod tests {
             covers(&pieces, &polygons, within, &shares);
         }
 
-        /// Compares with the hull of a side's corners and the distance from it, row by row.
+        /// Compares with the hull of a side's corners, and with their distances from the hull.
         #[test]
         fn a_bulge_is_the_depth_of_the_deepest_pocket(columns in prop::collection::vec(-6..6i64, 1..12)) {
-            // Far to the right the stack ends, so that its hull has no other side near.
+            // The stack ends far to the right, so no other side of the hull is near.
             let corner = |(row, x): (usize, i64)| [0, 1].map(|at| Point::new(x as f64, (row + at) as f64));
             let side: Vec<Point> = columns.iter().copied().enumerate().flat_map(corner).collect();
             let right = [0.0, columns.len() as f64].map(|y| Point::new(100.0, y));
@@ -297,7 +299,7 @@ mod tests {
             };
             let deepest = side.iter().map(depth).fold(0.0, f64::max);
             let found = bulge(columns.iter().copied());
-            // The distance from the chord's line, which is no more than that from the outline.
+            // The distance from the line of a chord is at most the distance from the hull.
             prop_assert!(found + 1e-9 >= deepest, "{found} {deepest}");
         }
     }

@@ -1,4 +1,4 @@
-//! C-obstacles of link 2 where it turns, or is turned: the exact slices of a pair, flattened with proof.
+//! C-obstacles of link 2 if a joint is revolute: the exact slices of a pair, joined by chords with proof.
 
 use super::chord::{Contact, PairMotion};
 use super::events::events;
@@ -8,45 +8,45 @@ use crate::space::Configuration;
 use cplan_geometry::{Hits, Point};
 use std::f64::consts::{PI, TAU};
 
-/// Share of the tolerance that chords leave unused, so that strict inequalities survive rounding.
+/// Fraction of the tolerance that chords leave unused, so that strict inequalities survive rounding.
 const TOLERANCE_RESERVE: f64 = 1.0 / 16.0;
 
-/// Slices to begin with over a turn or a range of `q1`. Only shape and speed depend on it: what coarse slices could
-/// overlook is found by [`events`].
+/// Number of initial slices over a turn or over the range of `q1`. Only the shape of contours and the speed depend
+/// on it: [`events`] finds what coarse slices could miss.
 const FIRST_SLICES: usize = 24;
 
-/// Overlap of neighbouring contours, relative to the width of the narrowest strip: far above the rounding of the union
-/// and far below the tolerance.
+/// Overlap of neighbouring contours, relative to the width of the narrowest strip. It is far above the rounding of
+/// the union and far below the tolerance.
 const CONTOUR_OVERLAP: f64 = 1e-3;
 
-/// The slices of one pair of link 2, and what chords between them must keep.
+/// The slices of one pair of link 2, with the distances that chords between them must keep.
 pub(super) struct Curves<'a> {
     slices: &'a Contacts<'a>,
     index: usize,
     motion: PairMotion<'a>,
-    /// Distance that chords must keep, at the least.
+    /// Least distance that a chord must keep, metres.
     floor: f64,
-    /// Distance on the boundary of the slices.
+    /// Distance of the pair on the boundary of the slices, metres.
     level: f64,
-    /// Distance that the middle of a chord may have, at the most.
+    /// Greatest distance that the middle of a chord may have, metres.
     ceiling: f64,
     min_width: f64,
 }
 
 impl<'a> Curves<'a> {
-    /// Prepares pair `index` of the scene, which must be covered where it is within `level`; see
+    /// Prepares pair `index` of the scene, whose configurations within `level` the contours must cover; see
     /// [`super::c_obstacles`].
     pub fn new(slices: &'a Contacts<'a>, index: usize, level: f64, tolerance: f64) -> Self {
         let scene = slices.scene();
         let pair = scene.pairs()[index];
         let motion = PairMotion::new(scene.arm(), scene.part(pair), scene.piece(pair));
-        // Over half of this no distance changes by more than the tolerance.
+        // While joint 1 moves by twice this, no distance changes by more than the tolerance.
         let min_width = tolerance / (2.0 * motion.speed().max(f64::MIN_POSITIVE));
         let (floor, ceiling) = (level + TOLERANCE_RESERVE * tolerance, level + 2.0 * tolerance);
         Self { slices, index, motion, floor, level: level + tolerance, ceiling, min_width }
     }
 
-    /// Contours that cover the pair's C-obstacle.
+    /// Returns contours that cover the pair's C-obstacle.
     pub fn contours(&self) -> Vec<Vec<Point>> {
         if self.slices.reach_range(self.index, self.level, &mut Vec::new()) == Hits::Never {
             return Vec::new();
@@ -56,8 +56,9 @@ impl<'a> Curves<'a> {
         contours(&mut &*self, &self.breaks(), Flattening { turning, min_width: self.min_width, overlap })
     }
 
-    /// Slices to begin with, in order: some all over the range of `q1`, and those where the pair begins or ceases to be at
-    /// the floor, which are kept, or at the level. Of two no farther apart than contours overlap one does.
+    /// Returns the values of `q1` of the initial slices, in ascending order. Some are evenly spaced. Others are
+    /// those at which the pair begins or ceases to be at `level`, or at `floor`; contours keep a vertex at the
+    /// latter. Of values nearer together than contours overlap, only one is returned.
     fn breaks(&self) -> Vec<Breakpoint> {
         let scene = self.slices.scene();
         let pair = scene.pairs()[self.index];
@@ -93,7 +94,7 @@ impl<'a> Curves<'a> {
     }
 }
 
-/// Returns where to cut the circle of joint 1 open: at an uncovered value, if the first slices have one.
+/// Returns where to cut the circle of joint 1: at a value without contact, if one of the initial slices has none.
 fn seam(slices: &Contacts, index: usize, level: f64) -> f64 {
     let mut intervals = Vec::new();
     (0..FIRST_SLICES)

@@ -1,4 +1,4 @@
-//! The values of joint 1 at which slices of a C-obstacle can change their structure, in closed form.
+//! The values of joint 1 at which the structure of a C-obstacle's slices can change, in closed form.
 
 use crate::model::{Arm, JointType};
 use crate::space::Configuration;
@@ -6,18 +6,21 @@ use cplan_geometry::{Convex, Point, Vector, cross, perpendicular, separation};
 use cplan_interrupt::checkpoint;
 use std::f64::consts::TAU;
 
-/// Slack, metres, in deciding whether a foot of a perpendicular lies on a side and whether a distance is the level. It
-/// can only add values that are no events, which cost a slice each; leaving one out would cost the guarantee.
+/// Tolerance, metres, for deciding whether the foot of a perpendicular lies on a side, and whether a distance equals
+/// the level. It can only add values that are no events, and each costs a slice. To miss an event would cost the
+/// guarantee.
 const FOOT_SLACK: f64 = 1e-7;
 
-/// Values of `q1` among which is every one where an interval of `q2` within which `part` (of link 2, in its frame) and
-/// `piece` are at most `level` apart appears or vanishes. On a turning joint 1 each stands for its whole turns.
+/// Returns values of `q1` at which an interval of `q2` can appear or vanish in which `part` (of link 2, in its
+/// frame) and `piece` are at most `level` apart. All such values are among them, for a revolute joint 1 up to whole
+/// turns.
 ///
-/// A connected part of `{ q : distance <= level }` has a point of least `q1` (or runs around the axis or out of its
-/// range). There the distance as a function of `q2` has a minimum. While the cores are disjoint the distance is the least
-/// over pairs of their points, so it is the minimum of the distance of two fixed points, whose derivative is zero: the
-/// contact normal passes through joint 2 when that turns, and is perpendicular to its direction when that slides. Both
-/// are one equation in `q1` for each pair of features. Needs `level` plus both radii to be positive. `O(n m)`.
+/// The reason: a connected part of `{ q : distance <= level }` has a point of least `q1`, unless it runs around the
+/// axis or out of its range. At that point, the distance as a function of `q2` has a minimum. While the cores are
+/// disjoint, the distance is the least distance of two of their points, so its minimum is that of the distance of
+/// two fixed points. The derivative of this distance is zero there. For a revolute joint 2, the contact normal
+/// passes through the joint; for a prismatic one, it is perpendicular to the joint's direction. Either condition is
+/// one equation in `q1` for each pair of features. `level` plus both radii must be positive. `O(n m)`.
 pub(super) fn events(arm: &Arm, part: &Convex, piece: &Convex, level: f64) -> Vec<f64> {
     let radius = level + part.radius() + piece.radius();
     match arm.joints[1].joint_type {
@@ -26,11 +29,11 @@ pub(super) fn events(arm: &Arm, part: &Convex, piece: &Convex, level: f64) -> Ve
     }
 }
 
-/// Returns the events of a prismatic joint 2: the piece passes the part sideways at exactly `radius`.
+/// Returns the events of a prismatic joint 2: the piece passes beside the part at a distance of exactly `radius`.
 fn sliding(arm: &Arm, direction: Vector, part: &Convex, piece: &Convex, radius: f64) -> Vec<f64> {
-    // Parallel slides keep the distance across them; others need no slices.
+    // With two prismatic joints, the distance across the slides does not change, and no slices are needed.
     let JointType::Revolute { sign } = arm.joints[0].joint_type else { return Vec::new() };
-    // The part keeps its extent across the direction; that of the piece turns with joint 1.
+    // The extent of the part across the direction is fixed. The extent of the piece turns with joint 1.
     let track = part.core().iter().map(|a| cross(direction, arm.offset + a));
     let (low, high) = extent(track);
     let mut found = Vec::new();
@@ -45,7 +48,7 @@ fn sliding(arm: &Arm, direction: Vector, part: &Convex, piece: &Convex, radius: 
             }
         }
     }
-    // Only where the corner is the outermost of the piece.
+    // Keep only values at which the corner is the outermost of the piece.
     found.retain(|&q1| {
         let turned = arm.pose(0, Configuration::new(q1, 0.0)).direction(direction);
         let (near, far) = extent(piece.core().iter().map(|b| cross(turned, b - arm.base)));
@@ -58,17 +61,17 @@ fn extent(values: impl Iterator<Item = f64>) -> (f64, f64) {
     values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)))
 }
 
-/// A corner or a point of a side of the part whose normal passes through the joint.
+/// A point of the part's outline, a corner or on a side, whose normal passes through the joint.
 struct Radial {
-    /// Distance from the joint.
+    /// Distance from the joint, metres.
     distance: f64,
-    /// Unit direction from the joint, in the link's frame; none for a corner on the joint itself.
+    /// Unit direction from the joint, in the link's frame. `None` for a corner on the joint itself.
     heading: Option<Vector>,
     /// True if the outward normal points away from the joint.
     outward: bool,
 }
 
-/// Joint 2 turns.
+/// The search for the events of a revolute joint 2.
 struct Turning<'a> {
     arm: &'a Arm,
     sign: f64,
@@ -83,7 +86,8 @@ impl Turning<'_> {
     fn solve(mut self) -> Vec<f64> {
         for feature in radial_features(self.part.core()) {
             checkpoint();
-            // The piece then has the opposite normal, `radius` farther out or in.
+            // The piece then has the opposite normal, at a point that is `radius` farther from the joint or nearer
+            // to it.
             let distance =
                 if feature.outward { feature.distance + self.radius } else { feature.distance - self.radius };
             if distance >= 0.0 {
@@ -94,7 +98,8 @@ impl Turning<'_> {
         self.found
     }
 
-    /// Sides of the piece with a foot of the perpendicular from the elbow at `distance`.
+    /// Adds the values at which a side of the piece is at `distance` from the elbow, with the foot of the
+    /// perpendicular on the side.
     fn sides_at(&mut self, distance: f64, feature: &Radial) {
         let facing = if feature.outward { -1.0 } else { 1.0 };
         for (p, q) in sides(self.piece.core()) {
@@ -109,7 +114,8 @@ impl Turning<'_> {
         }
     }
 
-    /// Corners of the piece at `distance` from the elbow, with that direction among their normals.
+    /// Adds the values at which a corner of the piece is at `distance` from the elbow and has the direction between
+    /// them among its normals.
     fn corners_at(&mut self, distance: f64, feature: &Radial) {
         let core = self.piece.core();
         let n = core.len();
@@ -127,7 +133,7 @@ impl Turning<'_> {
         }
     }
 
-    /// Notes `q1` if with the feature turned to `heading` the pair is at the level there, and no nearer.
+    /// Adds `q1`, unless the shapes are nearer than `level` there with the feature turned to `heading`.
     fn consider(&mut self, q1: f64, heading: Vector, feature: &Radial) {
         if let (Some(at), true) = (feature.heading, heading.norm() > FOOT_SLACK) {
             let turn = heading.y.atan2(heading.x) - at.y.atan2(at.x);
@@ -183,15 +189,15 @@ impl Turning<'_> {
     }
 }
 
-/// Returns the two angles by which `v` must be turned so that its dot product with `w` is `dot`; NaN if they do not
-/// exist.
+/// Returns the two angles by which `v` must be turned so that its dot product with `w` is `dot`; NaN if there are
+/// none.
 fn turns_to(v: Vector, w: Vector, dot: f64) -> [f64; 2] {
     let middle = w.y.atan2(w.x) - v.y.atan2(v.x);
     let half = (dot / (v.norm() * w.norm())).acos();
     [middle - half, middle + half]
 }
 
-/// Points of the outline whose normal passes through the origin.
+/// Returns the points of an outline whose normal passes through the origin.
 fn radial_features(core: &[Point]) -> Vec<Radial> {
     let n = core.len();
     let mut features = Vec::new();
@@ -222,7 +228,7 @@ fn radial_features(core: &[Point]) -> Vec<Radial> {
     features
 }
 
-/// Iterates over the sides of a core; a segment has both of its sides.
+/// Iterates over the sides of a core. A segment has two sides.
 fn sides(core: &[Point]) -> impl Iterator<Item = (Point, Point)> + '_ {
     let n = if core.len() > 1 { core.len() } else { 0 };
     (0..n).map(move |i| (core[i], core[(i + 1) % n]))
@@ -270,7 +276,8 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(48))]
 
-        /// Between two close slices without an event, no interval appears away from all others.
+        /// Between two slices that are close together, with no event between them, no interval appears away from all
+        /// others.
         #[test]
         fn no_interval_appears_without_an_event(
             motions in [motion(), motion()],
@@ -299,7 +306,7 @@ mod tests {
                 let mut out = Vec::new();
                 match motions[1] {
                     JointType::Revolute { .. } => {
-                        // Angles of the link rather than values of the joint: structure is the same.
+                        // Use angles of the link instead of joint values, since the structure is the same.
                         if turning(&part, pivot, &piece, level, &mut out) == Hits::Always {
                             out.push([-4.0, 4.0]);
                         }

@@ -1,25 +1,25 @@
-//! Configuration space as cells.
+//! The configuration space as a grid of cells.
 
 use super::Proves;
 use crate::space::{Configuration, Topology};
 
 /// A rectangular grid over the fundamental domain. Cell `(i, j)` covers
-/// `[lower_1 + i h_1, lower_1 + (i + 1) h_1] x [lower_2 + j h_2, lower_2 + (j + 1) h_2]`; on a circle the last cell
-/// borders on the first. Stored row by row: index `i * cells[1] + j`.
+/// `[lower_1 + i h_1, lower_1 + (i + 1) h_1] x [lower_2 + j h_2, lower_2 + (j + 1) h_2]`. On a circle the last cell
+/// borders on the first. Cells are stored row by row: cell `(i, j)` has the index `i * cells[1] + j`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Grid {
     /// Topology of the configuration space.
     pub topology: Topology,
-    /// Kind of proof that a free (blocked) cell gives for its configurations.
+    /// What a free or a blocked cell proves about its configurations.
     pub proves: Proves,
     /// Number of cells along each axis.
     pub cells: [usize; 2],
-    /// One flag per cell.
+    /// For each cell, true if it is blocked.
     pub blocked: Vec<bool>,
 }
 
 impl Grid {
-    /// Returns the side lengths of a cell.
+    /// Returns the side lengths of a cell, radians or metres.
     #[must_use]
     pub fn step(&self) -> [f64; 2] {
         [0, 1].map(|k| self.topology.ranges[k].extent() / self.cells[k] as f64)
@@ -36,7 +36,8 @@ impl Grid {
         )
     }
 
-    /// Returns the cell that contains `q` (any copy of it); on a shared side the cell that starts there.
+    /// Returns the cell that contains `q` or its copy in the domain. A configuration on a shared side belongs to the
+    /// cell that starts there.
     #[must_use]
     pub fn locate(&self, q: Configuration) -> usize {
         let step = self.step();
@@ -48,8 +49,8 @@ impl Grid {
         at(0) * self.cells[1] + at(1)
     }
 
-    /// Iterates over the up to four cells that share a side with `index`, also across the seam of a circle, in the
-    /// order `-q1, +q1, -q2, +q2`.
+    /// Iterates over the cells that share a side with `index`, at most four, also across the seam of a circle. The
+    /// order is `-q1, +q1, -q2, +q2`.
     pub fn neighbors(&self, index: usize) -> impl Iterator<Item = usize> {
         let at = self.place(index);
         [(0, false), (0, true), (1, false), (1, true)]
@@ -57,14 +58,14 @@ impl Grid {
             .filter_map(move |(k, up)| self.beside_place(at, k, up))
     }
 
-    /// Returns the neighbour of `index` up or down axis `k`, also across the seam of a circle, or `None` beyond a
-    /// limit.
+    /// Returns the neighbour of `index` along axis `k`, in the positive direction if `up`, also across the seam of a
+    /// circle. Returns `None` beyond a limit.
     #[must_use]
     pub fn beside(&self, index: usize, k: usize, up: bool) -> Option<usize> {
         self.beside_place(self.place(index), k, up)
     }
 
-    /// Returns row and column of a cell.
+    /// Returns the row and column of a cell.
     fn place(&self, index: usize) -> [usize; 2] {
         [index / self.cells[1], index % self.cells[1]]
     }

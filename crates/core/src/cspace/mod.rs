@@ -1,14 +1,15 @@
-//! The configuration space: C-obstacles as polygons (for roadmaps) or cells (for fields), each with its kind of proof.
+//! The configuration space: C-obstacles as polygons (for roadmaps) or cells (for fields), which state what they
+//! prove.
 //!
-//! [`Contacts::slice`](crate::model::Contacts::slice) computes the forbidden values of `q2` at one `q1`, exactly, from
-//! contact angles. Grids stack the slices of slabs. Polygons follow the contact curves between the slices at which
-//! these change their structure (`events`).
+//! [`Contacts::slice`](crate::model::Contacts::slice) computes the forbidden values of `q2` at one `q1`, exactly,
+//! from contact angles. Grids are made of the slices of their rows. Polygons follow the contact curves from slice to
+//! slice, between the values of `q1` at which the slices' structure changes (`events`).
 //!
-//! Outlines with many corners are traced coarser, within the margin (`coarse`). Ragged outlines are covered by cells of
-//! that size (`covering`). Contours are first united with their neighbours, so that time grows with the outline
-//! (`union`).
+//! Outlines with many corners are simplified within the margin (`coarse`). Outlines of many small pieces are covered
+//! by cells of that size (`covering`). Contours are first united with their neighbours, so that the time depends on
+//! the corners of the result (`union`).
 //!
-//! On circle axes polygons cover a window of some turns, in which obstacles and goals repeat, so planners need no
+//! On circles, polygons cover a window of some turns, in which obstacles and goals repeat. So planners need no
 //! special case.
 //!
 //! ```
@@ -18,13 +19,13 @@
 //!
 //! let workspace = Workspace::new([Obstacle::circle("post", [1.5, 0.0], 0.1)?]);
 //! let scene = Scene::new(Arm::rr([1.0, 0.8], 0.06)?, workspace)?;
-//! // With joint 1 at zero: exactly the values of joint 2 at which the post is hit.
+//! // With joint 1 at zero, these are exactly the values of joint 2 at which the arm hits the post.
 //! let mut slice = Slice::default();
 //! Contacts::new(&scene).slice(0.0, 0.0, &mut slice);
 //! let [[lower, upper]] = slice.merged[..] else { panic!("one interval") };
 //! assert!((upper - (0.13_f64 / 0.5).asin()).abs() < 1e-9 && (lower + upper).abs() < 1e-9);
 //! assert!(scene.clearance(Configuration::new(0.0, 0.0)) < 0.0);
-//! // And the whole C-obstacle, to a millimetre.
+//! // The whole C-obstacle, to within a millimetre.
 //! assert_eq!(c_obstacles(&scene, 1e-3, 1e-3)[0].obstacle, 0);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
@@ -63,23 +64,25 @@ pub use slices::{ForbiddenInterval, Slice};
 pub use stretches::free_stretches;
 pub use zones::{Zone, ZonedGrid};
 
-/// The kind of proof that a representation of free space gives about the true one.
+/// What a representation of free space proves about the true free space.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 #[serde(tag = "kind", rename_all = "lowercase")]
 pub enum Proves {
-    /// Free means free and blocked means blocked, up to rounding.
+    /// A free configuration is free and a blocked one is blocked, up to rounding.
     Exact,
-    /// Obstacles are grown by at most `margin` metres of workspace motion: free is free; blocked proves nothing.
+    /// Obstacles are grown by at most `margin` metres in the workspace. A free configuration is free; blocked proves
+    /// nothing.
     Outer {
         /// The greatest growth of an obstacle, metres.
         margin: f64,
     },
-    /// Obstacles are shrunk by at most `margin` metres of workspace motion: blocked is blocked; free proves nothing.
+    /// Obstacles are shrunk by at most `margin` metres in the workspace. A blocked configuration is blocked; free
+    /// proves nothing.
     Inner {
         /// The greatest loss of an obstacle, metres.
         margin: f64,
     },
-    /// Looked at in places only: neither proves anything.
+    /// Only some configurations were examined, so neither free nor blocked proves anything.
     Sampled,
 }
 

@@ -1,4 +1,4 @@
-//! The free configuration nearest to one that is not.
+//! Finds the free configuration nearest to one that is not free.
 
 use super::slices::Slice;
 use crate::model::{Contacts, Scene};
@@ -6,38 +6,38 @@ use crate::space::{Configuration, JointRange};
 use cplan_geometry::ROUNDING;
 use std::f64::consts::{PI, TAU};
 
-/// A free configuration and how far it is.
+/// The free configuration that a search found, with its distance.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NearestFree {
-    /// Within the limits; on a circle the copy nearest to the configuration asked about.
+    /// The configuration, within the limits; on a circle, its copy nearest to the given configuration.
     pub configuration: Configuration,
-    /// Euclidean distance in joint space, mixing radians and metres.
+    /// Euclidean distance in joint space, which adds squares of radians and metres.
     pub distance: f64,
-    /// Least distance to an obstacle there, metres: positive, and not below the workspace's clearance. Infinite if
-    /// nothing can be hit.
+    /// Least distance of the arm to an obstacle at that configuration, metres: positive, and at least the
+    /// workspace's clearance. Infinite if nothing can be hit.
     pub clearance: f64,
-    /// Distance between neighbouring slices, in units of joint 1: see [`nearest_free`].
+    /// Distance between neighbouring slices of the search, in units of joint 1: see [`nearest_free`].
     pub spacing: f64,
 }
 
-/// Slices on the whole range of joint 1, or on a turn if it has more.
+/// Number of slices over the range of joint 1, or over one turn if the range is longer.
 const SLICES_PER_TURN: f64 = 4096.0;
-/// Local minima that are refined, best first.
+/// Largest number of local minima that are refined, best first.
 const MAX_REFINED_MINIMA: usize = 8;
-/// Refinement ends when the slices are this close, in units of joint 1.
+/// Distance between slices, in units of joint 1, at which the refinement ends.
 const MIN_SLICE_DISTANCE: f64 = 1e-10;
-/// Slices on either side of the best one, in each step of the refinement.
+/// Number of slices on either side of the best one in each step of the refinement.
 const SLICES_PER_SIDE: i32 = 8;
 
-/// Returns the free configuration nearest to `q` in joint space (Euclidean, by the short direction on circles), or
-/// `None` if no slice has a free configuration. `O(slices * pairs)`.
+/// Returns the free configuration nearest to `q` in joint space, by the Euclidean distance along the shorter
+/// direction on circles. Returns `None` if no slice has a free configuration. `O(slices * pairs)`.
 ///
-/// Slices are [`NearestFree::spacing`] apart in joint 1, starting at `q`, and include the ends of the values that link
-/// 1 forbids. In each slice the nearest free value of joint 2 is exact. The slices around the best local minima are
-/// then refined to 1e-10.
+/// The slices are at values of joint 1 that are [`NearestFree::spacing`] apart, starting at `q`, and at the ends of
+/// the intervals that link 1 forbids. In each slice the nearest free value of joint 2 is exact. The slices around
+/// the best local minima are then refined to 1e-10 rad or m.
 ///
-/// The result is free by the scene's own measure, and no free configuration on any slice is nearer. A nearer one would
-/// lie between two slices, less than a spacing from both.
+/// The result is free by the scene's own distances. No free configuration on an examined slice is nearer. If any is
+/// nearer, it lies between two slices, less than a spacing from each.
 #[must_use]
 pub fn nearest_free(scene: &Scene, q: Configuration) -> Option<NearestFree> {
     Search::new(scene, q).run()
@@ -46,11 +46,11 @@ pub fn nearest_free(scene: &Scene, q: Configuration) -> Option<NearestFree> {
 struct Search<'a> {
     scene: &'a Scene,
     slices: Contacts<'a>,
-    /// Values of joint 1 that link 1 forbids, on the axis's domain.
+    /// The values of joint 1 that link 1 forbids, within the axis's domain.
     bands: Slice,
     slice: Slice,
     from: Configuration,
-    /// Growth of the obstacles, which makes the free part of a slice certainly free.
+    /// Distance by which obstacles are grown so that the free part of a slice is certainly free, metres.
     grow: f64,
     best: Option<NearestFree>,
     spacing: f64,
@@ -73,7 +73,7 @@ impl<'a> Search<'a> {
             JointRange::Interval { lower, upper } => self.from[0].clamp(lower, upper),
             JointRange::Circle => self.from[0],
         };
-        // Beyond these every slice repeats one that was nearer.
+        // Beyond this distance from the start, every slice repeats an earlier one.
         let farthest = match first.range {
             JointRange::Circle => PI,
             JointRange::Interval { .. } if first.joint_type.is_revolute() => TAU,
@@ -104,7 +104,7 @@ impl<'a> Search<'a> {
         self.best
     }
 
-    /// Looks at ever closer slices about one.
+    /// Examines ever closer slices around a slice.
     fn refine(&mut self, q1: f64) {
         let (mut middle, mut step) = (q1, self.spacing);
         while step > MIN_SLICE_DISTANCE {
@@ -116,8 +116,8 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Returns the distance of the nearest free configuration with this value of joint 1, if the value is allowed and
-    /// one exists.
+    /// Returns the distance of the nearest free configuration with this value of joint 1, and records it if it is
+    /// the best. Returns `None` if the value is not allowed or no such configuration is free.
     fn look(&mut self, q1: f64) -> Option<f64> {
         let [first, second] = self.scene.arm().topology().ranges;
         let inside = |band: &[f64; 2], value: f64| band[0] < value && value < band[1];
@@ -135,7 +135,7 @@ impl<'a> Search<'a> {
         let away = |value: &f64| second.displacement(self.from[1], *value).abs();
         values.sort_by(|a, b| away(a).total_cmp(&away(b)));
         let q1 = first.lift(q1, self.from[0]);
-        // An interval cut off at the limit ends in a value that is not free, so the first that is counts.
+        // An interval that is cut off at a joint limit ends in a value that is not free, so try the values in order.
         values.into_iter().find_map(|q2| {
             let to = Configuration::new(q1, second.lift(q2, self.from[1]));
             let clearance = self.scene.clearance(to);
@@ -151,7 +151,7 @@ impl<'a> Search<'a> {
     }
 }
 
-/// Returns the samples that are at most as far as their neighbours, best first.
+/// Returns the values of joint 1 of the samples that are no farther than their neighbours, best first.
 fn minima(mut samples: Vec<(f64, f64)>) -> Vec<f64> {
     samples.sort_by(|a, b| a.0.total_cmp(&b.0));
     let distance = |i: Option<usize>| i.and_then(|i| samples.get(i)).map_or(f64::INFINITY, |s| s.1);

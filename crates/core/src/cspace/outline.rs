@@ -1,19 +1,19 @@
-//! Contours of a C-obstacle from its slices: adaptive flattening of curves that are known at each `q1` exactly.
+//! Contours of a C-obstacle from its slices: curves that are known exactly at each `q1` are approximated by chords.
 
 use cplan_geometry::Point;
 use cplan_interrupt::checkpoint;
 use std::f64::consts::{PI, TAU};
 
-/// The whole range of a revolute `q2`.
+/// The range of a revolute `q2` that covers a whole turn.
 const REVOLUTE_RANGE: [f64; 2] = [-PI, PI];
 
-/// A C-obstacle, slice by slice, and a judge of its chords.
+/// A C-obstacle given slice by slice, which decides which chords are acceptable.
 pub(super) trait SlicedObstacle {
-    /// A point of the boundary.
+    /// A point of the C-obstacle's boundary.
     type End: Copy;
 
-    /// Appends the blocked intervals of `q2` at `q1`, ascending, disjoint and closed. On a circle they are arcs
-    /// `[lower, upper]` of at most one turn, with a single whole turn if everything is blocked.
+    /// Appends the blocked intervals of `q2` at `q1`: ascending, disjoint and closed. For a revolute joint 2 they
+    /// are arcs `[lower, upper]` of at most one turn; if everything is blocked, there is one arc of a whole turn.
     fn intervals(&mut self, q1: f64, out: &mut Vec<[f64; 2]>);
 
     /// Returns the boundary point `(q1, q2)`.
@@ -22,42 +22,46 @@ pub(super) trait SlicedObstacle {
     /// Returns the coordinates of a boundary point.
     fn point(&self, end: &Self::End) -> Point;
 
-    /// Returns the same point on another turn of joint 2.
+    /// Returns the same boundary point, moved by whole turns of joint 2.
     fn shifted(&self, end: &Self::End, turns: f64) -> Self::End;
 
-    /// Returns true if the intervals with these ends in two slices can be linked by straight lines.
+    /// Returns true if straight lines may link the ends of an interval in one slice to those of an interval in
+    /// another.
     fn links(&self, from: &[Self::End; 2], to: &[Self::End; 2]) -> bool;
 
-    /// Returns true if the straight line between two boundary points can replace the lines through the slices between.
+    /// Returns true if one straight line between two boundary points may replace the lines through the slices in
+    /// between.
     fn shortens(&self, from: &Self::End, to: &Self::End) -> bool;
 }
 
-/// Settings for flattening.
+/// Settings of the approximation.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Flattening {
-    /// True if `q2` is an angle, so that arcs that differ by whole turns are the same.
+    /// True if joint 2 is revolute, so that arcs that differ by whole turns are the same.
     pub turning: bool,
-    /// Strips no wider than this may be covered by rectangles over the intervals of both their slices.
+    /// Width in `q1` of the narrowest strips. A strip of this width may be covered by rectangles over the intervals
+    /// of the slices on both its sides.
     pub min_width: f64,
-    /// Length by which neighbouring contours overlap, so that their union has no cracks.
+    /// Length by which neighbouring contours overlap, so that their union has no gaps.
     pub overlap: f64,
 }
 
-/// A breakpoint of `q1`.
+/// A value of `q1` at which a slice is computed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Breakpoint {
-    /// The value of joint 1 there.
+    /// The value of joint 1.
     pub q1: f64,
-    /// True if contours keep a vertex here, because an end or a split of the C-obstacle may be hidden between other
-    /// slices.
+    /// True if contours must have a vertex here: the C-obstacle may end or split at this value.
     pub keep: bool,
 }
 
-/// Contours, each simple and counter-clockwise, whose union covers the C-obstacle over the span of `breaks` (ascending).
+/// Returns simple, counter-clockwise contours whose union covers the C-obstacle over the range of `breaks`, which
+/// are ascending.
 ///
-/// Each strip between two slices is bisected until its intervals match one to one and the chords between their ends are
-/// accepted, or it is `min_width` wide. Matched intervals form chains, each a contour; a narrow strip without a match is
-/// covered by rectangles. Last, corners are dropped from the chains as far as the longer chords are accepted.
+/// Each strip between two slices is bisected until its intervals match one to one and the chords between their ends
+/// are accepted, or until the strip is `min_width` wide. Matched intervals form chains, and each chain becomes a
+/// contour. A narrow strip without a match is covered by rectangles. Finally, corners are removed from the chains as
+/// long as the longer chords are accepted.
 pub(super) fn contours<S: SlicedObstacle>(source: &mut S, breaks: &[Breakpoint], how: Flattening) -> Vec<Vec<Point>> {
     let mut tracer = Tracer { source, how, open: Vec::new(), done: Vec::new(), scratch: Vec::new() };
     let Some((first, rest)) = breaks.split_first() else { return Vec::new() };
@@ -72,7 +76,7 @@ pub(super) fn contours<S: SlicedObstacle>(source: &mut S, breaks: &[Breakpoint],
     tracer.done
 }
 
-/// The blocked intervals of one slice with the boundary points at their ends.
+/// The blocked intervals of one slice, given by the boundary points at their ends.
 struct Slice<E> {
     at: Breakpoint,
     intervals: Vec<[E; 2]>,
@@ -80,17 +84,17 @@ struct Slice<E> {
     full: bool,
 }
 
-/// A run of matched intervals, in unwrapped values.
+/// A sequence of matched intervals, in unwrapped values.
 struct Chain<E> {
     slices: Vec<([E; 2], bool)>,
-    /// Turns by which the chain is ahead of its last slice's own values.
+    /// Whole turns to add to the intervals of the last slice to continue the chain.
     turns: f64,
 }
 
 struct Tracer<'r, S: SlicedObstacle> {
     source: &'r mut S,
     how: Flattening,
-    /// One chain for each interval of the current slice.
+    /// One chain for each interval of the last slice.
     open: Vec<Chain<S::End>>,
     done: Vec<Vec<Point>>,
     scratch: Vec<[f64; 2]>,
@@ -114,7 +118,7 @@ impl<S: SlicedObstacle> Tracer<'_, S> {
         self.source.point(end).y
     }
 
-    /// Extends the chains from slice `u` to slice `v`, through as many slices between as it takes.
+    /// Extends the chains from slice `u` to slice `v`, through as many slices in between as are needed.
     fn strip(&mut self, u: &Slice<S::End>, v: &Slice<S::End>) {
         if u.full && v.full {
             self.rectangle(u.at.q1, v.at.q1, REVOLUTE_RANGE);
@@ -129,7 +133,8 @@ impl<S: SlicedObstacle> Tracer<'_, S> {
         }
     }
 
-    /// Returns for every interval of `u` its partner in `v` and the turns to add to it, if chords may link them.
+    /// Returns, for each interval of `u`, its partner in `v` and the turns to add to the partner. Returns `None` if
+    /// the intervals cannot all be linked by chords.
     fn matching(&self, u: &Slice<S::End>, v: &Slice<S::End>) -> Option<Vec<(usize, f64)>> {
         let n = u.intervals.len();
         if u.full || v.full || n != v.intervals.len() {
@@ -149,7 +154,7 @@ impl<S: SlicedObstacle> Tracer<'_, S> {
         })
     }
 
-    /// Returns the whole turns that bring the middle of `to` nearest to that of `from`.
+    /// Returns the whole turns to add to `to` so that its middle is nearest to that of `from`.
     fn turns_between(&self, from: &[S::End; 2], to: &[S::End; 2]) -> f64 {
         if !self.how.turning {
             return 0.0;
@@ -177,7 +182,7 @@ impl<S: SlicedObstacle> Tracer<'_, S> {
         self.open = next.into_iter().flatten().collect();
     }
 
-    /// Covers the narrow strip between two slices that do not match.
+    /// Covers the narrow strip between two slices that do not match by rectangles.
     fn cover(&mut self, u: &Slice<S::End>, v: &Slice<S::End>) {
         self.close_chains();
         let spans = if u.full || v.full {
@@ -192,7 +197,7 @@ impl<S: SlicedObstacle> Tracer<'_, S> {
         self.start_chains(v);
     }
 
-    /// Adds a rectangle over the strip and `span`.
+    /// Adds a rectangle over a strip and `span`, enlarged by the overlap.
     fn rectangle(&mut self, u: f64, v: f64, [lower, upper]: [f64; 2]) {
         let pad = self.how.overlap;
         let (u, v, lower, upper) = (u - pad, v + pad, lower - pad, upper + pad);
@@ -201,7 +206,7 @@ impl<S: SlicedObstacle> Tracer<'_, S> {
 
     fn close_chains(&mut self) {
         for chain in std::mem::take(&mut self.open) {
-            // A single slice lies within the rectangles on both its sides.
+            // The rectangles on both sides of a single slice cover it.
             if chain.slices.len() < 2 {
                 continue;
             }
@@ -210,14 +215,14 @@ impl<S: SlicedObstacle> Tracer<'_, S> {
                 || [0, 1].map(|side| chain.slices.iter().map(|(ends, _)| self.source.point(&ends[side])).collect());
             let sides = if ordered(&sides) { sides } else { whole() };
             let contour = outline(&sides, self.how.overlap);
-            // Between two tips a single chord may do for both sides: then there is nothing in between to cover.
+            // Between two tips, one chord may serve as both sides. Then the chain has no area to cover.
             if contour.len() > 2 {
                 self.finish(contour);
             }
         }
     }
 
-    /// Returns one side of a chain with as few corners as accepted chords allow.
+    /// Returns one side of a chain, with only the corners that accepted chords need.
     fn simplified(&self, chain: &Chain<S::End>, side: usize) -> Vec<Point> {
         let slices = &chain.slices;
         let mut corners = vec![self.source.point(&slices[0].0[side])];
@@ -236,7 +241,7 @@ impl<S: SlicedObstacle> Tracer<'_, S> {
         corners
     }
 
-    /// Stores a contour, on the turn of joint 2 where its middle is in `[-pi, pi]`.
+    /// Stores a contour, moved by whole turns of joint 2 so that its middle is in `[-pi, pi]`.
     fn finish(&mut self, mut contour: Vec<Point>) {
         if self.how.turning {
             let range =
@@ -248,7 +253,7 @@ impl<S: SlicedObstacle> Tracer<'_, S> {
     }
 }
 
-/// Returns true if the first polyline, a function of `x`, is nowhere above the second over the same range.
+/// Returns true if the first polyline is nowhere above the second. Both are functions of `x` over the same range.
 fn ordered(sides: &[Vec<Point>; 2]) -> bool {
     let below = |points: &[Point], other: &[Point], sign: f64| {
         let mut segment = 0;
@@ -264,7 +269,7 @@ fn ordered(sides: &[Vec<Point>; 2]) -> bool {
     below(&sides[0], &sides[1], 1.0) && below(&sides[1], &sides[0], -1.0)
 }
 
-/// Returns the contour between a lower and an upper polyline, extended by `pad` at both ends.
+/// Returns the contour between a lower and an upper polyline, extended by `pad` at each end that is not a tip.
 fn outline(sides: &[Vec<Point>; 2], pad: f64) -> Vec<Point> {
     let [lower, upper] = sides;
     let mut contour = Vec::with_capacity(lower.len() + upper.len() + 4);
@@ -290,7 +295,8 @@ fn outline(sides: &[Vec<Point>; 2], pad: f64) -> Vec<Point> {
     contour
 }
 
-/// Returns the union of intervals, on a circle as arcs; an arc that closes the turn keeps its length.
+/// Returns the union of intervals. If `turning`, they are arcs on a circle; an arc of a whole turn or more keeps its
+/// length.
 fn united(mut spans: Vec<[f64; 2]>, turning: bool) -> Vec<[f64; 2]> {
     let mut out: Vec<[f64; 2]> = Vec::new();
     while let Some(mut span) = spans.pop() {

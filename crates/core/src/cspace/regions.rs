@@ -1,4 +1,4 @@
-//! Configuration space as polygons.
+//! The configuration space as polygons.
 
 use super::coarse::coarse;
 use super::curves::Curves;
@@ -11,38 +11,39 @@ use cplan_interrupt::checkpoint;
 use std::borrow::Cow;
 use std::f64::consts::{PI, TAU};
 
-/// Share of the margin that remains as proven distance on the contours of [`regions`] after flattening. Chords may cut
-/// off the rest, which allows fewer corners.
+/// Fraction of the margin that contours of [`regions`] are proven to keep from obstacles. Chords may use the rest,
+/// which allows fewer corners.
 const PROVEN_MARGIN_SHARE: f64 = 0.25;
 
 /// Greatest simplification of shapes with many corners, as a multiple of the margin that contours keep.
 const COARSENESS_PER_MARGIN: f64 = 2.0;
 
-/// Overlap of bands across the seam of a turn, relative to the distance they are grown by: far above the rounding of the
-/// union.
+/// Overlap of bands at the seam of a turn, relative to the distance by which obstacles are grown. It is far above
+/// the rounding of the union.
 const SEAM_OVERLAP: f64 = 1e-3;
 
-/// Share of the arm's reach by which rounded corners of [`exact_c_obstacles`] may be larger than their arcs: invisible in
-/// pictures, and five corners a quarter of a turn for the most.
+/// Fraction of the arm's reach by which the rounded corners of [`exact_c_obstacles`] may be larger than their arcs.
+/// That is invisible in pictures, and needs at most five corners per quarter of a turn.
 const ARC_TOLERANCE: f64 = 1e-3;
 
-/// A simple polygon with holes: the outer contour counter-clockwise, holes clockwise.
+/// A simple polygon with holes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Polygon {
     /// The outer contour, counter-clockwise.
     pub outer: Vec<Point>,
-    /// Contours of the holes.
+    /// Contours of the holes, clockwise.
     pub holes: Vec<Vec<Point>>,
 }
 
 impl Polygon {
-    /// Returns the area without the holes.
+    /// Returns the area, without the holes.
     #[must_use]
     pub fn area(&self) -> f64 {
         signed_area(&self.outer) + self.holes.iter().map(|hole| signed_area(hole)).sum::<f64>()
     }
 
-    /// Returns true if `p` is inside, by the parity of crossings; points on a contour may give either result. Linear.
+    /// Returns true if `p` is inside, by the parity of crossings. For points on a contour the result may be either.
+    /// Linear in the number of corners.
     #[must_use]
     pub fn contains(&self, p: Point) -> bool {
         let contours = std::iter::once(&self.outer).chain(&self.holes);
@@ -55,7 +56,7 @@ fn signed_area(contour: &[Point]) -> f64 {
     (0..n).map(|i| cross(contour[i] - contour[0], contour[(i + 1) % n] - contour[0])).sum::<f64>() / 2.0
 }
 
-/// Returns how many sides the ray from `p` along the first axis crosses.
+/// Returns the number of sides that the ray from `p` along the first axis crosses.
 fn crossings(contour: &[Point], p: Point) -> usize {
     let n = contour.len();
     (0..n)
@@ -66,55 +67,57 @@ fn crossings(contour: &[Point], p: Point) -> usize {
         .count()
 }
 
-/// The part of a C-obstacle that one obstacle contributes, as a simple polygon in unwrapped joint values; on a circle
-/// axis its copies shifted by whole turns belong to it. For pictures and as input of the union.
+/// The part of a C-obstacle that one pair of shapes, or a piece of its range, contributes. It is a simple polygon in
+/// unwrapped joint values; on a circle its copies by whole turns belong to it. For pictures, and as input of the
+/// union.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CObstacle {
     /// Index of the obstacle, as in [`Pair::obstacle`].
     pub obstacle: usize,
-    /// The link that would touch it.
+    /// The link that would touch the obstacle, as in [`Pair::link`].
     pub link: usize,
-    /// Counter-clockwise, coordinates `(q1, q2)`.
+    /// Corners with coordinates `(q1, q2)`, counter-clockwise.
     pub contour: Vec<Point>,
 }
 
-/// Free space as polygons over a *window* of the universal cover: on an interval the joint's limits, on a circle some
-/// turns around the start, in which obstacles repeat. A planner on a torus is so a planner in the plane, whose goals
-/// are all copies of the goal within the window.
+/// Free space as polygons over a *window* of unwrapped joint values. On an interval the window has the joint's
+/// limits; on a circle it has some turns around the start, in which obstacles repeat. So a planner on a torus can
+/// plan in the plane, with all copies of the goal within the window as goals.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Regions {
     /// Topology of the configuration space.
     pub topology: Topology,
-    /// The fact that free and blocked regions prove.
+    /// What free and blocked configurations prove.
     pub proves: Proves,
-    /// Lower and upper value of each axis.
+    /// Lower and upper end of the window along each axis.
     pub window: [(f64, f64); 2],
-    /// Each obstacle's contribution, once, not clipped to the window.
+    /// The contributions of all obstacles, each once and not clipped to the window.
     pub obstacles: Vec<CObstacle>,
-    /// The window less all obstacles: one polygon a connected component.
+    /// The window without all obstacles: one polygon per connected component.
     pub free: Vec<Polygon>,
 }
 
 impl Regions {
-    /// Returns the contours of free space, which lies to the left of them.
+    /// Returns the contours of free space. Free space is to the left of each.
     #[must_use]
     pub fn contours(&self) -> Vec<&[Point]> {
         self.free.iter().flat_map(|p| std::iter::once(&p.outer).chain(&p.holes)).map(Vec::as_slice).collect()
     }
 
-    /// Returns the component of free space that contains `q`, given within the window. Linear in the number of corners.
+    /// Returns the component of free space that contains `q`, which must be within the window. Linear in the number
+    /// of corners.
     #[must_use]
     pub fn component(&self, q: Configuration) -> Option<usize> {
         self.free.iter().position(|polygon| polygon.contains(q))
     }
 }
 
-/// Computes free space with obstacles grown by the scene's clearance and at most `margin` metres more, over the limits
-/// of interval axes and `periods` turns to either side of `center` on circles.
+/// Computes free space among obstacles that are grown by the scene's clearance and at most `margin` metres more. The
+/// window has the limits of intervals, and `periods` turns to either side of `center` on circles.
 ///
-/// On the whole boundary of the free space, and so within it, arm and obstacles are at least the clearance plus a
-/// quarter of `margin` apart (see [`c_obstacles`] for the argument). Configurations with more than the clearance plus
-/// three times `margin` are free here. The number of vertices grows like `1 / sqrt(margin)`.
+/// On the boundary of free space, and so within it, arm and obstacles are at least the clearance plus a quarter of
+/// `margin` apart; [`c_obstacles`] has the argument. Every configuration that keeps the clearance plus three times
+/// `margin` is free. The number of vertices grows like `1 / sqrt(margin)`.
 ///
 /// # Panics
 /// If `margin` is not positive.
@@ -125,18 +128,18 @@ pub fn regions(scene: &Scene, margin: f64, center: Configuration, periods: usize
     within_window(scene, Proves::Outer { margin }, window(scene, center, periods), obstacles)
 }
 
-/// Returns true if the C-obstacles of a scene are polygons, so that [`exact_c_obstacles`] has them: both joints are
-/// prismatic, with directions that are not parallel.
+/// Returns true if [`exact_c_obstacles`] has the C-obstacles of the scene: both joints are prismatic, and their
+/// directions are not parallel.
 #[must_use]
 pub fn has_exact_polygons(scene: &Scene) -> bool {
     translation::joint_map(scene.arm()).is_some()
 }
 
-/// Computes the exact C-obstacles of a gantry by the sweep over the normals of both polygons (`B - A`), with their kind
-/// of proof: nothing is grown and no corner is added. Returns `None` for arms with revolute joints.
+/// Computes the exact C-obstacles of a gantry, and what they prove. Returns `None` for other arms.
 ///
-/// Corners are differences of given corners, rounded once, in joint values. Circles, capsules and a clearance round the
-/// corners of a C-obstacle; only these arcs are replaced by tangents, which lie outside of them.
+/// Each is a Minkowski difference of two polygons, found by a sweep over their normals. Nothing is grown and no
+/// corner is added. Corners are differences of given corners, rounded once, in joint values. Circles, capsules and a
+/// clearance make rounded corners; only these arcs are replaced, by tangents outside of them.
 #[must_use]
 pub fn exact_c_obstacles(scene: &Scene) -> Option<(Vec<CObstacle>, Proves)> {
     let (level, tolerance) = (scene.workspace().clearance, ARC_TOLERANCE * scene.arm().reach());
@@ -148,22 +151,22 @@ pub fn exact_c_obstacles(scene: &Scene) -> Option<(Vec<CObstacle>, Proves)> {
     })
 }
 
-/// Computes the free space of a gantry among [`exact_c_obstacles`], over the limits of its joints. Returns `None` for
-/// arms with revolute joints.
+/// Computes the free space of a gantry among [`exact_c_obstacles`], within the limits of its joints. Returns `None`
+/// for other arms.
 ///
-/// Configurations on its boundary touch an obstacle.
+/// At configurations on the boundary of free space the arm touches an obstacle.
 #[must_use]
 pub fn exact_regions(scene: &Scene) -> Option<Regions> {
     let (obstacles, proves) = exact_c_obstacles(scene)?;
     Some(within_window(scene, proves, window(scene, Configuration::zeros(), 0), obstacles))
 }
 
-/// Computes the free space of a gantry, over the limits of its joints, with obstacles shrunk by at most `margin`
-/// metres. It contains every configuration that keeps the scene's clearance, but no configuration that violates it by more than
-/// `margin`.
+/// Computes the free space of a gantry, within the limits of its joints, with obstacles shrunk by at most `margin`
+/// metres. It contains every configuration that keeps the scene's clearance. It contains no configuration that
+/// violates the clearance by more than `margin`.
 ///
-/// Returns `None` for other arms, if link 1 can touch an obstacle, and for shapes too thin to be shrunk: walls without
-/// thickness with a tool that is a point. The number of vertices grows like `1 / sqrt(margin)`.
+/// Returns `None` for other arms, if link 1 can touch an obstacle, and for shapes too thin to be shrunk: walls
+/// without thickness together with a link that is a point. The number of vertices grows like `1 / sqrt(margin)`.
 #[must_use]
 pub fn inner_regions(scene: &Scene, margin: f64) -> Option<Regions> {
     let map = translation::joint_map(scene.arm())?;
@@ -181,7 +184,7 @@ pub fn inner_regions(scene: &Scene, margin: f64) -> Option<Regions> {
     Some(within_window(scene, Proves::Inner { margin }, window(scene, Configuration::zeros(), 0), obstacles?))
 }
 
-/// Returns the limits of interval axes, and `periods` turns to either side of `center` on circles.
+/// Returns the limits of intervals, and `periods` turns to either side of `center` on circles.
 fn window(scene: &Scene, center: Configuration, periods: usize) -> [(f64, f64); 2] {
     let topology = scene.arm().topology();
     let turns = TAU * periods as f64;
@@ -196,14 +199,14 @@ fn within_window(scene: &Scene, proves: Proves, window: [(f64, f64); 2], obstacl
     Regions { topology: scene.arm().topology(), proves, window, obstacles, free }
 }
 
-/// Returns the period of each joint after which poses repeat.
+/// Returns the period after which poses repeat, for each joint; `None` for prismatic joints.
 fn periods(scene: &Scene) -> [Option<f64>; 2] {
     scene.arm().joints.each_ref().map(|joint| joint.joint_type.is_revolute().then_some(TAU))
 }
 
-/// Returns the regions that each obstacle of the workspace, then each of the arm's self obstacles, blocks within the
-/// limits, on a circle within `[-pi, pi]`, given the contours of the [`c_obstacles`]: disjoint polygons per obstacle,
-/// cut at the seams of circles.
+/// Returns the blocked regions of each obstacle of the workspace, then of each of the arm's self obstacles.
+/// `contours` are the scene's [`c_obstacles`]. The regions are disjoint polygons per obstacle within the limits, on
+/// circles within `[-pi, pi]`, and are cut at the seams.
 #[must_use]
 pub fn united(scene: &Scene, contours: &[CObstacle]) -> Vec<Vec<Polygon>> {
     let window = scene.arm().topology().ranges.map(JointRange::domain);
@@ -212,20 +215,22 @@ pub fn united(scene: &Scene, contours: &[CObstacle]) -> Vec<Vec<Polygon>> {
     obstacles.map(|number| blocked_space(window, periods(scene), of(number))).collect()
 }
 
-/// Returns contours that cover every configuration in which a pair of the scene is at most its clearance plus `margin`
-/// apart, and almost none in which it is more than twice `tolerance` farther; metres, with `tolerance` positive.
+/// Returns contours that cover every configuration in which a pair of the scene is at most the clearance plus
+/// `margin` apart. They cover almost no configuration in which all pairs are more than `2 * tolerance` farther
+/// apart. `margin` and `tolerance` are in metres; `tolerance` must be positive.
 ///
-/// Each obstacle appears once for every pair, strip or band; contours of one obstacle may overlap. Around shapes with
-/// many corners, unless the margin is 0, contours may be another two margins away, because smaller details are not
-/// traced.
+/// A pair may have several contours, and contours of one obstacle may overlap. Shapes with many corners are
+/// simplified unless the margin is 0, so contours around them may be another two margins away.
 ///
-/// Link 1 gives bands of `q1`, in closed form. Gantries give Minkowski differences, exact up to arcs: with margin,
-/// clearance and radii zero they are the exact C-obstacles. Otherwise curves are flattened between exact slices.
+/// Link 1 gives bands of `q1`, in closed form. Gantries give Minkowski differences, which are exact up to arcs: with
+/// margin, clearance and radii zero they are the exact C-obstacles. Otherwise chords approximate curves between
+/// exact slices.
 ///
-/// The coverage is proven, not sampled. Let `S` be the set to cover. No point of `S` lies on the boundary of the union,
-/// since chords keep their distance (proven in the module `chord`) and slices are exact. So every connected part of `S`
-/// is either inside or outside as a whole. Each part has a point inside: it either reaches the end of the range of
-/// `q1`, where there is a slice, or has a point of least `q1`, where there is one too (module `events`).
+/// The coverage is proven, not sampled. Let `S` be the set to cover. Slices are exact, and chords keep their
+/// distance from `S` (proven in the module `chord`). So no point of `S` lies on the boundary of the union, and every
+/// connected part of `S` is as a whole either inside or outside. Each part has a point inside. Either the part
+/// reaches the end of the range of `q1`, where there is a slice, or it has a point of least `q1`, where there is a
+/// slice as well (module `events`).
 ///
 /// # Panics
 /// If `tolerance` is not positive.
@@ -235,7 +240,7 @@ pub fn c_obstacles(scene: &Scene, margin: f64, tolerance: f64) -> Vec<CObstacle>
     traced(&coarsened(scene, margin, tolerance), scene.workspace().clearance + margin, tolerance)
 }
 
-/// Returns the regions in which each pair of shapes is within `level`, flattened with this tolerance.
+/// Returns contours around the configurations in which a pair of shapes is within `level`, with this tolerance.
 fn traced(scene: &Scene, level: f64, tolerance: f64) -> Vec<CObstacle> {
     let slices = Contacts::new(scene);
     let map = translation::joint_map(scene.arm());
@@ -256,21 +261,21 @@ fn traced(scene: &Scene, level: f64, tolerance: f64) -> Vec<CObstacle> {
     obstacles
 }
 
-/// Returns the scene whose contours are traced.
+/// Returns the scene with simpler shapes, whose contours are traced.
 fn coarsened(scene: &Scene, margin: f64, tolerance: f64) -> Cow<'_, Scene> {
     coarse(scene, COARSENESS_PER_MARGIN * margin, scene.workspace().clearance + margin + 4.0 * tolerance)
 }
 
-/// Returns the number of pairs of shapes that [`regions`] traces with that `margin`: a greater margin makes shapes with
-/// many corners coarser.
+/// Returns the number of pairs of shapes that [`regions`] traces with this `margin`. A greater margin makes shapes
+/// with many corners coarser.
 #[must_use]
 pub fn traced_pairs(scene: &Scene, margin: f64) -> usize {
     coarsened(scene, PROVEN_MARGIN_SHARE * margin, (1.0 - PROVEN_MARGIN_SHARE) * margin).pairs().len()
 }
 
-/// Returns the values of `q1` at which a pair of link 1 is within `level`, for all `q2` and `pad` more at either end:
-/// the overlap closes the seam between copies a whole turn apart. For a pair of link 2 and link 1, returns the values
-/// of `q2`, for all `q1`.
+/// Returns the bands of `q1` in which a pair of link 1 is within `level`, over all `q2`. They extend by `pad` beyond
+/// either end of `q2`, so that copies a whole turn apart overlap. For a pair of link 2 and link 1, returns bands of
+/// `q2` over all `q1`.
 fn bands(slices: &Contacts, index: usize, level: f64, pad: f64) -> Vec<Vec<Point>> {
     let domain = |joint: &Joint| if joint.joint_type.is_revolute() { (-PI, PI) } else { joint.range.domain() };
     let folds = slices.scene().pairs()[index].link == 2;

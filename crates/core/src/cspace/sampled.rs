@@ -1,5 +1,5 @@
-//! The grid by collision tests: parry2d's verdict at every centre. Slow. It is an oracle that shares no code with
-//! slices, and a space for field planners to compare with. All code that uses parry2d is here.
+//! The grid by collision tests at every centre, by parry2d. It is slow. The tests use it as an oracle that shares no
+//! code with slices, and field planners can use it as a space. Only this file uses parry2d.
 
 use super::{Grid, Proves};
 use crate::model::Scene;
@@ -10,10 +10,11 @@ use parry2d_f64::math::{Pose, Rotation, Vector};
 use parry2d_f64::query::intersection_test;
 use parry2d_f64::shape::{Ball, Capsule, ConvexPolygon, RoundShape, Segment, Shape};
 
-/// Computes the grid whose cells are blocked where parry2d finds that the shapes, grown by `clearance`, meet at the
-/// cell's centre.
+/// Computes the grid whose cells are blocked if parry2d finds that some pair of shapes, with obstacles grown by
+/// `clearance`, meets at the cell's centre.
 ///
-/// One check per cell and pair, after a test of the discs around the shapes; the first contact settles the cell.
+/// Each pair is tested once per cell, after a test of the discs around the two shapes. The first contact decides the
+/// cell.
 #[must_use]
 pub fn sampled_grid(scene: &Scene, cells: [usize; 2], clearance: f64) -> Grid {
     let pairs: Vec<(usize, Solid, Solid)> = scene
@@ -36,7 +37,7 @@ pub fn sampled_grid(scene: &Scene, cells: [usize; 2], clearance: f64) -> Grid {
     grid
 }
 
-/// A shape of parry2d and its pose in its link's (or the plane's) frame.
+/// A shape of parry2d, with its pose in the frame of its link or in the plane.
 struct Solid {
     shape: Box<dyn Shape>,
     local: Pose,
@@ -61,7 +62,7 @@ impl Solid {
             _ => match ConvexPolygon::from_convex_polyline_unmodified(core.clone()) {
                 Some(inner_shape) if radius > 0.0 => Box::new(RoundShape { inner_shape, border_radius: radius }),
                 Some(polygon) => Box::new(polygon),
-                // parry2d refuses a polygon without area; the disc around it keeps the answer on the safe side.
+                // parry2d refuses a polygon without area. The disc around the polygon is a conservative replacement.
                 None => {
                     local = Pose::from_translation(center);
                     Box::new(Ball::new(extent))
@@ -71,7 +72,7 @@ impl Solid {
         Self { shape, local, center, extent }
     }
 
-    /// Returns true if this solid, moved by `pose`, meets a fixed one.
+    /// Returns true if this solid, moved by `pose`, meets a solid in the plane.
     fn meets(&self, pose: &Pose, fixed: &Solid) -> bool {
         let reach = self.extent + fixed.extent;
         if pose.transform_point(self.center).distance_squared(fixed.center) > reach * reach {

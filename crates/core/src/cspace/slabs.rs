@@ -1,4 +1,4 @@
-//! Grids from slices, without a collision test per cell.
+//! Grids made of slices, without a collision test per cell.
 
 use super::coarse::coarse;
 use super::{Grid, Proves};
@@ -8,15 +8,17 @@ use cplan_interrupt::checkpoint;
 use std::borrow::Cow;
 use std::f64::consts::TAU;
 
-/// Arcs are widened by this before whole cells are judged, radians or metres: rounding in the division into cells is
-/// some 1e-13 of a cell.
+/// Length by which intervals are widened before whole cells are judged, radians or metres. The rounding error of the
+/// division into cells is about 1e-13 of a cell.
 const ARC_WIDENING: f64 = 1e-9;
 
-/// Largest coarsening of shapes with many corners, as a share of the margin that the joints' motion over a cell adds.
+/// Largest simplification of shapes with many corners, as a fraction of the margin that the joints' motion within a
+/// cell adds.
 const MAX_COARSENING: f64 = 1.0 / 16.0;
 
-/// Computes the grid whose cells are blocked where their *centre* comes within `clearance` of an obstacle. The result
-/// equals that of a sampled grid, except for centres within [`ROUNDING`] of contact. `O(slices * contacts + cells)`.
+/// Computes the grid whose cells are blocked if the arm is within `clearance` of an obstacle at the cell's *centre*.
+/// The result equals that of [`super::sampled_grid`], except for centres within [`ROUNDING`] of contact.
+/// `O(slices * contacts + cells)`.
 #[must_use]
 pub fn grid_from_slices(scene: &Scene, cells: [usize; 2], clearance: f64) -> Grid {
     let slices = Contacts::new(scene);
@@ -41,15 +43,15 @@ pub fn grid_from_slices(scene: &Scene, cells: [usize; 2], clearance: f64) -> Gri
     grid
 }
 
-/// Computes a grid whose free cells are *entirely* free: each of their configurations keeps at least `clearance` (and
-/// more than 0) from every obstacle.
+/// Computes a grid whose free cells are *entirely* free: each of their configurations keeps at least `clearance`,
+/// and more than 0, from every obstacle.
 ///
-/// A slice represents its slab `q1 +- h1 / 2`. Every obstacle is grown by the greatest motion of a touching point of
-/// link 2 while joint 1 crosses the slab (a chord about the base), and a cell is blocked when its closed range of `q2`
-/// meets a forbidden interval. Each configuration of a blocked cell comes within `clearance + margin` of an obstacle,
-/// with the `margin` of the grid's [`Proves::Outer`].
+/// One slice stands for its slab `q1 +- h1 / 2`. Every obstacle is grown by the greatest motion of a touching point
+/// of link 2 while joint 1 crosses half of the slab. A cell is blocked if its closed range of `q2` meets a forbidden
+/// interval. Each configuration of a blocked cell is within `clearance + margin` of an obstacle, where `margin` is
+/// that of the grid's [`Proves::Outer`].
 ///
-/// Works obstacle by obstacle, only in the rows where link 2 reaches it: `O(reached slices * contacts + cells)`.
+/// Each obstacle is examined only in the rows where link 2 can reach it: `O(reached slices * contacts + cells)`.
 #[must_use]
 pub fn outer_grid(scene: &Scene, cells: [usize; 2], clearance: f64) -> Grid {
     let mut grid = Grid { topology: scene.arm().topology(), proves: Proves::Sampled, cells, blocked: free(cells) };
@@ -85,7 +87,7 @@ pub fn outer_grid(scene: &Scene, cells: [usize; 2], clearance: f64) -> Grid {
         checkpoint();
         let hits = slices.reach_range(index, grow, &mut reached);
         on_axis(&scene.arm().joints[0], hits, &reached, |[start, end]| {
-            // One row more at either end, for the rounding of the range.
+            // Add a row at either end, for the rounding of the range.
             let first = centers.partition_point(|&q1| q1 < start).saturating_sub(1);
             let last = (centers.partition_point(|&q1| q1 <= end) + 1).min(cells[0]);
             let rows_within = grid.blocked.chunks_mut(cells[1]).zip(&elbows).take(last).skip(first);
@@ -109,14 +111,14 @@ fn free(cells: [usize; 2]) -> Vec<bool> {
     vec![false; cells[0] * cells[1]]
 }
 
-/// Returns the greatest distance that the two joints' motion over a cell adds to `clearance`.
+/// Returns the greatest distance, metres, that the motion of both joints within a cell adds to `clearance`.
 fn margin(slices: &Contacts<'_>, motions: &[f64], [h1, h2]: [f64; 2], clearance: f64) -> f64 {
     let first = (0..slices.second_link_pairs().start).map(|index| slices.motion(index, h1, clearance));
     let second = slices.second_link_pairs().zip(motions).map(|(index, motion)| 2.0 * motion + slices.lever(index) * h2);
     first.chain(second).fold(0.0, f64::max) + 4.0 * ROUNDING + ARC_WIDENING
 }
 
-/// The cells of a row by value of joint 2.
+/// The cells of a row, ordered by value of joint 2.
 struct Columns {
     lower: f64,
     per_cell: f64,
@@ -128,7 +130,7 @@ impl Columns {
         Self { lower: grid.topology.ranges[1].domain().0, per_cell: 1.0 / grid.step()[1], count: grid.cells[1] }
     }
 
-    /// Blocks the cells whose centre lies in the closed interval.
+    /// Blocks the cells whose centres lie in the closed interval.
     fn block_centers(&self, row: &mut [bool], start: f64, end: f64) {
         let first = ((start - self.lower) * self.per_cell - 0.5).ceil();
         let last = ((end - self.lower) * self.per_cell - 0.5).floor();
@@ -143,7 +145,8 @@ impl Columns {
     }
 
     fn block(&self, row: &mut [bool], first: f64, last: f64) {
-        // Conversions saturate: places before the row become 0, and `last + 1` beyond it becomes the count.
+        // Conversions saturate: positions before the row become 0. Positions beyond it are cut off at the number of
+        // cells.
         let (from, to) = (first.max(0.0) as usize, (last + 1.0).max(0.0) as usize);
         let to = to.min(self.count);
         if from < to {

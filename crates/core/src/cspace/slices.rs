@@ -1,12 +1,13 @@
-//! Slices of configuration space: at a fixed value of joint 1, exactly which values of joint 2 are forbidden.
+//! Slices of the configuration space: the values of joint 2 that are forbidden at one value of joint 1, exactly.
 
 use crate::model::{Contacts, on_axis};
 use cplan_geometry::merge_in_place;
 use cplan_interrupt::checkpoint;
 
 impl Contacts<'_> {
-    /// Computes all forbidden values of joint 2 at `q1`, over the axis's domain, with obstacles grown by `grow`, by
-    /// link 2 only. Reuses `slice`'s memory. `O(m log m)` in the contacts.
+    /// Computes all values of joint 2, within the axis's domain, at which link 2 is within `grow` of an obstacle at
+    /// `q1`. Link 1 is not considered. The result replaces the contents of `slice`, whose memory is reused.
+    /// `O(m log m)` in the contacts.
     pub fn slice(&self, q1: f64, grow: f64, slice: &mut Slice) {
         checkpoint();
         slice.clear();
@@ -27,8 +28,7 @@ impl Contacts<'_> {
         slice.merge();
     }
 
-    /// Computes all forbidden values of joint 1, over the axis's domain, with obstacles grown by `grow`, by link 1
-    /// only.
+    /// Computes all values of joint 1, within the axis's domain, at which link 1 is within `grow` of an obstacle.
     pub fn bands(&self, grow: f64) -> Slice {
         let mut slice = Slice::default();
         for index in 0..self.second_link_pairs().start {
@@ -48,16 +48,17 @@ impl Contacts<'_> {
 pub struct ForbiddenInterval {
     /// Number of the pair in [`crate::model::Scene::pairs`].
     pub pair: usize,
-    /// Closed; joint values.
+    /// The closed interval of joint values.
     pub interval: [f64; 2],
 }
 
-/// The forbidden intervals of one slice (or, for link 1, of joint 1). On a circle an interval over the seam is in two.
+/// The forbidden intervals of one slice, or for link 1 of joint 1. On a circle, an interval across the seam is split
+/// in two.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Slice {
-    /// Forbidden values by pair, in the pairs' order.
+    /// The intervals of each pair, in the order of the pairs.
     pub forbidden: Vec<ForbiddenInterval>,
-    /// Their union: disjoint, ascending.
+    /// The union of all intervals, as disjoint, ascending intervals.
     pub merged: Vec<[f64; 2]>,
     scratch: Vec<[f64; 2]>,
     near: Vec<u32>,

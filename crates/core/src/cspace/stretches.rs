@@ -1,16 +1,16 @@
-//! The free stretches of a segment along one joint, exactly.
+//! Finds the free parts of a segment along one joint, exactly.
 
 use super::slices::Slice;
 use crate::model::{CarriedPart, Contacts, Scene, on_axis};
 use crate::space::{Configuration, Segment};
 use cplan_geometry::{Features, Vector, merge_in_place, separation};
 
-/// Returns the stretches of a segment in the domain that keep more than `grow` from contact, starting at its lesser
-/// end. Exact up to [`cplan_geometry::ROUNDING`] if only one joint moves along it; a slanted segment is returned
-/// unchanged.
+/// Returns the parts of a segment in the domain on which all pairs are farther than `grow` apart, starting at the
+/// lesser end. If only one joint moves along the segment, the result is exact up to [`cplan_geometry::ROUNDING`]. A
+/// slanted segment is returned unchanged.
 ///
-/// With joint 1 at rest the result is the free part of a slice. With joint 2 at rest link 2 is part of link 1, and the
-/// contact angles of joint 1 decide. `O(m log m)` in the contacts.
+/// If joint 2 moves, the result is the free part of a slice. If joint 1 moves, link 2 is treated as a part of link
+/// 1, and the contact angles of joint 1 decide. `O(m log m)` in the contacts.
 #[must_use]
 pub fn free_stretches(scene: &Scene, segment: &Segment, grow: f64) -> Vec<Segment> {
     let [from, to] = segment.ends();
@@ -37,7 +37,7 @@ pub fn free_stretches(scene: &Scene, segment: &Segment, grow: f64) -> Vec<Segmen
     free
 }
 
-/// Returns the forbidden values of joint 2 at a value of joint 1: all of them if link 1 is in contact.
+/// Returns the forbidden values of joint 2 at a value of joint 1; all values if link 1 is in contact.
 fn along_second(scene: &Scene, q1: f64, grow: f64) -> Vec<[f64; 2]> {
     let slices = Contacts::new(scene);
     if slices.bands(grow).forbids(q1) {
@@ -58,7 +58,7 @@ fn along_first(scene: &Scene, q2: f64, grow: f64) -> Vec<[f64; 2]> {
     for &pair in scene.pairs() {
         let part = scene.part(pair);
         if pair.link == 2 {
-            // Joint 1 carries both.
+            // Joint 1 carries both shapes.
             if separation(&part.at(&second), scene.piece(pair)).distance <= grow {
                 return vec![[f64::NEG_INFINITY, f64::INFINITY]];
             }

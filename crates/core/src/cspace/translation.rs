@@ -1,15 +1,17 @@
-//! C-obstacles of an arm that only translates link 2: Minkowski differences, exact except for rounded corners.
+//! C-obstacles of an arm that only translates link 2. They are Minkowski differences, exact except for rounded
+//! corners.
 
 use crate::model::{Arm, JointType};
 use cplan_geometry::{Convex, Point, Vector, cross, inset, minkowski_difference, perpendicular};
 use nalgebra::Matrix2;
 use std::f64::consts::TAU;
 
-/// Slides whose directions enclose less than this sine are parallel: the map from the plane to joint values would
-/// magnify rounding by its inverse.
+/// Two slides count as parallel if the sine of the angle between them is below this. The map from the plane to joint
+/// values would multiply rounding errors by its inverse.
 const PARALLEL_SINE: f64 = 1e-9;
 
-/// Returns the map from displacements in the plane to joint values, for a gantry whose axes are not parallel.
+/// Returns the map from displacements in the plane to joint values. `None` unless both joints are prismatic and
+/// their directions are not parallel.
 pub(super) fn joint_map(arm: &Arm) -> Option<Matrix2<f64>> {
     let [JointType::Prismatic { direction: first }, JointType::Prismatic { direction: second }] =
         [arm.joints[0].joint_type, arm.joints[1].joint_type]
@@ -20,9 +22,9 @@ pub(super) fn joint_map(arm: &Arm) -> Option<Matrix2<f64>> {
     if directions.determinant().abs() < PARALLEL_SINE { None } else { directions.try_inverse() }
 }
 
-/// Returns the joint values at which `part` of link 2 comes within `level` of `piece`, as a convex polygon. It also
-/// contains some values with distances up to `level + tolerance`: arcs are replaced by tangents, while flat sides are
-/// exact. `map` is that of [`joint_map`]. `O(n + m)` time and corners, plus those on arcs.
+/// Returns the joint values at which `part` of link 2 is within `level` of `piece`, as a convex polygon. Arcs are
+/// replaced by tangents, so the polygon also contains some joint values with distances up to `level + tolerance`.
+/// Straight sides are exact. `map` comes from [`joint_map`]. `O(n + m)` time and corners, plus the corners on arcs.
 pub(super) fn contour(
     arm: &Arm,
     map: &Matrix2<f64>,
@@ -36,9 +38,9 @@ pub(super) fn contour(
     in_joint_values(arm, map, &tangent_polygon(&core, radius, radius + tolerance))
 }
 
-/// Returns the joint values at which `part` of link 2 comes within `level - margin` of `piece`, as a convex polygon. It
-/// also contains some values with distances below `level`: arcs are replaced by chords. Returns `None` if no area is
-/// left. Otherwise like [`contour`].
+/// Returns a convex polygon that contains all joint values at which `part` of link 2 is within `level - margin` of
+/// `piece`. Arcs are replaced by chords. All joint values in the polygon have distances below `level`. Returns
+/// `None` if no area is left. The arguments are those of [`contour`].
 pub(super) fn inner_contour(
     arm: &Arm,
     map: &Matrix2<f64>,
@@ -47,15 +49,15 @@ pub(super) fn inner_contour(
     level: f64,
     margin: f64,
 ) -> Option<Vec<Point>> {
-    // Half of it keeps chords and rounding off the boundary, the other half is for the chords to cut off.
+    // Half of the margin keeps chords and rounding off the boundary. Chords may cut off the other half.
     let radius = part.radius() + piece.radius() + level - margin / 2.0;
     let core = minkowski_difference(piece.core(), part.core());
     let polygon = if radius <= 0.0 { inset(&core, -radius)? } else { chord_polygon(&core, radius, margin / 2.0) };
     (polygon.len() > 2).then(|| in_joint_values(arm, map, &polygon))
 }
 
-/// Returns a polygon of points within `radius` of a convex polygon that contains all points within `radius - sag` of
-/// it.
+/// Returns a polygon that contains all points within `radius - sag` of a convex polygon, and only points within
+/// `radius`.
 fn chord_polygon(core: &[Point], radius: f64, sag: f64) -> Vec<Point> {
     let n = core.len();
     let widest = 2.0 * (1.0 - sag / radius).max(0.0).acos();
@@ -64,7 +66,7 @@ fn chord_polygon(core: &[Point], radius: f64, sag: f64) -> Vec<Point> {
         let (before, at, after) = (core[(i + n - 1) % n], core[i], core[(i + 1) % n]);
         let (normal, turn) = if n == 1 { (Vector::x(), TAU) } else { corner(before, at, after) };
         let chords = (turn / widest).ceil().max(1.0);
-        // Of a disc the last corner is the first.
+        // The last corner of a disc is its first one.
         for k in 0..chords as usize + usize::from(n > 1 && turn > 0.0) {
             let angle = normal.y.atan2(normal.x) + turn * (k as f64 / chords);
             polygon.push(at + radius * Vector::new(angle.cos(), angle.sin()));
@@ -83,7 +85,8 @@ fn in_joint_values(arm: &Arm, map: &Matrix2<f64>, polygon: &[Point]) -> Vec<Poin
     contour
 }
 
-/// Returns a polygon around all points within `radius` of a convex polygon, with corners at most `reach` from it.
+/// Returns a polygon that contains all points within `radius` of a convex polygon, with corners at most `reach` from
+/// it.
 fn tangent_polygon(core: &[Point], radius: f64, reach: f64) -> Vec<Point> {
     if radius <= 0.0 {
         return core.to_vec();
@@ -105,10 +108,11 @@ fn tangent_polygon(core: &[Point], radius: f64, reach: f64) -> Vec<Point> {
     polygon
 }
 
-/// Returns the outward normal before a corner, and the angle in `[0, pi]` by which it turns there.
+/// Returns the outward normal of the side before a corner, and the angle in `[0, pi]` by which the normal turns
+/// there.
 fn corner(before: Point, at: Point, after: Point) -> (Vector, f64) {
     let (into, out) = (at - before, after - at);
-    // The sign can only be lost to rounding: a convex outline never turns clockwise.
+    // A convex outline never turns clockwise, so a negative sign is a rounding error.
     (-perpendicular(into), cross(into, out).abs().atan2(into.dot(&out)))
 }
 
@@ -125,7 +129,7 @@ mod tests {
         ]
     }
 
-    /// Distances from the core at corners, and between them.
+    /// Tests distances from the core at the polygon's corners and between them.
     #[test]
     fn chord_polygons_lie_between_the_sag_and_the_radius() {
         for core in cores() {
@@ -140,7 +144,7 @@ mod tests {
                         assert!(distance <= 0.2 + 1e-12 && distance >= 0.2 - sag - 1e-12, "{sag}: {distance}");
                     }
                 }
-                // Counter-clockwise all the way round.
+                // The corners are counter-clockwise.
                 let n = polygon.len();
                 let turns = |i: usize| {
                     let [a, b, c] = [0, 1, 2].map(|k| polygon[(i + k) % n]);

@@ -1,4 +1,4 @@
-//! A window of the universal cover less all copies of the C-obstacles.
+//! Free space: a window of unwrapped joint values without all copies of the C-obstacles.
 
 use super::Polygon;
 use cplan_geometry::Point;
@@ -8,16 +8,15 @@ use i_overlay::core::overlay_rule::OverlayRule;
 use i_overlay::core::solver::{Precision, Solver};
 use i_overlay::float::overlay::{FloatOverlay, OverlayOptions};
 
-/// Least area of free parts (product of rad and m). Smaller ones are artefacts of rounding where contours almost touch,
-/// and too small for an arm.
+/// Least area of a free part, as a product of radians and metres. Smaller parts are artefacts of rounding where
+/// contours almost touch, and too small for an arm.
 const SLIVER_AREA: f64 = 1e-10;
 
-/// Returns the free parts of `window`: one polygon per connected component, outer contour counter-clockwise, holes
-/// clockwise.
+/// Returns the free parts of `window`: one polygon per connected component.
 ///
-/// Every contour is counter-clockwise and repeats by `periods` along each axis that has one. Corners are rounded to a
-/// grid of about 1e-17 of the coordinates' range and snapped to each other ([`SNAP_PRECISION`]), which the margin of contours
-/// absorbs.
+/// Every contour must be counter-clockwise. It repeats by `periods` along each axis that has a period. Corners are
+/// rounded to a grid of about 1e-17 of the coordinates' range and snapped to each other ([`SNAP_PRECISION`]). The
+/// margin of contours is far above both.
 pub(super) fn free_space<'a>(
     window: Window,
     periods: [Option<f64>; 2],
@@ -72,17 +71,19 @@ fn parts<'a>(
 /// Number of contours above which neighbours are united first.
 const MAX_DIRECT_CONTOURS: usize = 128;
 
-/// Contours that are united first.
+/// Number of contours in each group that is united first.
 const CONTOURS_PER_GROUP: usize = 8;
 
-/// Neighbouring groups whose outlines are united next, and so on.
+/// Number of neighbouring groups whose outlines are united in each further round.
 const GROUPS_PER_ROUND: usize = 4;
 
-/// If a union keeps more than this share of the corners, the outlines hardly overlap, and the last union suffices.
+/// If a union keeps more than this fraction of the corners, contours hardly overlap, and only the last union is of
+/// use.
 const MAX_CORNER_SHARE: f64 = 0.75;
 
-/// Corners are snapped to others within 256 steps of the grid, some 3e-15 of the coordinates' range, and four times as
-/// far in each further round. With a smaller or slower growth, sides that almost coincide are split thousands of times.
+/// Distance within which corners are snapped to each other: initially 256 steps of the grid, which is about 3e-15 of
+/// the coordinates' range, and four times as far in each further round. With lower values, sides that almost
+/// coincide are split thousands of times.
 const SNAP_PRECISION: Precision = Precision { start: 16, progression: 4 };
 
 type Overlay = FloatOverlay<[f64; 2], i64>;
@@ -94,9 +95,10 @@ fn overlay(subject: &[[f64; 2]], clip: &[Vec<[f64; 2]>]) -> Overlay {
     Overlay::from_subj_and_clip_custom(subject, clip, OverlayOptions::ogc(), solver)
 }
 
-/// Returns contours with the same union, of which fewer cross. Contours of small neighbouring pieces overlap almost
-/// completely, so the union of a group is little more than its outline, and likewise for groups of groups. Then the
-/// number of crossings is like the number of corners of the outlines, not the square of the number of contours.
+/// Returns contours with the same union, of which fewer cross each other. Contours of small neighbouring pieces
+/// overlap almost completely, so the union of a group has few corners besides its outline. The same is true for
+/// groups of groups. So the number of crossings grows like the number of corners of the outlines, not like the
+/// square of the number of contours.
 fn united_by_neighbors(contours: Contours) -> Contours {
     let middle = |contour: &[[f64; 2]], k: usize| {
         let (low, high) =
@@ -108,10 +110,10 @@ fn united_by_neighbors(contours: Contours) -> Contours {
     united_part(&mut placed).0
 }
 
-/// The middle of a contour's extent, and the contour.
+/// A contour, preceded by the middle of its bounding box.
 type PlacedContour = ([f64; 2], Vec<[f64; 2]>);
 
-/// Returns the outlines of a part, and whether uniting them was worthwhile.
+/// Returns the outlines of the union of `part`, and whether they have clearly fewer corners.
 fn united_part(part: &mut [PlacedContour]) -> (Contours, bool) {
     checkpoint();
     if part.len() <= CONTOURS_PER_GROUP {
@@ -141,7 +143,7 @@ fn united_if_worth(contours: Contours) -> (Contours, bool) {
     (outlines, worth)
 }
 
-/// Halves a part across the longer side of the bounding box of its middles.
+/// Halves a part across the longer side of the bounding box of the contours' middles.
 fn halved(part: &mut [PlacedContour]) -> [&mut [PlacedContour]; 2] {
     let extent = |k: usize| {
         let values = || part.iter().map(|(at, _)| at[k]);
@@ -153,7 +155,7 @@ fn halved(part: &mut [PlacedContour]) -> [&mut [PlacedContour]; 2] {
     part.split_at_mut(half).into()
 }
 
-/// Returns the shifts by whole periods after which an extent touches a range.
+/// Returns the shifts by whole periods after which a range of values touches `range`.
 fn copies(values: impl Iterator<Item = f64>, range: (f64, f64), period: Option<f64>) -> Vec<f64> {
     let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)));
     match period {
@@ -200,14 +202,14 @@ mod tests {
         assert_eq!(free.len(), 2);
     }
 
-    /// Unit squares on integer coordinates, whose free squares can be counted.
+    /// Uses squares on integer coordinates, whose free cells can be counted.
     #[test]
     fn the_union_of_many_squares_leaves_the_rest_free() {
         let n = 40_usize;
-        // 0, 7, 14, ... visits all places of the lattice in an order that jumps about.
+        // Steps of 7 visit places of the lattice in an order that jumps about.
         for count in [MAX_DIRECT_CONTOURS - 1, MAX_DIRECT_CONTOURS + 1, 3 * MAX_DIRECT_CONTOURS, 1500] {
             let places: Vec<[usize; 2]> = (0..count).map(|i| 7 * i % (n * n)).map(|k| [k % n, k / n]).collect();
-            // A third of them are three wide, so that they overlap.
+            // A third of the squares are three wide, so they overlap others.
             let width = |i: usize| if i.is_multiple_of(3) { 3 } else { 1 };
             let mut covered = vec![[false; 40]; n];
             let squares: Vec<Vec<Point>> = places

@@ -1,31 +1,31 @@
-//! Cells and the preference regions that they lie in.
+//! Grids whose cells know the preference that applies to them.
 
 use super::Grid;
 use crate::model::Scene;
 
-/// The effect of a preference.
+/// The effect of a preference on a field.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Zone {
-    /// The user's name for it.
+    /// The user's name for the preference.
     pub name: String,
-    /// Strength of the drift, per cell.
+    /// Strength of the drift, per grid cell.
     pub epsilon: f64,
-    /// Direction of the drift in joint space, of length 1.
+    /// Direction of the drift in joint space, of length 1. `None` if the preference gives none.
     pub direction: Option<[f64; 2]>,
 }
 
-/// A grid whose cells know the preference that holds at their centres.
+/// A grid whose cells know the preference that applies at their centres.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ZonedGrid {
-    /// The cells, free and blocked.
+    /// The grid of free and blocked cells.
     pub grid: Grid,
-    /// Zones, in the order of the world file.
+    /// One zone per preference, in the order of the world file.
     pub zones: Vec<Zone>,
     of_cell: Vec<Option<u32>>,
 }
 
 impl ZonedGrid {
-    /// Creates the zones of the preferences of the scene's workspace. If several apply, the last one counts.
+    /// Finds the preference that applies at each cell's centre. If several apply, the last one counts.
     /// `O(cells * corners of all regions)`.
     #[must_use]
     pub fn new(grid: Grid, scene: &Scene) -> Self {
@@ -45,7 +45,7 @@ impl ZonedGrid {
         Self { zones: zones.collect(), of_cell, grid }
     }
 
-    /// Returns the zone of a cell.
+    /// Returns the zone of a cell; `None` if no preference applies.
     ///
     /// # Panics
     /// If the cell does not exist.

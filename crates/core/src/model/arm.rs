@@ -6,7 +6,8 @@ use cplan_geometry::{ConvexError, Point, Pose, Vector, perpendicular};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-/// The plane of motion in the URDF's root frame: plane coordinates of a root point `x` are `(x . u, x . v)`.
+/// The plane of motion, given by vectors in the URDF's root frame. A point `x` of that frame has the plane
+/// coordinates `(x . u, x . v)`.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Plane {
@@ -35,21 +36,21 @@ pub struct Plane {
 pub struct Arm {
     /// The robot's name.
     pub name: String,
-    /// Base to tip.
+    /// The joints, from base to tip.
     pub joints: [Joint; 2],
-    /// The link that each joint carries.
+    /// The links: joint 1 carries the first, joint 2 the second.
     pub links: [Link; 2],
-    /// Joint 1 in plane coordinates.
+    /// Position of joint 1 in plane coordinates, metres.
     pub base: Point,
-    /// Vector from joint 1 to joint 2 in link 1's frame.
+    /// Vector from joint 1 to joint 2 in link 1's frame, metres, with joint 2 at zero.
     pub offset: Vector,
-    /// The tip in link 2's frame.
+    /// Position of the tip in link 2's frame, metres.
     pub tip: Point,
     /// Name of the tip's URDF link.
     pub tip_name: String,
     /// The plane of motion.
     pub plane: Plane,
-    /// Masses and efforts, if they are known.
+    /// Masses, gravity and efforts; `None` if unknown.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub dynamics: Option<Dynamics>,
     /// Links of the robot that can collide with its other links.
@@ -92,7 +93,7 @@ impl Arm {
         Ok(Self::new([Joint::continuous("joint 1"), Joint::continuous("joint 2")], links, lengths))
     }
 
-    /// Returns the same arm, moved to where `place` takes its root frame: turned, then translated.
+    /// Returns the arm with its root frame moved to `place`: rotated first, then translated.
     #[must_use]
     pub fn placed(&self, place: &Pose) -> Self {
         let (mut arm, turn) = (self.clone(), place.rotation);
@@ -124,13 +125,13 @@ impl Arm {
         Topology { ranges: [self.joints[0].range, self.joints[1].range] }
     }
 
-    /// Returns true if both joints turn.
+    /// Returns true if both joints are revolute.
     #[must_use]
     pub fn only_turns(&self) -> bool {
         self.joints.iter().all(|joint| joint.joint_type.is_revolute())
     }
 
-    /// Returns `RR`, `RP`, `PR` or `PP`.
+    /// Returns `RR`, `RP`, `PR` or `PP`: the types of joints 1 and 2, R for revolute and P for prismatic.
     #[must_use]
     pub fn kind(&self) -> &'static str {
         match (self.joints[0].joint_type.is_revolute(), self.joints[1].joint_type.is_revolute()) {
@@ -141,7 +142,7 @@ impl Arm {
         }
     }
 
-    /// Returns true if both joints slide.
+    /// Returns true if both joints are prismatic.
     #[must_use]
     pub fn is_gantry(&self) -> bool {
         !self.joints.iter().any(|joint| joint.joint_type.is_revolute())
@@ -166,7 +167,7 @@ impl Arm {
         [first, second]
     }
 
-    /// Returns the poses for a pair's part, indexed by [`super::Pair::link`].
+    /// Returns the pose of the part of every kind of pair, indexed by [`super::Pair::link`].
     #[must_use]
     pub fn pair_poses(&self, q: Configuration) -> [Pose; 3] {
         let second = motion(self.joints[1].joint_type, q[1]).shifted(self.offset);
@@ -174,8 +175,8 @@ impl Arm {
         [first, first * second, at_zero * second]
     }
 
-    /// Returns a bound on the distance of the outlines and the tip from joint 1 with both joints at zero, metres,
-    /// positive. It is the size of the arm, to which tolerances are relative.
+    /// Returns an upper bound, in metres and positive, on the distance from joint 1 to the tip and to any point of
+    /// the links' outlines, with both joints at zero. Tolerances are relative to it.
     #[must_use]
     pub fn reach(&self) -> f64 {
         let of = |link: usize| self.links[link].parts.iter().map(|p| p.shape.reach_from(Point::zeros()));
@@ -184,20 +185,20 @@ impl Arm {
         (first.max(self.offset.norm() + second)).max(f64::MIN_POSITIVE)
     }
 
-    /// Returns the place of the tip.
+    /// Returns the position of the tip in the plane.
     #[must_use]
     pub fn tip_at(&self, q: Configuration) -> Point {
         self.pose(1, q).point(self.tip)
     }
 
-    /// Returns the place of joint 2 (for a prismatic one: its origin at zero, carried by link 1).
+    /// Returns the position of joint 2 in the plane. For a prismatic joint 2 this is the origin of its values.
     #[must_use]
     pub fn elbow_at(&self, q1: f64) -> Point {
         self.pose(0, Configuration::new(q1, 0.0)).point(self.offset)
     }
 
-    /// Returns the velocity of the point `p` of link `index` (link frame) per unit of each joint's rate: the two
-    /// Jacobian columns.
+    /// Returns the two columns of the Jacobian for the point `p` of link `index` (0 or 1), given in that link's
+    /// frame: its velocity in the plane per unit of each joint's speed.
     #[must_use]
     pub fn jacobian(&self, index: usize, p: Point, q: Configuration) -> [Vector; 2] {
         let poses = self.poses(q);

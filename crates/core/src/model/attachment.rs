@@ -7,18 +7,18 @@ use cplan_geometry::{Convex, Point, Pose};
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
-/// Shapes that link 2 carries along beyond its own parts, such as an object in a gripper. They may touch some
-/// obstacles, their supports, and keep no clearance from them. Their mass counts as link 2's own.
+/// Shapes that link 2 carries in addition to its own parts, such as an object in a gripper. They may touch the
+/// obstacles listed as supports, and need no clearance from them. Their mass counts as link 2's own.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Attachment {
-    /// The name in messages.
+    /// Name for messages.
     pub name: String,
-    /// Extent along the plane's normal.
+    /// Extent along the plane's normal, metres.
     pub heights: Heights,
     /// Connection with link 2.
     pub grip: Grip,
-    /// Its shapes, in its own frame.
+    /// The shapes, in the attachment's own frame.
     pub parts: Vec<AttachedPart>,
     /// The supports, by their number among the static obstacles.
     pub supports: Vec<usize>,
@@ -28,13 +28,13 @@ pub struct Attachment {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Grip {
-    /// It turns with link 2; its pose in link 2's frame.
+    /// Fixed to link 2 and turning with it, at this pose in link 2's frame.
     Rigid(Pose),
-    /// It keeps its orientation in the plane, at all joint values.
+    /// Kept at the same orientation in the plane, whatever the joint values.
     Level {
         /// The orientation, radians.
         angle: f64,
-        /// The point, in its own frame, that stays at the tip.
+        /// The point of the attachment, in its own frame, that stays at the tip.
         point: Point,
     },
 }
@@ -43,17 +43,18 @@ pub enum Grip {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct AttachedPart {
-    /// The shape.
+    /// The shape, in the attachment's frame.
     pub shape: Convex,
-    /// Number of the attachment's piece that this is, or is a part of.
+    /// Number of the attachment's piece that this shape is, or is a part of.
     pub number: usize,
-    /// True if it can meet the supports alone, where no clearance is kept; false if it can meet all other obstacles.
+    /// True if the part can meet only the supports, without clearance. False if it can meet all obstacles except the
+    /// supports.
     pub on_supports: bool,
-    /// False if it may be empty without rounding: its contacts prove no collision.
+    /// False if the shape may be empty in exact arithmetic, so that its contacts prove no collision.
     pub proves_collisions: bool,
 }
 
-/// The ranges of pieces that a part can meet, for each obstacle of a scene.
+/// For each obstacle of a scene, the range of its pieces that a part can meet.
 pub(super) type MeetablePieces = Vec<Range<usize>>;
 
 impl Grip {
@@ -78,8 +79,8 @@ impl Grip {
         matches!(self, Self::Level { .. })
     }
 
-    /// Returns the pose of a rigid attachment in link 2's frame, and of a level one relative to the tip, along the
-    /// plane's axes.
+    /// Returns the pose of the attachment in the frame that carries it: link 2's frame if rigid; if level, the frame
+    /// at the tip with the plane's axes.
     fn frame(&self) -> Pose {
         match *self {
             Self::Rigid(in_link) => in_link,
@@ -89,21 +90,21 @@ impl Grip {
 }
 
 impl Attachment {
-    /// Returns its pieces, without the smaller ones for its supports.
+    /// Returns the attachment's pieces, without the smaller copies that are used with its supports.
     pub fn pieces(&self) -> impl Iterator<Item = &Convex> {
         self.parts.iter().filter(|part| !part.on_supports).map(|part| &part.shape)
     }
 
-    /// Returns the distance by which one of its parts may come nearer to an obstacle than the clearance: zero, or all of
-    /// the clearance for supports. Returns `None` if they cannot meet.
+    /// Returns the distance by which `part` may come nearer to an obstacle than the clearance, metres: the whole
+    /// clearance for supports, otherwise zero. Returns `None` if the two cannot meet.
     #[must_use]
     pub fn nearer(&self, part: &AttachedPart, obstacle: usize, clearance: f64) -> Option<f64> {
         let meets = part.on_supports == self.supports.contains(&obstacle);
         meets.then_some(if part.on_supports { clearance } else { 0.0 })
     }
 
-    /// Returns its parts as parts of link 2, each with the pieces that it can meet. Shapes derived from the obstacles'
-    /// pieces are added to `differences`.
+    /// Returns the attachment's parts as parts of link 2, each with the pieces that it can meet. Where pairs need
+    /// shapes derived from the obstacles' pieces, appends these to `differences`.
     pub(super) fn on_link(
         &self,
         tip: Point,
@@ -123,8 +124,8 @@ impl Attachment {
         self.parts.iter().filter(counts).map(on_link).collect()
     }
 
-    /// Returns the pieces that a part can meet. For a level part, and for supports with a clearance, these are derived
-    /// shapes.
+    /// Returns the pieces that `part` can meet, for each obstacle. Level parts, and supports with a clearance, use
+    /// shapes derived from the obstacle's own pieces, numbered after these.
     fn meetable(
         &self,
         part: &AttachedPart,
@@ -136,8 +137,8 @@ impl Attachment {
         let level = self.grip.is_level().then(|| part.shape.at(&self.grip.frame()));
         let of = |(number, &(kind, obstacle)): (usize, &(ObstacleKind, &Obstacle))| {
             let own = obstacle.pieces.len();
-            // The angle between a level part and obstacles that joint 1 carries is unknown. So the part is covered by a
-            // disc, which is no evidence.
+            // Joint 1 turns an obstacle that it carries relative to a level part, by an angle that is unknown here.
+            // So a disc covers the part, and contacts of the disc prove no collision.
             let is_folding = matches!(kind, ObstacleKind::Own(own) if own.carrier == Carrier::FirstJoint);
             let is_turned = level.is_some() && is_folding;
             let nearer = self.nearer(part, number, clearance);
@@ -145,7 +146,7 @@ impl Attachment {
             if level.is_none() && nearer == 0.0 {
                 return 0..own;
             }
-            // A loose obstacle has its pieces in its own frame, which does not turn if something level is attached.
+            // The pieces of a loose obstacle are in its own frame. With a level attachment, that frame never turns.
             let seen = level.as_ref().map(|level| match kind {
                 _ if is_turned => all_round(level),
                 ObstacleKind::Loose(LooseObstacle { angle, .. }) => {
@@ -165,7 +166,7 @@ impl Attachment {
     }
 }
 
-/// Returns the disc about the tip that contains a level shape.
+/// Returns the disc about the tip that covers a level shape at every angle.
 fn all_round(level: &Convex) -> Convex {
     Convex::trusted(vec![Point::zeros()], level.reach_from(Point::zeros()))
 }

@@ -4,14 +4,14 @@ use super::{Contact, JointType, Obstruction, Pair, Scene};
 use crate::space::{Configuration, Segment};
 use cplan_geometry::Point;
 
-/// Greatest number of configurations that are checked before the search gives up.
+/// Largest number of configurations that one search checks before it gives up.
 const MAX_CHECKED_CONFIGURATIONS: usize = 1000;
 
-/// Greatest number of halvings of a segment.
+/// Largest number of times that a segment is halved.
 const MAX_HALVINGS: u32 = 20;
 
-/// Share of the lengths involved by which the depth of a collision must exceed the motion: far above the rounding of
-/// either.
+/// Fraction of the lengths in a comparison of a collision's depth with the arm's motion by which the depth must
+/// exceed the motion. It is far above the rounding of both.
 const ROUNDING: f64 = 1e-12;
 
 /// A part of a segment on which one obstruction is proven to remain.
@@ -19,17 +19,17 @@ const ROUNDING: f64 = 1e-12;
 pub struct BlockedStretch {
     /// The configurations of that part.
     pub stretch: Segment,
-    /// The obstruction in its middle, which persists in all of the part.
+    /// The deepest obstruction found. Its link and obstacle collide on all of the stretch.
     pub obstruction: Obstruction,
 }
 
 impl Scene {
-    /// Returns the proof that no configuration on a segment is free: stretches that cover the segment in order, with
-    /// neighbours of the same obstruction joined. Returns `None` if there is a free configuration, or if the search
-    /// cannot decide.
+    /// Proves that no configuration on a segment is free. Returns stretches that cover the segment in order;
+    /// neighbours with the same link and obstacle are joined. Returns `None` if a configuration is free, or if the
+    /// search cannot decide.
     ///
-    /// A pair collides on a whole stretch if it is deeper in collision in the middle than a point of the arm moves from
-    /// there to the ends. Other stretches are halved.
+    /// A pair collides on a whole stretch if its depth in the middle exceeds the motion of every point of the arm
+    /// from there to the ends. Stretches without such a pair are halved.
     #[must_use]
     pub fn blocked_along(&self, segment: &Segment) -> Option<Vec<BlockedStretch>> {
         let mut waiting = vec![(0.0, 1.0, 0)];
@@ -72,8 +72,9 @@ impl Scene {
         Some(joined.collect())
     }
 
-    /// Returns the farthest that a point of a pair's part moves while the joints move by at most `moves` from `q`, and
-    /// the greatest length in that computation: joint 2 first, then joint 1 from every place that joint 2 reaches.
+    /// Returns how far a point of a pair's part can move, metres, while each joint moves by at most `moves` from
+    /// `q`. Also returns a bound on all lengths in that computation, for its rounding. Joint 2 moves first, then
+    /// joint 1 from every place that joint 2 reaches.
     fn farthest_motion(&self, pair: Pair, q: Configuration, moves: [f64; 2]) -> (f64, f64) {
         let arm = self.arm();
         let part = self.part(pair);

@@ -1,4 +1,4 @@
-//! Finds the values of a joint at which a convex part that it moves meets a piece.
+//! Contact intervals of one joint, their copies on its axis, and the sweep of a part over all values of joint 2.
 
 use super::{Joint, JointType};
 use cplan_geometry::{
@@ -6,12 +6,12 @@ use cplan_geometry::{
 };
 use std::f64::consts::TAU;
 
-/// A part and the joint that moves it, prepared for the contact equations.
+/// A convex part prepared for the contact equations of the joint that moves it.
 #[derive(Debug, Clone)]
 pub struct CarriedPart {
     joint_type: JointType,
     features: Features,
-    /// Prismatic joints: the core along and across the direction.
+    /// Corners of the core as (along, across) the sliding direction; empty for revolute joints.
     track: Vec<Vector>,
 }
 
@@ -32,15 +32,18 @@ impl CarriedPart {
         self.joint_type
     }
 
-    /// Returns the part that is carried.
+    /// Returns the part's shape, in the frame that the joint moves.
     #[must_use]
     pub fn shape(&self) -> &Convex {
         self.features.shape()
     }
 
-    /// Appends to `out` the joint's values at which the part comes within `grow` of the piece, when the joint sits at
-    /// `pivot` on a link turned by `heading` (a unit vector). Exact up to [`cplan_geometry::ROUNDING`]. For angles see
-    /// [`Hits::Within`]; lengths form one interval. Limits are not applied. `O(n m)`.
+    /// Appends to `out` the values of the joint at which the part is within `grow` of the piece, with the joint at
+    /// `pivot` on a link whose x axis points along `heading` (a unit vector). Exact up to
+    /// [`cplan_geometry::ROUNDING`]. `O(n m)`.
+    ///
+    /// Returns whether they meet never, always, or within the intervals in `out`. Angles are wrapped as in
+    /// [`Hits::Within`]. A prismatic joint yields at most one interval. The joint's limits are not applied.
     pub fn hits(&self, pivot: Point, heading: Vector, piece: &Features, grow: f64, out: &mut Vec<[f64; 2]>) -> Hits {
         match self.joint_type {
             JointType::Revolute { sign } => {
@@ -68,7 +71,8 @@ impl CarriedPart {
     }
 }
 
-/// Calls `f` with the copies of a joint's forbidden intervals within the domain of its axis.
+/// Calls `f` with each copy, by whole turns, of the intervals, clipped to the joint's range. For [`Hits::Always`]
+/// calls `f` once, with the whole range.
 pub fn on_axis(joint: &Joint, hits: Hits, intervals: &[[f64; 2]], mut f: impl FnMut([f64; 2])) {
     let (lower, upper) = joint.range.domain();
     match hits {
@@ -79,8 +83,7 @@ pub fn on_axis(joint: &Joint, hits: Hits, intervals: &[[f64; 2]], mut f: impl Fn
             for &[start, end] in intervals {
                 let mut shift = if period.is_finite() { ((lower - end) / period).ceil() * period } else { 0.0 };
                 while start + shift <= upper {
-                    // If the first copy ends at the limit itself, rounding may put it before the limit, so the next one
-                    // may count.
+                    // Rounding may put the end of the first copy just below `lower`; then skip it.
                     if end + shift >= lower {
                         f([(start + shift).max(lower), (end + shift).min(upper)]);
                     }
@@ -91,7 +94,8 @@ pub fn on_axis(joint: &Joint, hits: Hits, intervals: &[[f64; 2]], mut f: impl Fn
     }
 }
 
-/// Returns a shape, in link 1's frame, that contains a part of link 2 at all values of joint 2.
+/// Returns a shape, in link 1's frame, that contains a part of link 2 at all values of joint 2. `shape` is the part
+/// in link 2's frame, `offset` the position of joint 2 in link 1's frame.
 #[must_use]
 pub fn swept(shape: &Convex, joint: &Joint, offset: Vector) -> Convex {
     match joint.joint_type {
@@ -111,7 +115,7 @@ mod tests {
     use super::*;
     use crate::space::JointRange;
 
-    /// Copies of the intervals on a turning joint's axis.
+    /// Returns the copies of an interval on the axis of a revolute joint.
     fn copies(axis: JointRange, interval: [f64; 2]) -> Vec<[f64; 2]> {
         let joint = Joint {
             name: "turn".into(),
@@ -130,7 +134,7 @@ mod tests {
     fn a_range_of_more_than_a_turn_has_an_interval_more_than_once() {
         let axis = JointRange::Interval { lower: -4.0, upper: 4.5 };
         assert_eq!(copies(axis, [2.0, 3.0]), [[2.0 - TAU, 3.0 - TAU], [2.0, 3.0]].map(|[a, b]| [a.max(-4.0), b]));
-        // Past half a turn, up to one and a half: two turns down it is within the limits still.
+        // The interval is longer than half a turn. Its copy two turns lower still overlaps the limits.
         assert_eq!(copies(axis, [3.0, 9.0]), [[-4.0, 9.0 - 2.0 * TAU], [3.0 - TAU, 9.0 - TAU], [3.0, 4.5]]);
     }
 

@@ -1,4 +1,4 @@
-//! A scene prepared for contact equations, which give the values of a joint at which a part comes near to a piece.
+//! A scene prepared for contact equations, which give the values of a joint at which a part is near a piece.
 
 use super::{CarriedPart, JointType, Pair, Scene, swept};
 use crate::space::Configuration;
@@ -8,25 +8,26 @@ use std::collections::HashMap;
 use std::f64::consts::PI;
 use std::ops::Range;
 
-/// A scene prepared for contact equations, on which slices, slabs, walls and C-obstacles are based.
+/// A scene prepared for contact equations. Slices, slabs, walls and C-obstacles are computed from it.
 ///
-/// Pairs are numbered as in [`Scene::pairs`]. Every interval is closed, exact up to [`cplan_geometry::ROUNDING`], and
-/// consists of joint values. Values of a revolute joint are *unwrapped*: the start is in `[-pi, pi)`, the end may be
-/// beyond `pi`, and the interval repeats by whole turns. Values of a prismatic joint are unchanged. Limits are not
-/// applied; [`Contacts::slice`] does that.
+/// Pairs are numbered as in [`Scene::pairs`]. Every interval of joint values is closed, and exact up to
+/// [`cplan_geometry::ROUNDING`]. Intervals of a revolute joint are *unwrapped*: they start in `[-pi, pi)`, may end
+/// beyond `pi`, and repeat by whole turns. Joint limits are not applied, except in
+/// [`Contacts::slice`] and [`Contacts::bands`].
 #[derive(Debug, Clone)]
 pub struct Contacts<'a> {
     scene: &'a Scene,
     pairs: Vec<PairIndices>,
     parts: Vec<PreparedPart>,
     pieces: Vec<PreparedPiece>,
-    /// The first part and the first pair of link 2, including those for link 2 relative to link 1.
+    /// Numbers of the first part and of the first pair of link 2. Pairs of link 2 relative to link 1 count among
+    /// them.
     second: (usize, usize),
-    /// Place of joint 2 with joint 1 at zero, and the direction of link 1's x axis.
+    /// Position of joint 2 and direction of link 1's x axis, both with joint 1 at zero.
     at_zero: (Point, Vector),
 }
 
-/// A pair, by numbers.
+/// A pair as indices into the vectors of [`Contacts`].
 #[derive(Debug, Clone, Copy)]
 struct PairIndices {
     link: u32,
@@ -36,31 +37,33 @@ struct PairIndices {
     piece: u32,
 }
 
-/// A piece, with its greatest distance from the base, metres.
+/// A piece, with the greatest distance of its points from the base, metres.
 #[derive(Debug, Clone)]
 struct PreparedPiece {
     features: Features,
     reach: f64,
 }
 
-/// A part, prepared for the joint that carries it.
+/// A part, prepared for the joint that carries its link.
 #[derive(Debug, Clone)]
 struct PreparedPart {
-    /// Same as [`Pair::link`].
+    /// Link of the part in its pairs, as in [`Pair::link`].
     link: usize,
     carried: CarriedPart,
-    /// Greatest distance from the base of all places that the part can occupy, metres.
+    /// Upper bound on the distance of the part from the base, metres, at any value of joint 2, while joint 1 is at
+    /// zero.
     reach: f64,
-    /// For link 2 only: the part with all its positions under joint 2, as carried by joint 1.
+    /// For parts of link 2: a shape that contains the part at all values of joint 2, carried by joint 1. `None` for
+    /// link 1.
     sweep: Option<CarriedPart>,
-    /// The numbers of the pairs that the part is in.
+    /// The numbers of the part's pairs, which are consecutive.
     pairs: Range<usize>,
-    /// The boxes of their pieces.
+    /// The bounding boxes of the pieces in these pairs.
     pieces: BoxTree,
 }
 
 impl PreparedPart {
-    /// Prepares the part of some pairs, which are numbered consecutively from `from` on.
+    /// Prepares the part of `pairs`, which all have the same part and are numbered from `from` on.
     fn new(scene: &Scene, pairs: &[Pair], from: usize) -> Self {
         let arm = scene.arm();
         let [first, second] = &arm.joints;
@@ -134,7 +137,7 @@ impl<'a> Contacts<'a> {
         self.piece(self.pairs[index])
     }
 
-    /// Returns the number of the part in pair `index`, among the parts that can meet something.
+    /// Returns the number of the part in pair `index`. Only parts that are in some pair are numbered.
     #[must_use]
     pub fn part_of(&self, index: usize) -> usize {
         self.pairs[index].part as usize
@@ -146,15 +149,15 @@ impl<'a> Contacts<'a> {
         self.second.0..self.parts.len()
     }
 
-    /// Returns numbers of pairs, ascending: all in which a part of link 2 can come within `grow` of something with
-    /// joint 2 at `elbow`, and possibly some others.
+    /// Fills `found` with numbers of pairs of a part of link 2, ascending: all in which the part can be within
+    /// `grow` of its piece with joint 2 at `elbow`, and possibly some others.
     pub fn near(&self, part: usize, elbow: Point, grow: f64, found: &mut Vec<u32>) {
         let part = &self.parts[part];
         part.near(if part.link == 2 { self.at_zero.0 } else { elbow }, grow, found);
     }
 
-    /// Returns the place of joint 2 for pair `index`, of link 2, and the direction of link 1's x axis, when the elbow
-    /// is at `here`. That is `here`, except for obstacles that joint 1 carries, too.
+    /// Returns the place of joint 2, and the direction of link 1's x axis, to use for pair `index` of link 2. Both
+    /// are `here` as given, or, if joint 1 carries the obstacle as well, those with joint 1 at zero.
     #[must_use]
     pub fn frame(&self, index: usize, here: (Point, Vector)) -> (Point, Vector) {
         if self.pairs[index].link == 2 { self.at_zero } else { here }
@@ -166,7 +169,7 @@ impl<'a> Contacts<'a> {
         self.scene
     }
 
-    /// Finds the values of joint 1 at which pair `index`, of link 1, comes within `grow` of contact.
+    /// Appends the values of joint 1 at which pair `index`, of link 1, is within `grow` of contact to `out`.
     ///
     /// # Panics
     /// If the pair is of link 2, or there is no pair of that number.
@@ -176,8 +179,8 @@ impl<'a> Contacts<'a> {
         self.part(pair).carried.hits(self.scene.arm().base, Vector::x(), self.piece(pair), grow, out)
     }
 
-    /// Finds the values of joint 2 at which pair `index`, of link 2, comes within `grow` of contact while joint 1 is at
-    /// `q1`.
+    /// Appends the values of joint 2 at which pair `index`, of link 2, is within `grow` of contact to `out`, with
+    /// joint 1 at `q1`.
     ///
     /// # Panics
     /// If the pair is of link 1, or there is no pair of that number.
@@ -186,10 +189,10 @@ impl<'a> Contacts<'a> {
         self.at_elbow(index, elbow, heading, grow, out)
     }
 
-    /// Finds the values of joint 1 outside which pair `index`, of link 2, keeps farther than `grow` from contact at
-    /// every value of joint 2. They are those at which the part's sweep meets the piece. For a revolute joint 2 the
-    /// sweep is the disc about the elbow that holds the part. For a prismatic one it is a capsule that holds the part
-    /// over the joint's whole range.
+    /// Appends the values of joint 1 at which pair `index`, of link 2, may be within `grow` of contact for some
+    /// value of joint 2. At all other values the pair is farther apart. The intervals are those at which the part's
+    /// sweep meets the piece. For a revolute joint 2 the sweep is the disc about the elbow that contains the part at
+    /// every angle. For a prismatic one it is a capsule that contains the part over the joint's whole range.
     ///
     /// # Panics
     /// If the pair is of link 1, or there is no pair of that number.
@@ -208,9 +211,10 @@ impl<'a> Contacts<'a> {
         self.second.1..self.pairs.len()
     }
 
-    /// Returns the farthest, in metres, that a point of pair `index`'s part which is within `clearance` of the piece
-    /// can move, while joint 1 moves by at most `step` and joint 2 not at all. About a revolute joint a point's chord
-    /// grows with its distance from the base, and a point near the piece is no farther out than the piece is.
+    /// Returns an upper bound on the motion, in metres, of those points of pair `index`'s part that are within
+    /// `clearance` of the piece, while joint 1 moves by at most `step` and joint 2 stands still. A revolute joint
+    /// moves a point along a chord proportional to its distance from the base. A point near the piece is at most
+    /// `clearance` farther from the base than the piece.
     #[must_use]
     pub fn motion(&self, index: usize, step: f64, clearance: f64) -> f64 {
         let pair = self.pairs[index];
@@ -221,22 +225,23 @@ impl<'a> Contacts<'a> {
         self.chord(self.part(pair).reach.min(touched), step)
     }
 
-    /// Returns the farthest that any point of a part can move, metres, while joint 1 moves by at most `step` and joint
-    /// 2 not at all.
+    /// Returns an upper bound on the motion of all points of a part, metres, while joint 1 moves by at most `step`
+    /// and joint 2 stands still.
     #[must_use]
     pub fn motion_of(&self, part: usize, step: f64) -> f64 {
         let part = &self.parts[part];
         if part.link == 2 { 0.0 } else { self.chord(part.reach, step) }
     }
 
-    /// Returns the greatest distance of the part of pair `index` from the base, at any value of joint 2, while joint 1
-    /// stays at zero, metres.
+    /// Returns an upper bound on the distance of pair `index`'s part from the base, metres, at any value of joint 2,
+    /// while joint 1 is at zero.
     #[must_use]
     pub fn reach(&self, index: usize) -> f64 {
         self.part(self.pairs[index]).reach
     }
 
-    /// Returns the farthest that a point at distance `reach` from the base moves with joint 1, metres.
+    /// Returns the distance, metres, that a point at distance `reach` from the base moves while joint 1 moves by
+    /// `step`.
     fn chord(&self, reach: f64, step: f64) -> f64 {
         match self.scene.arm().joints[0].joint_type {
             JointType::Prismatic { .. } => step,
@@ -244,8 +249,8 @@ impl<'a> Contacts<'a> {
         }
     }
 
-    /// Returns the farthest that a point of pair `index`'s part moves per unit of the joint that carries its link,
-    /// metres.
+    /// Returns an upper bound on the motion of the part of pair `index` per unit of the joint that carries its link:
+    /// metres per radian or metre.
     #[must_use]
     pub fn lever(&self, index: usize) -> f64 {
         let part = &self.part(self.pairs[index]).carried;
@@ -261,7 +266,8 @@ impl<'a> Contacts<'a> {
         elbow(self.scene, q1)
     }
 
-    /// Same as [`Contacts::second_link`], for a given elbow.
+    /// Does the same as [`Contacts::second_link`], for a given place of joint 2 (`elbow`) and direction of link 1's x
+    /// axis (`heading`).
     ///
     /// # Panics
     /// If the pair is of link 1, or there is no pair of that number.

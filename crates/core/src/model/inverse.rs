@@ -6,39 +6,42 @@ use cplan_geometry::{Point, Vector, cross};
 use nalgebra::Rotation2;
 use std::f64::consts::TAU;
 
-/// Distances below this, metres, count as zero when the code decides if the tip can be reached, and if a joint's value
-/// affects it. A nanometre is far above the rounding of coordinates of some metres and far below any robot's accuracy.
+/// Distances below this, metres, count as zero in two decisions: whether the tip can reach the target, and whether a
+/// joint's value affects the tip. A nanometre is far above the rounding of coordinates of some metres and far below
+/// any robot's accuracy.
 const ZERO_DISTANCE: f64 = 1e-9;
 
-/// Values beyond a limit by at most this (radians or metres) are moved to the limit, because the excess is rounding.
+/// Values beyond a limit by at most this (radians or metres) are set to the limit, because such an excess is
+/// rounding.
 const LIMIT_ROUNDING: f64 = 1e-9;
 
-/// Solutions of the inverse kinematics, without regard to limits.
+/// Solutions of the inverse kinematics, without regard to joint limits.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Inverse {
-    /// At most two; empty when the tip is out of reach.
+    /// The solutions, at most two; empty if the tip cannot reach the target.
     pub branches: Vec<Configuration>,
-    /// The freedom that does not affect the tip there. Then `branches` are only one or two of infinitely many
-    /// solutions: those with the preferred value of the free quantity.
+    /// The freedom that leaves the tip at the target; `None` if the solutions are isolated. With a freedom there are
+    /// infinitely many solutions. `branches` has the one or two with the preferred value of the free quantity.
     pub free: Option<Freedom>,
 }
 
 /// A freedom of the joints that does not affect the tip.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Freedom {
-    /// The value of this joint, 0 or 1: the tip is on its axis, or for joint 1 the target is.
+    /// The value of this joint, 0 or 1. For joint 2 (index 1) the tip is on the joint's axis. For joint 1 (index 0)
+    /// the target is.
     Joint(usize),
-    /// The share of an angle between the two joints, which turn about one axis.
+    /// The split of one angle between two revolute joints on a common axis.
     Share,
-    /// Everything: the tip is always at the target.
+    /// Both joint values: the tip is at the target in every configuration.
     Both,
 }
 
-/// Computes all configurations that put the arm's tip at `target`, ignoring limits, angles up to whole turns.
+/// Computes all configurations that put the arm's tip at `target`, without limits. Angles are up to whole turns.
 ///
-/// RR: two elbow angles from the law of cosines; RP and PR: a quadratic; PP: a linear system. Where infinitely many
-/// solve it (the tip on an axis of rotation), those with the `preferred` value of the free joint. Forward kinematics
-/// gives `target` back to within a few 1e-9 m. `O(1)`.
+/// RR: two elbow angles from the law of cosines. RP and PR: a quadratic equation. PP: a linear system. If infinitely
+/// many configurations solve it (the tip is on an axis of rotation), returns those with the `preferred` value of the
+/// free joint. Forward kinematics of each solution is within a few 1e-9 m of `target`. `O(1)`.
 #[must_use]
 pub fn inverse(arm: &Arm, target: Point, preferred: Configuration) -> Inverse {
     let from_base = target - arm.base;
@@ -70,7 +73,8 @@ fn angle(v: Vector) -> f64 {
     v.y.atan2(v.x)
 }
 
-/// Returns a `q1` such that `R(s1 q1)` turns `arm` towards `d`; the preferred value where both vanish.
+/// Returns a value of a joint that turns `arm` towards `d`, and whether the value is free. It is free if both
+/// vectors vanish; then it is the preferred one.
 fn turning(sign: f64, arm: Vector, d: Vector, preferred: f64) -> (f64, bool) {
     let free = arm.norm() <= ZERO_DISTANCE && d.norm() <= ZERO_DISTANCE;
     (if free { preferred } else { sign * (angle(d) - angle(arm)) }, free)
@@ -83,7 +87,8 @@ fn turn_turn(d: Vector, (s1, o): (f64, Vector), (s2, t): (f64, Vector), preferre
         return none;
     }
     if upper.min(lower) <= ZERO_DISTANCE {
-        // The elbow does not change the reach: joint 2 (tip on its axis), or the split between the two, is free.
+        // The elbow does not change the reach. If the tip is on joint 2's axis, joint 2 is free; otherwise the split
+        // of the angle between the joints.
         let elbow = o + Rotation2::new(s2 * preferred[1]) * t;
         let (q1, any) = turning(s1, elbow, d, preferred[0]);
         let free = match (any, lower <= ZERO_DISTANCE) {
@@ -116,7 +121,8 @@ fn turn_turn(d: Vector, (s1, o): (f64, Vector), (s2, t): (f64, Vector), preferre
 }
 
 fn turn_slide(d: Vector, sign: f64, m: Vector, direction: Vector, preferred: Configuration) -> Inverse {
-    // |m + q2 w| = |d|: the tip runs on a line at distance |m x w| from joint 1.
+    // The equation is |m + q2 w| = |d|, where w is the direction of joint 2. The tip moves on a line at distance |m
+    // x w| from joint 1.
     let aside = cross(m, direction);
     let Some(root) = half_chord(d.norm(), aside.abs()) else {
         return Inverse { branches: Vec::new(), free: None };
@@ -134,7 +140,8 @@ fn turn_slide(d: Vector, sign: f64, m: Vector, direction: Vector, preferred: Con
 }
 
 fn slide_turn(d: Vector, direction: Vector, (sign, t): (f64, Vector), preferred: Configuration) -> Inverse {
-    // |d - q1 w| = |t|: joint 2 runs on a line at distance |d x w| from the target.
+    // The equation is |d - q1 w| = |t|, where w is the direction of joint 1. Joint 2 moves on a line at distance |d
+    // x w| from the target.
     let Some(root) = half_chord(t.norm(), cross(d, direction).abs()) else {
         return Inverse { branches: Vec::new(), free: None };
     };
@@ -164,9 +171,9 @@ fn both(middle: f64, root: f64) -> Vec<f64> {
 }
 
 impl Inverse {
-    /// Returns all solutions within the limits: each branch with all its turns, or all values of the free quantity. On
-    /// circles each solution appears once. Where everything is free, all configurations are solutions, and the
-    /// preferred one represents them.
+    /// Returns all solutions within the limits. A branch has one solution per whole turn that the limits allow; a
+    /// free joint gives a segment over its whole range. On circles each solution appears once. If both joints are
+    /// free, all configurations are solutions, and the preferred one represents them.
     #[must_use]
     pub fn solutions(&self, arm: &Arm) -> Vec<Segment> {
         let joints = &arm.joints;
@@ -189,7 +196,7 @@ impl Inverse {
     }
 }
 
-/// Returns all segments in which two revolute joints on one axis share the angle of `q` differently, within the limits.
+/// Returns all segments within the limits on which two revolute joints on one axis share the total angle of `q`.
 fn shares(arm: &Arm, q: Configuration) -> Vec<Segment> {
     let [s1, s2] = arm.joints.each_ref().map(|joint| match joint.joint_type {
         JointType::Revolute { sign } => sign,
@@ -210,8 +217,8 @@ fn shares(arm: &Arm, q: Configuration) -> Vec<Segment> {
     turns.filter_map(line).collect()
 }
 
-/// Returns the values equivalent to `value` on an axis: for a revolute joint every copy by whole turns within the
-/// limits, on a circle the one in `[-pi, pi)`. Values that rounding put beyond a limit count as the limit.
+/// Returns all values within the limits that are equivalent to `value`. For a revolute joint these are its copies by
+/// whole turns; on a circle, the copy in `[-pi, pi)`. Values that rounding put beyond a limit are set to the limit.
 #[must_use]
 pub fn within(range: JointRange, revolute: bool, value: f64) -> Vec<f64> {
     let JointRange::Interval { lower, upper } = range else { return vec![range.wrap(value)] };

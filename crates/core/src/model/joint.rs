@@ -5,16 +5,17 @@ use cplan_geometry::Vector;
 use cplan_text::format_distinct;
 use serde::{Deserialize, Serialize};
 
-/// Default top speed of a revolute joint, rad/s.
+/// Top speed of a revolute joint if none is given, rad/s.
 pub const DEFAULT_TURNING_SPEED: f64 = 1.0;
 
-/// Default top speed of a prismatic joint, m/s.
+/// Top speed of a prismatic joint if none is given, m/s.
 pub const DEFAULT_SLIDING_SPEED: f64 = 0.25;
 
-/// Default time to top speed, seconds, for a joint without a limit on the acceleration.
+/// Time to reach the top speed, seconds, from which the acceleration of a joint without a limit on it is computed.
 pub const DEFAULT_TIME_TO_TOP_SPEED: f64 = 0.25;
 
-/// Returns the assumed greatest acceleration of a joint without one, from its top speed.
+/// Returns the acceleration assumed for a joint without a limit on it. It reaches `velocity`, the joint's top speed,
+/// in [`DEFAULT_TIME_TO_TOP_SPEED`].
 #[must_use]
 pub fn assumed_acceleration(velocity: f64) -> f64 {
     (velocity / DEFAULT_TIME_TO_TOP_SPEED).min(f64::MAX)
@@ -24,27 +25,27 @@ pub fn assumed_acceleration(velocity: f64) -> f64 {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum JointType {
-    /// Turns. `sign` is +1 when positive joint values turn counter-clockwise in plane coordinates, else -1.
+    /// Rotation about an axis normal to the plane.
     Revolute {
-        /// +1 or -1.
+        /// +1 if positive joint values turn counter-clockwise in plane coordinates, otherwise -1.
         sign: f64,
     },
-    /// Slides along this unit direction, given in plane coordinates at the zero configuration.
+    /// Translation.
     Prismatic {
-        /// Direction, of unit length.
+        /// Direction in plane coordinates at the zero configuration, of unit length.
         direction: Vector,
     },
 }
 
 impl JointType {
-    /// Returns true if the joint turns.
+    /// Returns true if the joint is revolute.
     #[must_use]
     pub fn is_revolute(self) -> bool {
         matches!(self, JointType::Revolute { .. })
     }
 }
 
-/// One joint: its motion, range and limits. Radians or metres, and seconds.
+/// A joint: its motion, range and limits. Values are in radians for a revolute joint and metres for a prismatic one.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Joint {
@@ -52,13 +53,13 @@ pub struct Joint {
     pub name: String,
     /// The kind of motion.
     pub joint_type: JointType,
-    /// The values it can take.
+    /// The values that the joint can take.
     pub range: JointRange,
-    /// Top speed, per second; positive.
+    /// Top speed, rad/s or m/s; positive.
     pub velocity: f64,
-    /// Greatest acceleration, per second squared; positive.
+    /// Greatest acceleration, rad/s2 or m/s2; positive.
     pub acceleration: f64,
-    /// Greatest jerk, per second cubed; positive. `None` if the acceleration may jump.
+    /// Greatest jerk, rad/s3 or m/s3; positive. `None` if the acceleration may jump.
     pub jerk: Option<f64>,
 }
 
@@ -75,13 +76,13 @@ impl Joint {
         )
     }
 
-    /// Returns a joint that turns counter-clockwise without end.
+    /// Creates a revolute joint without limits, which turns counter-clockwise at 1 rad/s.
     #[must_use]
     pub fn continuous(name: &str) -> Self {
         Self::moving(name, JointType::Revolute { sign: 1.0 }, JointRange::Circle, DEFAULT_TURNING_SPEED)
     }
 
-    /// Creates a prismatic joint along a direction of length 1, from `lower` to `upper`, metres, at 0.25 m/s.
+    /// Creates a prismatic joint from `lower` to `upper`, metres, along a direction of length 1, at 0.25 m/s.
     #[must_use]
     pub fn sliding(name: &str, direction: Vector, lower: f64, upper: f64) -> Self {
         Self::moving(
@@ -103,7 +104,7 @@ impl Joint {
         Self { velocity, acceleration, ..self }
     }
 
-    /// Sets other jerk limits of joints, if any are given.
+    /// Replaces the jerk limits of both joints; changes nothing if `jerks` is `None`.
     pub fn override_jerks(joints: &mut [Joint; 2], jerks: Option<[Option<f64>; 2]>) {
         for (joint, jerk) in joints.iter_mut().zip(jerks.into_iter().flatten()) {
             joint.jerk = jerk;
@@ -122,7 +123,7 @@ impl Joint {
         if self.joint_type.is_revolute() { "N m" } else { "N" }
     }
 
-    /// Returns a value with its unit, angles in both units: `0.3491 rad (20.00 deg)`.
+    /// Returns a value with its unit, angles in radians and degrees: `0.3491 rad (20.00 deg)`.
     #[must_use]
     pub fn shown(&self, value: f64) -> String {
         let [shown] = self.format_distinct([value]);

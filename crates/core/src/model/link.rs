@@ -18,19 +18,19 @@ pub enum OutlineSource {
     None,
 }
 
-/// One convex piece of a link's outline, in the link's frame: origin at the joint that carries the link, axes parallel
-/// to the plane's at the zero configuration.
+/// One convex piece of a link's outline, in the link's frame. The origin of that frame is at the joint that carries
+/// the link. At the zero configuration its axes are parallel to the plane's.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Part {
-    /// Projection on the plane, or a shape that covers it. A configuration that is free for this shape is free for the
-    /// part.
+    /// The part's projection on the plane, or a shape that covers the projection. If this shape is free of
+    /// collisions, so is the part.
     pub shape: Convex,
-    /// A shape inside the real part, if `shape` is larger than that. Proofs of collisions use it.
+    /// A shape inside the real part, for proofs of collisions. `None` if `shape` is exact.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub inner: Option<Convex>,
-    /// Number of the shape that this is, or is a part of, among the shapes of the URDF link that have a size. For an
-    /// attached part, the number of the attachment's piece.
+    /// Number of the shape from which this part was made. It counts the shapes of the URDF link that have a size, or
+    /// for an attached part the attachment's pieces.
     #[serde(default, skip_serializing_if = "is_first")]
     pub number: usize,
     /// True if this is the URDF link's `<visual>` geometry, because the link has no `<collision>` geometry.
@@ -46,7 +46,8 @@ fn is_first(number: &usize) -> bool {
     *number == 0
 }
 
-/// All parts that one joint moves and the next does not, fixed children included.
+/// A rigid body between two joints: all parts that one joint moves and the next does not, including URDF links that
+/// are fixed to it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Link {
@@ -59,7 +60,7 @@ pub struct Link {
 }
 
 impl Link {
-    /// Creates a link of these shapes, at all heights. Without shapes it cannot collide.
+    /// Creates a link of these shapes, at all heights. A link without shapes cannot collide.
     #[must_use]
     pub fn of(name: &str, shapes: impl IntoIterator<Item = Convex>) -> Self {
         let part =
@@ -69,7 +70,8 @@ impl Link {
         Self { name: name.into(), parts, source }
     }
 
-    /// Returns a bar with round ends along x from the joint, metres; without a width it is a line.
+    /// Creates a bar with round ends along x, from the joint on. Length and width in metres; with width 0 it is a
+    /// line.
     ///
     /// ```
     /// use cplan_core::model::Link;
@@ -79,7 +81,7 @@ impl Link {
     /// ```
     ///
     /// # Errors
-    /// A length that is not finite and positive, and a width that is negative or not finite.
+    /// If the length is not finite and positive, or the width is negative or not finite.
     pub fn bar(name: &str, length: f64, width: f64) -> Result<Self, ConvexError> {
         if !(length > 0.0 && length.is_finite()) {
             return Err(ConvexError::Length { length });

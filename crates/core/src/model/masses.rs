@@ -7,11 +7,11 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Body {
-    /// Kilograms.
+    /// Mass, kg.
     pub mass: f64,
-    /// Centre of mass in the frame that the body belongs to.
+    /// Centre of mass in the frame that the body belongs to, metres.
     pub center: Point,
-    /// Moment of inertia about the centre of mass and the plane's normal, kg m2.
+    /// Moment of inertia about the axis through the centre of mass along the plane's normal, kg m2.
     pub inertia: f64,
 }
 
@@ -24,14 +24,14 @@ impl Body {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Dynamics {
-    /// The bodies between a joint and the next, in the link's frame.
+    /// Mass and inertia of each link, in the link's frame.
     pub bodies: [Body; 2],
     /// Acceleration of free fall in plane coordinates, m/s2.
     pub gravity: Vector,
     /// Greatest torque (N m) or force (N) of each joint.
     pub effort: [f64; 2],
-    /// True for joints whose greatest acceleration is not given.
+    /// True for each joint whose greatest acceleration is assumed because none is given.
     pub assumed: [bool; 2],
-    /// True if motions must keep within the efforts.
+    /// True if motions must stay within `effort`.
     pub limits: bool,
 }

@@ -1,4 +1,4 @@
-//! The arm, the workspace, and the two together.
+//! The arm, its workspace, and the scene that combines the two.
 //!
 //! ```
 //! use cplan_core::model::{Arm, Obstacle, Scene, Workspace};
@@ -8,7 +8,7 @@
 //! let workspace = Workspace::new([Obstacle::circle("post", [1.0, 0.5], 0.1)?]);
 //! let scene = Scene::new(arm, workspace)?;
 //! let stretched = scene.closest(Configuration::new(0.0, 0.0)).expect("there is something to hit");
-//! // From the bar's upper edge to the post.
+//! // The distance is from the bar's upper edge to the post.
 //! assert!((stretched.separation.distance - 0.37).abs() < 1e-12);
 //! assert_eq!(scene.workspace().obstacles[stretched.pair.obstacle].name, "post");
 //! # Ok::<(), Box<dyn std::error::Error>>(())

@@ -6,30 +6,30 @@ use cplan_geometry::{Convex, Pose, separation, shapes_meet};
 use cplan_text::format_distinct;
 use std::borrow::Cow;
 
-/// A contact, or a distance below the clearance.
+/// A collision, or a distance below the clearance: a reason why a configuration is not free.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Obstruction {
-    /// The shapes, with their distance.
+    /// The pair of shapes, with their distance.
     pub contact: Contact,
-    /// True if they meet, as decided exactly; otherwise they are nearer than the clearance.
+    /// True if the shapes meet, decided exactly. False if they are merely nearer than the clearance.
     pub touches: bool,
 }
 
-/// Depths below this, metres, are reported as touching.
+/// Depths below this, metres, are printed as "just touching".
 const TOUCHING_DEPTH: f64 = 1e-9;
 
-/// Depths of at least this, metres, are shown with four decimals, which would be zero for smaller ones.
+/// Depths of at least this, metres, are printed with four decimals; smaller ones in scientific notation.
 const FOUR_DECIMALS_DEPTH: f64 = 1e-3;
 
 impl Scene {
-    /// Returns the reasons why `q` is not free of static obstacles: for each link (or its attachment) and obstacle the worst
-    /// pair of shapes. Empty if `q` is free.
+    /// Returns the collisions of `q` with static obstacles and the distances below the clearance. Each link, and the
+    /// attachment, has at most one entry per obstacle: the worst pair of shapes. Empty if `q` is free.
     #[must_use]
     pub fn obstructions(&self, q: Configuration) -> Vec<Obstruction> {
         self.worst(q, self.pairs().iter().map(|&pair| (pair, Cow::Borrowed(self.piece(pair)))))
     }
 
-    /// Returns the reasons for static obstacles, and for loose ones at these poses.
+    /// Does the same as [`Scene::obstructions`], and includes the loose obstacles, which are at `poses`.
     #[must_use]
     pub fn obstructions_among(&self, q: Configuration, poses: &[Pose]) -> Vec<Obstruction> {
         let static_obstacles = self.pairs().iter().map(|&pair| (pair, Cow::Borrowed(self.piece(pair))));
@@ -65,7 +65,7 @@ impl Scene {
         worst
     }
 
-    /// Returns an obstruction in words: `link "forearm" hits obstacle "shelf", 0.0120 m deep`.
+    /// Describes an obstruction in words: `link "forearm" hits obstacle "shelf", 0.0120 m deep`.
     #[must_use]
     pub fn explain(&self, obstruction: &Obstruction) -> String {
         let Contact { pair, separation } = obstruction.contact;

@@ -1,22 +1,22 @@
-//! The three answers.
+//! The answers of cplan: found, infeasible, or unknown.
 
 use schemars::JsonSchema;
 use serde::Serialize;
 use std::fmt;
 
-/// An answer: found, proven infeasible, or unknown, each with its own data.
+/// An answer, with the data that belong to it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Outcome<F, I, U = String> {
-    /// Found and certified: the solution is in `F`.
+    /// A certified solution.
     Found(F),
-    /// Proven infeasible by `I`.
+    /// A proof that there is no solution.
     Infeasible(I),
-    /// Unknown: the reason is in `U`.
+    /// The reason why neither was found.
     Unknown(U),
 }
 
 impl<F, I, U> Outcome<F, I, U> {
-    /// Returns the kind of the answer.
+    /// Returns the answer without its data.
     #[must_use]
     pub fn status(&self) -> Status {
         match self {
@@ -26,7 +26,7 @@ impl<F, I, U> Outcome<F, I, U> {
         }
     }
 
-    /// Borrows the answer.
+    /// Returns the answer with references to its data.
     #[must_use]
     pub fn as_ref(&self) -> Outcome<&F, &I, &U> {
         match self {
@@ -46,42 +46,42 @@ impl<F, I, U> Outcome<F, I, U> {
         }
     }
 
-    /// Returns the found value, if that is the answer.
+    /// Returns the found value; `None` for other answers.
     #[must_use]
     pub fn found(&self) -> Option<&F> {
         if let Outcome::Found(found) = self { Some(found) } else { None }
     }
 
-    /// Returns the proof that there is no solution, if that is the answer.
+    /// Returns the proof that there is no solution; `None` for other answers.
     #[must_use]
     pub fn infeasible(&self) -> Option<&I> {
         if let Outcome::Infeasible(proof) = self { Some(proof) } else { None }
     }
 
-    /// Returns the reason if the answer is unknown.
+    /// Returns the reason why the answer is unknown; `None` for other answers.
     #[must_use]
     pub fn unknown(&self) -> Option<&U> {
         if let Outcome::Unknown(why) = self { Some(why) } else { None }
     }
 }
 
-/// Which of the three answers it is.
+/// An answer without its data.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Status {
-    /// With a certified path.
+    /// There is a certified path.
     Found,
-    /// With a proof that there is none.
+    /// There is a proof that no path exists.
     Infeasible,
-    /// With neither.
+    /// There is neither a path nor a proof.
     Unknown,
 }
 
 impl Status {
-    /// All, in the order in which they are counted.
+    /// All answers, in the order of tables.
     pub const ALL: [Status; 3] = [Status::Found, Status::Infeasible, Status::Unknown];
 
-    /// Returns the word for it in results, tables and files.
+    /// Returns the answer's name in results, tables and files.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {

@@ -4,17 +4,18 @@ use super::attachment::MeetablePieces;
 use super::{Carrier, Heights, Link, LooseObstacle, Obstacle, Pair, Part, SelfObstacle};
 use cplan_geometry::{Convex, Point, separation};
 
-/// Treatment of heights where rounding leaves open whether they meet.
+/// Rule for two extents of heights if rounding leaves open whether they overlap.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum HeightPolicy {
-    /// They meet: conservative, for claims that a configuration is free.
+    /// The extents count as overlapping, so that no collision is missed.
     Conservative,
-    /// They do not meet: for proofs that the arm collides.
+    /// The extents count as apart, so that every collision is proven.
     Definite,
 }
 
 impl HeightPolicy {
-    /// Returns true if a part of the arm, or one that is attached to it, shares a height with an obstacle.
+    /// Returns true if the heights of a part and of an obstacle meet. `is_attached` is true if the part belongs
+    /// to the attachment, which may rest on the obstacle.
     pub fn meet(self, is_attached: bool, part: Heights, obstacle: Heights) -> bool {
         match (self, is_attached) {
             (Self::Conservative, false) => part.meet(obstacle),
@@ -28,22 +29,23 @@ impl HeightPolicy {
 /// The rule that decides which pairs a scene includes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct PairPolicy {
-    /// Treatment of heights.
+    /// Rule for heights whose overlap rounding leaves open.
     pub meet: HeightPolicy,
-    /// Greatest distance of static pieces from joint 1, metres; farther ones are in no pair.
+    /// Pieces of static obstacles farther than this from joint 1, metres, are in no pair.
     pub farthest: f64,
 }
 
 impl PairPolicy {
-    /// The rule that includes all pairs that may meet.
+    /// Policy that includes all pairs that may meet.
     pub const ALL: Self = Self { meet: HeightPolicy::Conservative, farthest: f64::INFINITY };
 
-    /// Returns true if a contact proves a collision.
+    /// Returns true if a contact of a pair proves a collision.
     pub fn proves_collisions(&self) -> bool {
         self.meet == HeightPolicy::Definite
     }
 
-    /// Returns true if a piece may be empty without rounding, and so is no evidence.
+    /// Returns true if contacts of this piece prove no collision, because the piece may be empty in exact
+    /// arithmetic.
     pub fn may_be_empty(&self, piece: &Convex) -> bool {
         self.proves_collisions() && piece.is_sliver()
     }
@@ -74,26 +76,27 @@ pub(super) fn numbered<'a>(
 
 /// The data that decide which pairs a scene has.
 pub(super) struct Pairing<'a> {
-    /// The arm's links, with the attachment.
+    /// The arm's links; the parts of the attachment are among those of link 2.
     pub links: &'a [Link; 2],
-    /// The place of joint 1.
+    /// Position of joint 1, metres.
     pub base: Point,
     /// All obstacles, in the order of their numbers.
     pub obstacles: &'a [(ObstacleKind<'a>, &'a Obstacle)],
     pub policy: PairPolicy,
-    /// Number of link 2's own parts; those after them are attached.
+    /// Number of link 2's own parts. The parts that follow belong to the attachment.
     pub own_parts: usize,
-    /// The pieces that each attached part can meet.
+    /// For each attached part, the pieces that it can meet.
     pub attached: &'a [MeetablePieces],
-    /// Obstacles that link 2 itself is free to meet.
+    /// Numbers of the obstacles that link 2's own parts may touch.
     pub allowed_contacts: &'a [usize],
 }
 
 impl Pairing<'_> {
-    /// Returns the pairs with static and with loose obstacles, each ordered by link, part, obstacle and piece.
+    /// Returns the pairs with all but loose obstacles, and those with loose ones. Each list is ordered by link,
+    /// part, obstacle and piece.
     pub fn pairs(&self) -> [Vec<Pair>; 2] {
         let excluded_pieces = self.excluded_pieces();
-        // Shapes derived from pieces come after the pieces: one full set of pieces per attached part.
+        // For each attached part, the derived shapes are one full set of pieces, numbered after the pieces.
         let is_kept = |pair: &Pair| excluded_pieces.get(pair.obstacle).is_none_or(|all| !all[pair.piece % all.len()]);
         let (mut pairs, mut loose, mut folding) = (Vec::new(), Vec::new(), Vec::new());
         let parts = |link: usize| self.links[link].parts.iter().enumerate().map(move |(part, p)| (link, part, p));
@@ -121,18 +124,19 @@ impl Pairing<'_> {
         [pairs, loose]
     }
 
-    /// Returns true if a part of a link and an obstacle can meet, by their heights and their carriers.
+    /// Returns true if the heights and the carriers of a part and of an obstacle allow them to meet.
     fn can_meet(&self, link: usize, part: &Part, is_attached: bool, kind: ObstacleKind, obstacle: &Obstacle) -> bool {
         let ObstacleKind::Own(own) = kind else {
             return self.policy.meet.meet(is_attached, part.heights, obstacle.heights);
         };
-        // Links of a robot lie on top of each other.
+        // The heights of links that lie on each other touch, so only definite overlaps count.
         (link == 1 || own.carrier == Carrier::Base)
             && part.heights.definitely_meet(obstacle.heights)
             && (is_attached || !own.ignores(&part.body))
     }
 
-    /// Returns, for each obstacle, true for each piece that is in no pair; nothing at all if every piece may be in one.
+    /// Returns for each obstacle, and each of its pieces, whether the piece is in no pair. Returns an empty list if
+    /// all pieces may be in pairs.
     fn excluded_pieces(&self) -> Vec<Vec<bool>> {
         let PairPolicy { farthest, .. } = self.policy;
         if farthest.is_infinite() && !self.policy.proves_collisions() {

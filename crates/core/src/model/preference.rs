@@ -5,34 +5,35 @@ use crate::space::Configuration;
 use cplan_geometry::{Point, SimplePolygon};
 use serde::{Deserialize, Serialize};
 
-/// The configurations for which a preference holds.
+/// The set of configurations to which a preference applies.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Region {
-    /// These configurations, and on circles their copies.
+    /// A polygon of configurations. On circles its copies by whole turns belong to it.
     Configurations(SimplePolygon),
-    /// The configurations whose tip lies in this polygon of the workspace, metres.
+    /// All configurations whose tip lies in this polygon of the workspace, metres.
     Tip(SimplePolygon),
 }
 
-/// A region of the world that field planners may treat differently. Unlike an obstacle it is no strict constraint.
-/// Other planners ignore it.
+/// A region that field planners prefer or avoid. It is no obstacle: paths may cross it. Other planners ignore it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Preference {
-    /// The user's name for it, or `preference 3`.
+    /// The user's name for the preference, or a default such as `preference 3`.
     pub name: String,
     /// The configurations to which it applies.
     pub region: Region,
-    /// Strength of the drift in the field equation, per grid cell; finite. With fields whose drift follows their own
-    /// slope a positive value makes the region less attractive, a negative one more attractive.
+    /// Strength of the drift in the field equation, per grid cell; finite. If the drift follows the field's own
+    /// slope, a positive value makes the region less attractive, and a negative one more attractive.
     pub epsilon: f64,
-    /// Direction of the drift in joint space, of length 1; for fields that are oriented by region.
+    /// Direction of the drift in joint space, of length 1. `None` if none is given. Only fields with a
+    /// direction per region use it.
     pub direction: Option<[f64; 2]>,
 }
 
 impl Preference {
-    /// Returns true if it holds at `q`. Exact, boundaries included, up to the rounding of the tip's place.
+    /// Returns true if the preference applies at `q`. Exact, boundaries included, up to the rounding of the tip's
+    /// position.
     #[must_use]
     pub fn holds_at(&self, arm: &Arm, q: Configuration) -> bool {
         match &self.region {

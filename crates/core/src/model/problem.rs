@@ -6,21 +6,21 @@ use crate::space::{Configuration, GoalSet};
 use cplan_geometry::Point;
 use serde::{Deserialize, Serialize};
 
-/// A destination.
+/// A destination of the arm, as the user gives it.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Goal {
-    /// These joint values.
+    /// A configuration.
     Joints(Configuration),
-    /// Any configuration that puts the tip here.
+    /// A point for the tip, in plane coordinates, metres. Every configuration that puts the tip there is a goal.
     Tip(Point),
-    /// Any configuration that puts the tip into this rectangle: lower left and upper right corner. For arms that do not
-    /// slide along both axes only its middle counts ([`Goal::of_arm`]).
+    /// A rectangle for the tip, given by its lower left and upper right corners, metres. For an arm that does not
+    /// slide along both axes, only the rectangle's middle counts ([`Goal::of_arm`]).
     Area([Point; 2]),
 }
 
 impl Goal {
-    /// Returns the target place of the tip, for a rectangle its middle; `None` for joint values.
+    /// Returns the place for the tip; for a rectangle this is its middle. `None` for joint values.
     #[must_use]
     pub fn tip(&self) -> Option<Point> {
         match self {
@@ -30,7 +30,7 @@ impl Goal {
         }
     }
 
-    /// Returns the target place of the tip that is nearest to its present place; `None` for joint values.
+    /// Returns the place for the tip that is nearest to `is`, its present one. `None` for joint values.
     #[must_use]
     pub fn nearest_tip(&self, is: Point) -> Option<Point> {
         match self {
@@ -40,7 +40,7 @@ impl Goal {
     }
 }
 
-/// A defect of a scene, a start and goals.
+/// The reason why a scene, a start and goals make no problem.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum MotionProblemError {
     /// The start lies outside a joint's limits, or is not a number.
@@ -51,10 +51,10 @@ pub enum MotionProblemError {
         /// The joint's value, radians or metres.
         value: f64,
     },
-    /// The arm meets an obstacle at the start, or is nearer to one than the clearance.
+    /// The arm collides at the start, or is nearer to an obstacle than the clearance.
     #[error("the start is not free: {why}")]
     StartBlocked {
-        /// The link, the obstacle, and the depth.
+        /// The link, the obstacle, and the depth or distance, in words.
         why: String,
     },
     /// There is no goal.
@@ -70,20 +70,21 @@ pub enum MotionProblemError {
         /// The joint's value, radians or metres.
         value: f64,
     },
-    /// A goal that is a single configuration is not free.
+    /// A goal that is a single configuration is not free: the arm collides, or is nearer to an obstacle than the
+    /// clearance.
     #[error("goal {} is not free: {why}", goal + 1)]
     GoalBlocked {
         /// Number of the goal, from 0.
         goal: usize,
-        /// The link, the obstacle, and the depth.
+        /// The link, the obstacle, and the depth or distance, in words.
         why: String,
     },
 }
 
 /// A user's query: a scene, a start, and alternative goals.
 ///
-/// The start lies within the joint limits and is free. There is at least one goal; goals lie within the limits. Single
-/// configurations among them are free; of a segment only a part may be.
+/// The start lies within the joint limits and is free. There is at least one goal. Goals lie within the limits. A
+/// goal that is a single configuration is free; of a segment, only a part may be free, or none.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "MotionRecord", into = "MotionRecord")]
 pub struct MotionProblem {
@@ -93,11 +94,11 @@ pub struct MotionProblem {
 }
 
 impl MotionProblem {
-    /// Creates a problem from a start to any of the goals: a configuration, a segment of them, or a set. `O(n)`
-    /// distances in the scene's pairs for the start and for each goal.
+    /// Creates a problem from a start and alternative goals, and checks it. For the start and for each goal it
+    /// computes the distance of every pair in the scene.
     ///
     /// # Errors
-    /// When the start or a goal is outside the limits or not free, or there is no goal.
+    /// If the start or a goal is outside the limits or not free, or if there is no goal.
     pub fn new(scene: Scene, start: Configuration, goals: impl Into<GoalSet>) -> Result<Self, MotionProblemError> {
         let goals = goals.into();
         let outside = |q: Configuration| {
@@ -126,14 +127,14 @@ impl MotionProblem {
         Ok(Self { scene, start, goals })
     }
 
-    /// Creates a problem without checks. For a start and goals that are known to be valid, or that are never used.
+    /// Creates a problem without checks, for a start and goals that are valid or never used.
     #[must_use]
     #[doc(hidden)]
     pub fn trusted(scene: Scene, start: Configuration, goals: impl Into<GoalSet>) -> Self {
         Self { scene, start, goals: goals.into() }
     }
 
-    /// Returns arm and obstacles.
+    /// Returns the arm and its obstacles.
     #[must_use]
     pub fn scene(&self) -> &Scene {
         &self.scene
@@ -151,14 +152,14 @@ impl MotionProblem {
         self.start
     }
 
-    /// Returns the alternative goals: reaching any of them is enough.
+    /// Returns the goals. A path must reach one of them.
     #[must_use]
     pub fn goals(&self) -> &GoalSet {
         &self.goals
     }
 
-    /// Gives access to the arm, to change its joints' limits on speed, acceleration, jerk and effort. Start and goals
-    /// do not depend on them.
+    /// Returns mutable access to the arm, to change its joints' limits on speed, acceleration, jerk and effort.
+    /// Start and goals do not depend on these.
     pub fn arm_mut(&mut self) -> &mut super::Arm {
         self.scene.arm_mut()
     }

@@ -12,16 +12,19 @@ use cplan_geometry::{Convex, Pose, Separation, separation};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 
-/// A part of a link and a piece of an obstacle that can meet, because they share a height. Indices into the scene.
+/// A part of a link and a piece of an obstacle that can meet, because their heights overlap. All fields are indices
+/// into the scene.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Pair {
-    /// 0 or 1 for the link; 2 for link 2 relative to link 1, with an obstacle that joint 1 carries.
+    /// 0 or 1 for that link. 2 for a part of link 2 and an obstacle that joint 1 carries; their distance depends on
+    /// joint 2 alone.
     pub link: usize,
     /// Index into the link's parts.
     pub part: usize,
-    /// Index into the workspace's obstacles, followed by the loose obstacles, followed by the arm's self obstacles.
+    /// Number of the obstacle. It counts the workspace's obstacles, then the loose ones, then the arm's self
+    /// obstacles.
     pub obstacle: usize,
-    /// Index into the obstacle's pieces, followed by the shapes derived from them for an attachment.
+    /// Number of the piece. It counts the obstacle's pieces, then the shapes derived from them for an attachment.
     pub piece: usize,
 }
 
@@ -30,65 +33,66 @@ pub struct Pair {
 pub struct Contact {
     /// The pair of shapes.
     pub pair: Pair,
-    /// Their signed distance and its direction.
+    /// Signed distance of the two shapes, and its direction.
     pub separation: Separation,
 }
 
-/// Arm and workspace, with the pairs of shapes that can meet at all. Every module that asks about collisions asks
-/// about these pairs, so a pair that heights rule out is ruled out everywhere.
+/// An arm in a workspace, with the pairs of shapes that can meet. All collision checks use these pairs, so shapes at
+/// different heights are ignored everywhere.
 ///
-/// The shapes of an [`Attachment`] are parts of link 2. One that is kept level only translates with the tip: it meets a
-/// piece exactly when the tip lies in their Minkowski difference, so its part is the tip, a point, and its pieces are
-/// these differences.
+/// The shapes of an [`Attachment`] are parts of link 2. A level attachment never turns. It meets a piece exactly if
+/// the tip lies in the Minkowski difference of the two. So the attachment's part is a point, the tip, and its pieces
+/// are these differences.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "SceneRecord", into = "SceneRecord")]
 pub struct Scene {
     arm: Arm,
     workspace: Workspace,
     additions: Additions,
-    /// Number of link 2's own parts; those that follow are attached.
+    /// Number of link 2's own parts. The parts that follow belong to the attachment.
     own_parts: usize,
     policy: PairPolicy,
     pairs: Vec<Pair>,
     /// The pairs with loose obstacles.
     loose_pairs: Vec<Pair>,
-    /// For each static, loose and self obstacle, in this order: the shapes derived from its pieces for a level
-    /// attachment, and the smaller pieces of supports.
+    /// For each obstacle, in the order of their numbers: the shapes derived from its pieces. These are the Minkowski
+    /// differences for a level attachment, and the smaller pieces of supports.
     differences: Vec<Vec<Convex>>,
 }
 
-/// A search omits the pairs out of reach if there are more than this; with fewer it is as fast.
+/// [`Scene::within_reach`] is of use only if it omits more pairs than this; searches are as fast with a few pairs
+/// more.
 const MIN_PAIRS_TO_OMIT: usize = 200;
 
-/// Share by which rounding may make a distance too large or a reach too small, with a wide margin.
+/// Bound on the relative rounding error of distances and of the reach, with a wide margin.
 const ROUNDING: f64 = 1e-9;
 
 impl Scene {
-    /// Puts the arm into the workspace.
+    /// Creates the scene of an arm in a workspace.
     ///
     /// # Errors
-    /// If a number of either makes no sense: see [`SceneError`].
+    /// If a value of the arm or the workspace is invalid: see [`SceneError`].
     pub fn new(arm: Arm, workspace: Workspace) -> Result<Self, SceneError> {
         Self::with(arm, workspace, Additions::default())
     }
 
-    /// Puts the arm into the workspace, with these additions.
+    /// Creates the scene of an arm in a workspace, with additions.
     ///
     /// # Errors
-    /// Same as for [`Scene::new`]; also if there is no obstacle of a given number.
+    /// Same as for [`Scene::new`]; also if the additions name an obstacle that does not exist.
     pub fn with(arm: Arm, workspace: Workspace, additions: Additions) -> Result<Self, SceneError> {
         check(&arm, &workspace, &additions)?;
         Ok(Self::with_trusted(arm, workspace, additions))
     }
 
-    /// Same as [`Scene::new`], without checks.
+    /// Does the same as [`Scene::new`], without checks.
     #[must_use]
     #[doc(hidden)]
     pub fn trusted(arm: Arm, workspace: Workspace) -> Self {
         Self::with_trusted(arm, workspace, Additions::default())
     }
 
-    /// Same as [`Scene::with`], without checks.
+    /// Does the same as [`Scene::with`], without checks.
     #[must_use]
     #[doc(hidden)]
     pub fn with_trusted(arm: Arm, workspace: Workspace, additions: Additions) -> Self {
@@ -120,8 +124,9 @@ impl Scene {
         Self { arm, workspace, additions, own_parts, policy, pairs, loose_pairs, differences }
     }
 
-    /// Returns the scene for proofs of collisions. It uses inner shapes where an outline covers more than the real
-    /// part, only heights that certainly meet, and no pieces that may be empty without rounding.
+    /// Returns the scene for proofs of collisions. Where an outline covers more than the real part, the scene uses
+    /// the inner shape. Its pairs have heights that certainly overlap, and pieces that are not empty in exact
+    /// arithmetic.
     #[must_use]
     pub fn inner(&self) -> Cow<'_, Self> {
         let parts = || self.arm.links.iter().flat_map(|link| &link.parts);
@@ -159,15 +164,15 @@ impl Scene {
         ))
     }
 
-    /// Returns the scene with other shapes for the arm's own parts and for the pieces of obstacles. Each part stays one
-    /// part, each obstacle stays one obstacle, and the attachment is unchanged.
+    /// Returns the scene with other shapes of the arm's own parts and other pieces of obstacles. The numbers of
+    /// parts and obstacles, and the attachment, stay the same.
     #[must_use]
     pub fn reshaped(&self, reshape: impl Fn(&mut Part), pieces: impl FnMut(&Obstacle) -> Vec<Convex>) -> Self {
         self.remade(reshape, pieces, self.policy)
     }
 
-    /// Returns the scene with other heights for the arm's self obstacles. The function gets the URDF link's name and
-    /// its present heights.
+    /// Returns the scene with other heights of the arm's self obstacles. `heights` gets the name of the URDF link
+    /// and its present heights, and returns the new ones.
     #[must_use]
     pub fn with_self_heights(&self, heights: impl Fn(&str, Heights) -> Heights) -> Self {
         self.changed(|arm, _| {
@@ -177,8 +182,9 @@ impl Scene {
         })
     }
 
-    /// Returns the scene without the pairs of static obstacles that are out of the arm's reach, clearance included.
-    /// Returns `None` if these are few, or if there is an attachment. Each part, obstacle and piece keeps its number.
+    /// Returns the scene without the pairs of static obstacles that the arm cannot reach, clearance included.
+    /// Returns `None` if few pairs would be omitted, or if there is an attachment. Parts, obstacles and pieces keep
+    /// their numbers.
     #[must_use]
     pub fn within_reach(&self) -> Option<Self> {
         if self.attachment().is_some() || self.pairs.len() <= MIN_PAIRS_TO_OMIT {
@@ -210,8 +216,8 @@ impl Scene {
         })
     }
 
-    /// Returns the scene with a change of the arm (without its attachment) or the workspace, without checks. The
-    /// additions stay as they are.
+    /// Returns the scene after `change` has changed the arm (without its attachment) or the workspace. The additions
+    /// stay the same. Nothing is checked.
     #[must_use]
     #[doc(hidden)]
     pub fn changed(&self, change: impl FnOnce(&mut Arm, &mut Workspace)) -> Self {
@@ -225,16 +231,17 @@ impl Scene {
         Self::assembled(arm, workspace, self.additions.clone(), policy)
     }
 
-    /// Returns the scene with another distance to keep, metres.
+    /// Returns the scene with another clearance, metres.
     ///
     /// # Errors
-    /// If the distance is negative or not finite.
+    /// If the clearance is negative, too large or not finite.
     pub fn with_clearance(self, clearance: f64) -> Result<Self, SceneError> {
         check_clearance(clearance)?;
         Ok(self.changed(|_, workspace| workspace.clearance = clearance))
     }
 
-    /// Returns the scene with its loose obstacles at these poses. They become static, after all static ones.
+    /// Returns the scene with its loose obstacles at these poses. They become static obstacles, numbered after the
+    /// others.
     #[must_use]
     pub fn with_loose_at(&self, poses: impl IntoIterator<Item = Pose>) -> Self {
         if self.loose().is_empty() {
@@ -256,20 +263,20 @@ impl Scene {
         scene.changed(|_, workspace| workspace.obstacles.push(obstacle))
     }
 
-    /// Returns the arm without its attachment, and the workspace, from which another scene can be made.
+    /// Returns the arm without its attachment, and the workspace. They can be used for another scene.
     #[must_use]
     pub fn into_parts(mut self) -> (Arm, Workspace) {
         self.arm.links[1].parts.truncate(self.own_parts);
         (self.arm, self.workspace)
     }
 
-    /// Obstacles that link 2 itself is free to meet, by their number.
+    /// Returns the numbers of the obstacles that link 2's own parts may touch.
     #[must_use]
     pub fn allowed_contacts(&self) -> &[usize] {
         &self.additions.allowed_contacts
     }
 
-    /// Returns what the scene has beyond arm and workspace.
+    /// Returns the optional contents of the scene.
     #[must_use]
     pub fn additions(&self) -> &Additions {
         &self.additions
@@ -293,8 +300,8 @@ impl Scene {
         &self.workspace
     }
 
-    /// Gives access to the arm, to change its joints' limits on speed, acceleration, jerk and effort. The pairs do not
-    /// depend on them.
+    /// Returns mutable access to the arm, to change its joints' limits on speed, acceleration, jerk and effort. The
+    /// pairs do not depend on these.
     pub fn arm_mut(&mut self) -> &mut Arm {
         &mut self.arm
     }
@@ -305,27 +312,28 @@ impl Scene {
         self.additions.attachment.as_ref()
     }
 
-    /// Returns the link's own outline, without the attachment.
+    /// Returns the parts of a link, without those of the attachment.
     #[must_use]
     pub fn own_parts(&self, link: usize) -> &[Part] {
         let parts = &self.arm.links[link].parts;
         if link == 1 { &parts[..self.own_parts] } else { parts }
     }
 
-    /// Returns all pairs that can meet, ordered by link, part, obstacle, piece.
+    /// Returns all pairs of a part and a static or self obstacle that can meet. They are ordered by link, part,
+    /// obstacle and piece.
     #[must_use]
     pub fn pairs(&self) -> &[Pair] {
         &self.pairs
     }
 
-    /// Returns the pairs of a part and a loose obstacle that can meet, in the same order. All other methods are about
-    /// static obstacles.
+    /// Returns the pairs of a part and a loose obstacle that can meet, in the same order as [`Scene::pairs`]. Only
+    /// the methods with `loose` in their names use them.
     #[must_use]
     pub fn loose_pairs(&self) -> &[Pair] {
         &self.loose_pairs
     }
 
-    /// Returns the index of a pair's obstacle among the loose ones, if the pair is one of [`Scene::loose_pairs`].
+    /// Returns the index of a pair's obstacle among the loose ones; `None` for other obstacles.
     #[must_use]
     pub fn loose_index(&self, pair: Pair) -> Option<usize> {
         pair.obstacle.checked_sub(self.workspace.obstacles.len()).filter(|index| *index < self.loose().len())
@@ -337,21 +345,21 @@ impl Scene {
         &self.arm.links[pair.link.min(1)]
     }
 
-    /// Returns the link part of a pair, in its link's frame.
+    /// Returns the shape of a pair's part, in the link's frame.
     #[must_use]
     pub fn part(&self, pair: Pair) -> &Convex {
         &self.link(pair).parts[pair.part].shape
     }
 
-    /// Returns the obstacle piece of a pair, or the shape derived from it for an attachment, in plane coordinates. For a
-    /// loose obstacle it is in the obstacle's own frame.
+    /// Returns the piece in a pair, or the shape derived from it for an attachment, in plane coordinates. For a
+    /// loose obstacle, the coordinates are those of its own frame.
     #[must_use]
     pub fn piece(&self, pair: Pair) -> &Convex {
         let own = &self.obstacle(pair.obstacle).pieces;
         own.get(pair.piece).unwrap_or_else(|| &self.differences[pair.obstacle][pair.piece - own.len()])
     }
 
-    /// Returns all pieces of a loose obstacle, in its own frame, as [`Pair::piece`] counts them.
+    /// Returns all pieces of a loose obstacle in its own frame, in the order of [`Pair::piece`].
     pub fn pieces_of_loose(&self, index: usize) -> impl Iterator<Item = &Convex> {
         let made = &self.differences[self.workspace.obstacles.len() + index];
         self.loose()[index].obstacle.pieces.iter().chain(made)
@@ -366,13 +374,14 @@ impl Scene {
         })
     }
 
-    /// Returns the pair with the least signed distance at `q`; `None` if nothing can meet.
+    /// Returns the pair with the least signed distance at `q`; `None` if there are no pairs.
     #[must_use]
     pub fn closest(&self, q: Configuration) -> Option<Contact> {
         self.separations(q).min_by(|a, b| a.separation.distance.total_cmp(&b.separation.distance))
     }
 
-    /// Returns the least signed distance between arm and obstacles at `q`, metres; infinite when nothing can meet.
+    /// Returns the least signed distance between the arm and the obstacles at `q`, metres; infinite if there are no
+    /// pairs.
     #[must_use]
     pub fn clearance(&self, q: Configuration) -> f64 {
         self.closest(q).map_or(f64::INFINITY, |c| c.separation.distance)
@@ -384,12 +393,12 @@ impl Scene {
         pair.link > 0 && pair.part >= self.own_parts
     }
 
-    /// Returns the original piece of the obstacle in a pair, at its place, even if the pair uses a shape derived from
+    /// Returns the piece of the obstacle in a pair, in plane coordinates, even if the pair uses a shape derived from
     /// it for an attachment.
     #[must_use]
     pub fn obstacle_piece(&self, pair: Pair) -> &Convex {
         let pieces = &self.obstacle(pair.obstacle).pieces;
-        // Derived shapes come after the pieces: one full set of pieces per attached part.
+        // For each attached part, the derived shapes are one full set of pieces, numbered after the pieces.
         &pieces[pair.piece % pieces.len()]
     }
 }

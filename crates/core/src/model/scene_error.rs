@@ -1,4 +1,4 @@
-//! The conditions that arm, obstacles and attachment must satisfy to make a scene.
+//! Checks of the arm, the obstacles and the additions of a scene.
 
 use super::{
     Additions, Arm, Attachment, Body, Dynamics, Grip, Heights, Joint, JointType, LooseObstacle, Obstacle, Plane,
@@ -11,10 +11,10 @@ use cplan_geometry::{Convex, Point, Pose, separation};
 /// accuracy.
 const UNIT_ROUNDING: f64 = 1e-9;
 
-/// Share of a shape's greatest distance from the origin by which rounding may move its corners.
+/// Fraction of a shape's greatest distance from the origin by which rounding may move its corners.
 const SHAPE_ROUNDING: f64 = 1e-9;
 
-/// A defect of arm and workspace.
+/// The reason why an arm, a workspace and additions make no scene.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum SceneError {
     /// A joint's range is empty, not finite, or too long.
@@ -30,7 +30,7 @@ pub enum SceneError {
         /// The greatest value as given.
         upper: f64,
     },
-    /// A joint is prismatic, but its values are stated to repeat with whole turns.
+    /// A joint is prismatic, but its range is a circle.
     #[error("joint \"{joint}\" slides: it needs a range, not a circle")]
     SlidesOnCircle {
         /// The joint's name in the URDF.
@@ -42,12 +42,12 @@ pub enum SceneError {
         /// The joint's name in the URDF.
         joint: String,
     },
-    /// A joint's greatest speed, acceleration or jerk is not positive or not finite.
+    /// A joint's limit on speed, acceleration or jerk is not positive or not finite.
     #[error("joint \"{joint}\": its {limit} must be positive and finite, is {value}")]
     Limit {
         /// The joint's name in the URDF.
         joint: String,
-        /// The limited quantity, in words.
+        /// The limited quantity: "velocity", "acceleration" or "jerk".
         limit: &'static str,
         /// The limit as given.
         value: f64,
@@ -55,31 +55,31 @@ pub enum SceneError {
     /// A coordinate of the arm is not a number, or too large.
     #[error("the arm's {what} must be finite and within 1e15 m")]
     NotFinite {
-        /// The point with that coordinate, in words.
+        /// The point that has the coordinate: "base", "offset" or "tip".
         what: &'static str,
     },
-    /// The plane's vectors are not of length 1 and at right angles.
+    /// The plane's vectors do not have length 1, or are not at right angles.
     #[error("the plane's vectors must have length 1 and be at right angles")]
     Plane,
-    /// A shape is too large, or too far away.
+    /// A shape is too large, or too far from the origin.
     #[error("\"{of}\": its shape must be within 1e15 m of the origin")]
     Size {
         /// Name of the obstacle or link.
         of: String,
     },
-    /// A mass, an inertia, an effort or the gravity is negative or not finite, or there is no effort at all.
+    /// A mass or an inertia is negative or not finite, an effort is not positive, or gravity is not finite.
     #[error("masses, efforts and gravity are invalid: {what}")]
     Dynamics {
-        /// The quantity.
+        /// The invalid quantity with its value, in words.
         what: String,
     },
-    /// The inner shape, on which proofs rest, is not within the outline.
+    /// The inner shape of a part, which proofs use, is not within the part's outline.
     #[error("\"{of}\": its inner shape must be within its outline")]
     Inner {
         /// Name of the link.
         of: String,
     },
-    /// A height range has no finite numbers, or ends below its beginning.
+    /// The ends of a height range are in the wrong order, or one of them is not a number.
     #[error("\"{of}\": the heights from {lower} to {upper} are invalid; they need finite numbers, the lower one first")]
     Heights {
         /// Name of the obstacle, link or attachment.
@@ -89,13 +89,13 @@ pub enum SceneError {
         /// The upper end as given.
         upper: f64,
     },
-    /// The distance to keep is negative, too large or not finite.
+    /// The clearance is negative, too large or not finite.
     #[error("the clearance must be from 0 to {MAX_COORDINATE:e} m, is {clearance:?}")]
     Clearance {
-        /// The distance as given.
+        /// The clearance as given, metres.
         clearance: f64,
     },
-    /// A preference's strength is not finite, or its direction not of length 1.
+    /// A preference's strength is not finite, or its direction does not have length 1.
     #[error("preference \"{name}\": its epsilon must be finite, and its direction must have length 1")]
     Preference {
         /// The preference's name in the world.
@@ -107,7 +107,7 @@ pub enum SceneError {
         /// The attachment's name.
         object: String,
     },
-    /// There is no obstacle of this number, which is an allowed contact or a support.
+    /// An allowed contact or a support has the number of no obstacle.
     #[error("obstacle number {number} does not exist: there are {count} obstacles, numbered from 0")]
     NoObstacle {
         /// The number as given; the first obstacle is 0.
@@ -115,7 +115,7 @@ pub enum SceneError {
         /// Number of obstacles.
         count: usize,
     },
-    /// The attachment keeps its orientation, and a loose obstacle does not.
+    /// The attachment is held level, but a loose obstacle turns.
     #[error(
         "payload \"{object}\" is held level, but \"{moving_obstacle}\" turns; level payloads need moving obstacles that do not turn"
     )]
@@ -127,8 +127,8 @@ pub enum SceneError {
     },
 }
 
-/// Returns the first defect of the parts of a scene. `O(n)` in parts, obstacles and preferences; shapes are valid by
-/// their type.
+/// Returns the first defect of the contents of a scene. `O(n)` in parts, obstacles and preferences. Shapes are valid
+/// by their type.
 pub(super) fn check(arm: &Arm, workspace: &Workspace, additions: &Additions) -> Result<(), SceneError> {
     check_arm(arm)?;
     check_workspace(workspace)?;
@@ -211,8 +211,8 @@ fn is_mass(value: f64) -> bool {
     (0.0..=MAX_COORDINATE).contains(&value)
 }
 
-/// Returns true if a shape covers another one, up to rounding: each corner of the inner shape's core lies inside the
-/// shape by at least the inner shape's radius.
+/// Returns true if `shape` covers `inner`, up to rounding: each corner of the inner core lies inside `shape`, at
+/// least the inner radius from its boundary.
 fn covers(shape: &Convex, inner: &Convex) -> bool {
     let room = SHAPE_ROUNDING * shape.reach_from(Point::zeros());
     let beyond = |corner: &Point| separation(shape, &Convex::point(*corner)).distance + inner.radius();
@@ -245,7 +245,7 @@ fn check_joint(joint: &Joint) -> Result<(), SceneError> {
     }
 }
 
-/// Checks that the ends of a joint's range are in order, finite and not too large.
+/// Checks that the limits of a joint are in order, finite and not too large.
 ///
 /// # Errors
 /// [`SceneError::Range`].
@@ -277,27 +277,27 @@ pub(super) fn check_clearance(clearance: f64) -> Result<(), SceneError> {
     if (0.0..=MAX_COORDINATE).contains(&clearance) { Ok(()) } else { Err(SceneError::Clearance { clearance }) }
 }
 
-/// Greatest number that is accepted, metres. Predicates and distances are then far from overflowing, and sums of
-/// lengths in files, which are smaller, stay below it.
+/// Greatest length that a scene accepts, metres. It keeps geometric predicates and distances far from overflow.
 pub const MAX_COORDINATE: f64 = 1e15;
 
-/// Greatest range of a revolute joint, radians. Intervals are repeated turn after turn, and a hundred turns are enough
-/// for any wrist.
+/// Greatest range of a revolute joint, radians. Every interval on the axis is copied once per turn, so the range
+/// must be bounded. About 160 turns are enough for any wrist.
 pub const MAX_TURN_RANGE: f64 = 1e3;
 
-/// Returns true if all are finite, and not too large.
+/// Returns true if all values are finite, and at most [`MAX_COORDINATE`] in magnitude.
 #[must_use]
 pub fn are_small(values: impl IntoIterator<Item = f64>) -> bool {
     values.into_iter().all(|value| value.abs() <= MAX_COORDINATE)
 }
 
-/// Returns true if all numbers of a shape are finite, and not too large.
+/// Returns true if all coordinates of a shape, and its radius, are finite and at most [`MAX_COORDINATE`] in
+/// magnitude.
 #[must_use]
 pub fn is_small(shape: &Convex) -> bool {
     are_small(shape.core().iter().flat_map(|p| [p.x, p.y]).chain([shape.radius()]))
 }
 
-/// Returns true if a pose is a rigid motion.
+/// Returns true if a pose is a rigid motion with a translation of at most [`MAX_COORDINATE`].
 #[must_use]
 pub fn is_pose(pose: &Pose) -> bool {
     are_small(pose.translation.iter().copied()) && (pose.rotation.as_ref().norm() - 1.0).abs() <= UNIT_ROUNDING

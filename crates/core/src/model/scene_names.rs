@@ -1,10 +1,10 @@
-//! The obstacles of a scene by their numbers, and the words for its shapes.
+//! The obstacles of a scene by number, and descriptions of its shapes for messages.
 
 use super::{Obstacle, Pair, Scene, SelfObstacle};
 use std::ops::Range;
 
 impl Scene {
-    /// Returns the obstacle of a number: a static one, a loose one (in its own frame), or a link of the robot.
+    /// Returns the obstacle with a number: a static one, a loose one (in its own frame), or a link of the robot.
     ///
     /// # Panics
     /// If there is no obstacle of that number.
@@ -18,20 +18,21 @@ impl Scene {
         loose.unwrap_or_else(|| &self.arm().self_obstacles[number - static_obstacles - self.loose().len()].obstacle)
     }
 
-    /// Returns the arm's self obstacle of a number; `None` if that is another obstacle.
+    /// Returns the arm's self obstacle with a number; `None` for static and loose obstacles.
     #[must_use]
     pub fn self_obstacle(&self, number: usize) -> Option<&SelfObstacle> {
         self.arm().self_obstacles.get(number.checked_sub(self.self_obstacles().start)?)
     }
 
-    /// Returns the numbers of the arm's self obstacles: after those of the static and the loose obstacles.
+    /// Returns the numbers of the arm's self obstacles. They follow those of the static and the loose obstacles.
     #[must_use]
     pub fn self_obstacles(&self) -> Range<usize> {
         let first = self.workspace().obstacles.len() + self.loose().len();
         first..first + self.arm().self_obstacles.len()
     }
 
-    /// Returns the number of the first layer for a link of the robot in layers; for another obstacle its own number.
+    /// Returns the number of a link's first layer, if the obstacle is one of several layers of a link of the robot.
+    /// Otherwise returns `number`.
     #[must_use]
     pub fn first_layer(&self, number: usize) -> usize {
         let name = &self.obstacle(number).name;
@@ -39,13 +40,13 @@ impl Scene {
         if number < self.self_obstacles().start { number } else { layers.next().unwrap_or(number) }
     }
 
-    /// Returns the pair in words: `link "forearm" and obstacle "shelf"`.
+    /// Describes a pair in words: `link "forearm" and obstacle "shelf"`.
     #[must_use]
     pub fn describe(&self, pair: Pair) -> String {
         format!("{} and {}", self.describe_part(pair), self.describe_obstacle(pair.obstacle))
     }
 
-    /// Describes an obstacle: `obstacle "shelf"`, `link "base_link"`.
+    /// Describes an obstacle in words: `obstacle "shelf"`, `link "base_link"`.
     #[must_use]
     pub fn describe_obstacle(&self, number: usize) -> String {
         let kind = if self.self_obstacles().contains(&number) { "link" } else { "obstacle" };
@@ -58,7 +59,7 @@ impl Scene {
         &self.obstacle(pair.obstacle).name
     }
 
-    /// Returns the owner of a pair's part, in words: `link "forearm" (body "gripper")`, `payload "part"`.
+    /// Describes the owner of a pair's part in words: `link "forearm" (body "gripper")`, `payload "part"`.
     #[must_use]
     pub fn describe_part(&self, pair: Pair) -> String {
         let link = self.link(pair);

@@ -1,4 +1,4 @@
-//! Scenes and problems as data. Reading rebuilds them by the constructors, which check the data.
+//! Serialized forms of scenes and problems. Reading goes through the constructors, which check the data.
 
 use super::{
     Additions, Arm, Attachment, LooseObstacle, MotionProblem, MotionProblemError, Scene, SceneError, Workspace,
@@ -6,11 +6,11 @@ use super::{
 use crate::space::{Configuration, GoalSet};
 use serde::{Deserialize, Serialize};
 
-/// The data of a [`Scene`].
+/// The serialized form of a [`Scene`].
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct SceneRecord {
-    /// The arm without its attachment.
+    /// The arm, without its attachment.
     arm: Arm,
     workspace: Workspace,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -40,7 +40,7 @@ impl TryFrom<SceneRecord> for Scene {
     }
 }
 
-/// The data of a [`MotionProblem`].
+/// The serialized form of a [`MotionProblem`].
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct MotionRecord {

@@ -3,39 +3,40 @@
 use super::Obstacle;
 use serde::{Deserialize, Serialize};
 
-/// Carrier of a link that other links can hit.
+/// The part of the robot that carries a link which other links can hit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Carrier {
     /// The robot's base: the link is fixed.
     Base,
-    /// Joint 1. Only link 2 and its attachment can hit such a link, and that depends on joint 2 alone.
+    /// Joint 1. Only link 2 and its attachment can hit such a link; whether they do depends on joint 2 alone.
     FirstJoint,
 }
 
-/// A shape of a link of the robot, or one layer of it, that links further along the chain can hit.
+/// A shape of a link of the robot, or one layer of such a shape, that links farther along the chain can hit.
 ///
-/// A [`super::Scene`] numbers it after the static and the loose obstacles.
+/// A [`super::Scene`] numbers self obstacles after the static and the loose obstacles.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SelfObstacle {
-    /// The joint that carries it.
+    /// The part of the robot that carries the shape.
     pub carrier: Carrier,
-    /// One piece in plane coordinates, with both joints at zero; it has the name of the URDF link.
+    /// The shape as an obstacle of one piece, in plane coordinates with both joints at zero. Its name is that of the
+    /// URDF link.
     pub obstacle: Obstacle,
-    /// Number of its shape among those of the URDF link that have a size.
+    /// Number of the shape. It counts the shapes of the URDF link that have a size.
     pub number: usize,
-    /// True if the outline is `<visual>` geometry.
+    /// True if the shape is `<visual>` geometry.
     pub is_visual: bool,
-    /// URDF links that are free to meet it: its neighbours in the chain, and those that the world allows to meet it.
+    /// URDF links that may meet the shape: neighbours in the chain, and those that the world allows.
     pub ignored: Vec<String>,
-    /// URDF links that it meets in every configuration, which are free to meet it, too.
+    /// Other URDF links that may meet the shape, because they meet it in every configuration.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub permanent: Vec<String>,
 }
 
 impl SelfObstacle {
-    /// Returns true if a URDF link is free to meet it.
+    /// Returns true if a URDF link may meet the shape.
     #[must_use]
     pub fn ignores(&self, link: &str) -> bool {
         self.ignored.iter().chain(&self.permanent).any(|ignored| ignored == link)

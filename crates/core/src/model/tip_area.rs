@@ -1,4 +1,4 @@
-//! Goals of the tip that are rectangles.
+//! Tip goals that are rectangles.
 
 use super::inverse;
 use super::{Arm, Goal, JointType};
@@ -6,8 +6,8 @@ use crate::space::{Configuration, GoalSet, Segment};
 use cplan_geometry::Point;
 
 impl Goal {
-    /// Returns the goal in the form that suits the arm. A rectangle without extent becomes a place. So does every
-    /// rectangle for an arm that does not slide along both axes: its tip goes to the middle.
+    /// Returns the goal in the form that suits the arm. A rectangle becomes a point, its middle, if it has no extent
+    /// or if the arm does not slide along both axes.
     #[must_use]
     pub fn of_arm(self, arm: &Arm) -> Self {
         match self {
@@ -17,8 +17,8 @@ impl Goal {
     }
 }
 
-/// Returns true if both joints are prismatic with different directions. Then a rectangle of the tip is a parallelogram
-/// of configurations.
+/// Returns true if both joints are prismatic with different directions. Then the configurations with the tip in a
+/// rectangle form a parallelogram.
 fn slides(arm: &Arm) -> bool {
     match arm.joints.each_ref().map(|joint| joint.joint_type) {
         [JointType::Prismatic { direction: a }, JointType::Prismatic { direction: b }] => a.perp(&b) != 0.0,
@@ -26,8 +26,9 @@ fn slides(arm: &Arm) -> bool {
     }
 }
 
-/// Returns the goals for a tip rectangle, for an arm that slides along both axes. They are the rim within the limits,
-/// since every path from outside crosses it, and the start, if the tip is inside already.
+/// Returns the goals for a tip rectangle, for an arm that slides along both axes. These are the parts of the
+/// rectangle's rim within the limits, since every path from outside crosses the rim. If the tip is inside at the
+/// start, the start is a goal, too.
 #[must_use]
 pub fn area_goals(arm: &Arm, [low, high]: [Point; 2], start: Configuration) -> GoalSet {
     let corners = [low, Point::new(high.x, low.y), high, Point::new(low.x, high.y)];

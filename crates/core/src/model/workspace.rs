@@ -9,58 +9,59 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Heights {
-    /// The lower end of the extent.
+    /// The lower end, metres; may be infinite.
     #[serde(with = "cplan_text::number")]
     pub lower: f64,
-    /// The upper end of the extent.
+    /// The upper end, metres; may be infinite.
     #[serde(with = "cplan_text::number")]
     pub upper: f64,
 }
 
-/// Rounding of heights, which are sums of products of stated numbers: at least this, metres.
+/// Bound on the rounding of heights, metres. Heights are sums of products of stated numbers.
 const ROUNDING: f64 = 1e-9;
 
-/// Depth along the plane's normal to which an object may reach into its support without a contact, metres. It is above
-/// the rounding of heights that drawings state and stacks add up, and far below the compliance of any gripper.
+/// Depth, metres, by which an object's bottom may be below the top of its support without a contact. It is above the
+/// rounding of heights that drawings state and stacks add up. It is far below the compliance of any gripper.
 pub const RESTING_TOLERANCE: f64 = 1e-6;
 
 impl Heights {
-    /// The extent that holds all heights.
+    /// All heights.
     pub const ALL: Heights = Heights { lower: f64::NEG_INFINITY, upper: f64::INFINITY };
 
-    /// Returns the extent from the lower of two floors to the higher of two tops.
+    /// Returns the smallest extent that contains both.
     #[must_use]
     pub fn and(self, other: Heights) -> Heights {
         Heights { lower: self.lower.min(other.lower), upper: self.upper.max(other.upper) }
     }
 
-    /// Returns true if the two extents may share a height. Touching counts, and so does a gap within rounding.
+    /// Returns true if the two extents may overlap. Touching counts, and so does a gap within rounding.
     #[must_use]
     pub fn meet(self, other: Heights) -> bool {
         self.meet_within(other, ROUNDING)
     }
 
-    /// Returns true if the two extents certainly share a height, by more than rounding.
+    /// Returns true if the two extents certainly overlap, by more than rounding.
     #[must_use]
     pub fn definitely_meet(self, other: Heights) -> bool {
         self.meet_within(other, -ROUNDING)
     }
 
-    /// Returns true if an object at these heights may be in contact with something at others. Same as
-    /// [`Heights::meet`], but an object rests on a surface that its bottom touches to within [`RESTING_TOLERANCE`].
+    /// Returns true if an object at these heights may be in contact with something at the `other` heights. Same as
+    /// [`Heights::meet`], except that an object may rest on a surface: its bottom may be up to [`RESTING_TOLERANCE`]
+    /// below the surface.
     #[must_use]
     pub fn object_may_meet(self, other: Heights) -> bool {
         self.meet(other) && !self.is_above(other, RESTING_TOLERANCE - ROUNDING)
     }
 
-    /// Returns true if an object at these heights certainly shares a height with something at others, by more than
-    /// rounding, and does not rest on it.
+    /// Returns true if an object at these heights certainly overlaps with something at the `other` heights, by more
+    /// than rounding, and does not rest on it.
     #[must_use]
     pub fn object_definitely_meets(self, other: Heights) -> bool {
         self.definitely_meet(other) && !self.is_above(other, RESTING_TOLERANCE + ROUNDING)
     }
 
-    /// Returns the heights of an object at these heights, lifted by anything from `least` to `most`.
+    /// Returns the union of these heights after all lifts from `least` to `most`, metres.
     #[must_use]
     pub fn lifted(self, [least, most]: [f64; 2]) -> Self {
         Self { lower: self.lower + least, upper: self.upper + most }
@@ -75,7 +76,7 @@ impl Heights {
     }
 }
 
-/// An obstacle's shape as given by the user, for pictures and messages.
+/// An obstacle's shape for pictures and messages.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Shape {
@@ -88,7 +89,7 @@ pub enum Shape {
         /// The radius, metres; 0 for a point.
         radius: f64,
     },
-    /// A thin wall.
+    /// A thin wall through these points.
     Polyline(Vec<Point>),
     /// The union of the obstacle's pieces, such as the occupied cells of a map.
     Pieces,
@@ -107,11 +108,11 @@ impl Shape {
         }
     }
 
-    /// Keeps the shape if it consists of exactly these pieces. Otherwise the pieces become the shape, because pictures
-    /// must show the outline that is judged.
+    /// Changes the shape to [`Shape::Pieces`] unless it consists of exactly these pieces, so that pictures show what
+    /// is judged.
     pub fn restrict_to(&mut self, pieces: &[Convex]) {
         let own = match self {
-            // Predicates would overflow on other polygons, which have no valid pieces.
+            // Predicates could overflow on larger coordinates. Obstacles with such corners are invalid anyway.
             Shape::Polygon(corners) if are_small(corners.iter().flat_map(|p| [p.x, p.y])) => {
                 SimplePolygon::new(corners.clone()).map(|polygon| polygon.convex_pieces()).ok()
             }
@@ -125,7 +126,7 @@ impl Shape {
     }
 }
 
-/// Returns the pieces of a thin wall.
+/// Returns the pieces of a thin wall: one segment between each two consecutive points.
 fn walls(points: &[Point]) -> Result<Vec<Convex>, ConvexError> {
     match points {
         [] | [_] => Ok(vec![Convex::new(points.to_vec(), 0.0)?]),
@@ -137,56 +138,57 @@ fn walls(points: &[Point]) -> Result<Vec<Convex>, ConvexError> {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Obstacle {
-    /// The user's name for it, or `obstacle 3`.
+    /// The user's name for the obstacle, or a default such as `obstacle 3`.
     pub name: String,
-    /// The shape as given by the user.
+    /// The shape as the user gave it.
     pub shape: Shape,
-    /// The obstacle as a union of convex pieces, without any clearance.
+    /// Convex pieces whose union is the obstacle, without any clearance.
     pub pieces: Vec<Convex>,
-    /// Extent along the plane's normal.
+    /// Extent along the plane's normal, metres.
     pub heights: Heights,
 }
 
-/// The obstacles, the distance to keep from them, and the preferred regions.
+/// The obstacles, the clearance to keep from them, and the preferred regions.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Workspace {
     /// The title of the world.
     pub name: String,
-    /// Static obstacles, in the order of the file.
+    /// The static obstacles, in the order of the file.
     pub obstacles: Vec<Obstacle>,
-    /// Least distance to keep from every obstacle, metres. With 0 any proven distance above zero is enough.
+    /// Least distance to keep from every obstacle, metres. With 0, any proven distance above zero is enough.
     pub clearance: f64,
-    /// Regions that field planners may prefer or avoid, in the order of the file; where several apply, the last one
+    /// Regions that field planners prefer or avoid, in the order of the file. Where several overlap, the last one
     /// counts.
     pub preferences: Vec<Preference>,
 }
 
 impl Obstacle {
-    /// Creates a simple polygon of either orientation, at all heights. Corners in metres, in order around the shape.
+    /// Creates a simple polygon at all heights from its corners in either orientation, metres.
     ///
     /// # Errors
-    /// Corners of no simple polygon.
+    /// If the corners make no simple polygon.
     pub fn polygon(name: &str, corners: impl IntoIterator<Item = [f64; 2]>) -> Result<Self, PolygonError> {
         let polygon = SimplePolygon::new(points(corners))?;
         let (shape, pieces) = (Shape::Polygon(polygon.corners().to_vec()), polygon.convex_pieces());
         Ok(Self { name: name.into(), shape, pieces, heights: Heights::ALL })
     }
 
-    /// Creates a disc, metres.
+    /// Creates a disc at all heights. Centre and radius in metres.
     ///
     /// # Errors
-    /// Numbers that are not finite, and a negative radius.
+    /// If a number is not finite, or the radius is negative.
     pub fn circle(name: &str, center: [f64; 2], radius: f64) -> Result<Self, ConvexError> {
         let center = Point::from(center);
         let pieces = vec![Convex::disc(center, radius)?];
         Ok(Self { name: name.into(), shape: Shape::Circle { center, radius }, pieces, heights: Heights::ALL })
     }
 
-    /// Creates a thin wall through these points, metres. It has no area, but is solid; with one point it is a point.
+    /// Creates a thin wall through these points, metres, at all heights. It has no area, but the arm must not touch
+    /// it. A single point is allowed.
     ///
     /// # Errors
-    /// No point at all, and numbers that are not finite.
+    /// If there is no point, or a number is not finite.
     pub fn polyline(name: &str, through: impl IntoIterator<Item = [f64; 2]>) -> Result<Self, ConvexError> {
         let points = points(through);
         let pieces = walls(&points)?;
@@ -202,7 +204,7 @@ impl Obstacle {
         Self { name: self.name.clone(), shape: self.shape.at(pose), pieces, heights: self.heights }
     }
 
-    /// Makes the displayed shape agree with the pieces that are judged. For obstacles that are read as data.
+    /// Makes the shape in pictures agree with the pieces that are judged. For obstacles read from files.
     pub fn hold_shape(&mut self) {
         self.shape.restrict_to(&self.pieces);
     }
@@ -213,14 +215,14 @@ fn points(coordinates: impl IntoIterator<Item = [f64; 2]>) -> Vec<Point> {
 }
 
 impl Workspace {
-    /// Creates a workspace of these obstacles, without a clearance to keep.
+    /// Creates a workspace of these obstacles, with clearance 0.
     #[must_use]
     pub fn new(obstacles: impl IntoIterator<Item = Obstacle>) -> Self {
         let obstacles = obstacles.into_iter().collect();
         Self { name: String::new(), obstacles, clearance: 0.0, preferences: Vec::new() }
     }
 
-    /// Makes the displayed shapes agree with the pieces that are judged. For workspaces that are read as data.
+    /// Makes the shapes in pictures agree with the pieces that are judged. For workspaces read from files.
     pub fn restrict_shapes(&mut self) {
         self.obstacles.iter_mut().for_each(Obstacle::hold_shape);
     }

@@ -6,31 +6,33 @@ use crate::cspace::Grid;
 use crate::space::{Configuration, Segment};
 use cplan_text::listed;
 
-/// Number of rings of cells around a blocked one that are searched for a free one. An outer grid blocks some cells
-/// whose configurations are free. Farther away than this, a straight piece to the grid is a guess not worth a try.
+/// Number of rings of cells that are searched for a free one around a blocked cell. An outer grid blocks some cells
+/// whose configurations are free. Beyond this many rings, the straight segment to the grid is too unlikely to be
+/// free.
 const SEARCHED_RINGS: i64 = 3;
 
 /// The cells at which a configuration, or a segment of goals, joins the grid.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Attachment {
-    /// The cell that contains the configuration, if that cell is free. Otherwise the free cells of the nearest ring
-    /// that has any, nearest first. For a segment, all free cells that hold any of it. At least one.
+    /// The cell that contains the configuration, if that cell is free. Otherwise all free cells of the nearest ring
+    /// that has any, nearest first. For a segment, all free cells that contain a part of it. There is at least one
+    /// cell.
     pub cells: Vec<usize>,
-    /// True if a free cell contains the configuration.
+    /// True if a free cell contains the configuration. Always true for a segment.
     pub contained: bool,
 }
 
 /// A query joined to the grid.
 #[derive(Debug, Clone, PartialEq)]
 pub struct JoinedQuery {
-    /// The start, joined to the grid.
+    /// The start's cells.
     pub start: Attachment,
-    /// The goals that can be joined, within the domain; at least one.
+    /// The goals that can be joined, within the domain, with their cells. There is at least one.
     pub goals: Vec<(Segment, Attachment)>,
 }
 
 impl JoinedQuery {
-    /// Joins start and goals, or returns the reason if the start or every goal cannot be joined.
+    /// Joins start and goals to the grid. Returns the reason if the start, or every goal, cannot be joined.
     pub fn new(grid: &Grid, query: &Query) -> Result<Self, String> {
         let start = attach(grid, query.start, "start")?;
         let (mut goals, mut reasons) = (Vec::new(), Vec::new());
@@ -46,18 +48,19 @@ impl JoinedQuery {
         Ok(Self { start, goals })
     }
 
-    /// Returns the cells joined to any goal.
+    /// Returns the cells of all goals.
     pub fn sources(&self) -> Vec<usize> {
         self.goals.iter().flat_map(|(_, attachment)| attachment.cells.iter().copied()).collect()
     }
 }
 
-/// Returns a piece in the grid's form: a segment is cut to the domain, a single configuration stays unchanged.
+/// Returns a goal in the form that the grid needs: a segment is cut at the domain's ends, a single configuration is
+/// unchanged.
 fn in_domain(grid: &Grid, piece: &Segment) -> Vec<Segment> {
     if piece.is_point() { vec![*piece] } else { piece.within_domain(&grid.topology).collect() }
 }
 
-/// Joins goals within the domain to the grid, or returns the reason if they cannot be joined.
+/// Joins goals within the domain to the grid. Returns the reason if they cannot be joined.
 fn attach_goals(grid: &Grid, goals: &Segment) -> Result<Attachment, String> {
     let [from, to] = goals.ends();
     if goals.is_point() {
@@ -77,7 +80,7 @@ fn shown(q: Configuration) -> String {
     format!("({:.4}, {:.4})", q[0], q[1])
 }
 
-/// Returns the cells that contain a part of a segment in the domain, ascending.
+/// Returns the cells that contain a part of a segment in the domain, in ascending order.
 fn cells_along(grid: &Grid, goals: &Segment) -> Vec<usize> {
     let step = grid.step();
     let range = |k: usize, part: &Segment| {
@@ -91,7 +94,7 @@ fn cells_along(grid: &Grid, goals: &Segment) -> Vec<usize> {
         let mut sides = [[lower, f64::NEG_INFINITY], [lower + step[0], f64::INFINITY]];
         let [from, to] = goals.ends();
         if from[0] == to[0] {
-            // Rounding of its sides does not matter in this row.
+            // The segment lies in one row, so rounding of that row's sides must not cut it.
             (sides[0][0], sides[1][0]) = (f64::NEG_INFINITY, f64::INFINITY);
         }
         let part = goals.within(sides[0], sides[1]);
@@ -100,7 +103,7 @@ fn cells_along(grid: &Grid, goals: &Segment) -> Vec<usize> {
     range(0, goals).flat_map(in_row).collect()
 }
 
-/// Joins `q` to the grid, or returns the reason if it cannot be joined.
+/// Joins `q` to the grid. Returns the reason if it cannot be joined.
 fn attach(grid: &Grid, q: Configuration, name: &str) -> Result<Attachment, String> {
     if !grid.topology.contains(q) {
         return Err(format!("the {name} ({:.4}, {:.4}) lies outside the configuration space", q[0], q[1]));

@@ -1,4 +1,4 @@
-//! Channels of cells: a roadmap's search over the cells of a decomposition, with costs on the portals.
+//! Channels of cells, found by a graph search over the cells of a decomposition with costs on the portals.
 
 use super::decomposition::{CellPortal, Decomposition};
 use super::roadmap::{RoadmapSearch, SearchProblem, SearchResult, search};
@@ -8,7 +8,7 @@ use cplan_geometry::Point;
 use petgraph::graph::{NodeIndex, UnGraph};
 use petgraph::visit::EdgeRef;
 
-/// Cells to pass, with the portals between them: one fewer than cells.
+/// A sequence of cells that lead to a goal, with the portals between them. There is one portal fewer than cells.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Channel {
     pub start: Point,
@@ -18,7 +18,7 @@ pub(super) struct Channel {
     pub portals: Vec<usize>,
 }
 
-/// The portals of each cell, and the costs of the routes through them.
+/// The graph of cells and portals, with the costs of passages.
 #[derive(Debug, Clone)]
 pub(super) struct Adjacency {
     /// Nodes are cells, edges are portals.
@@ -29,17 +29,17 @@ pub(super) struct Adjacency {
     pub middles: Vec<Point>,
 }
 
-/// The end of a passage.
+/// One end of a passage.
 #[derive(Debug, Clone, Copy)]
 enum PassageEnd {
     /// The start, or a cell's centre.
     At(Point),
-    /// The nearest of these goals.
+    /// Alternative goals, of which the nearest counts.
     Any(Segment),
 }
 
 impl PassageEnd {
-    /// Returns the place nearest to `p`.
+    /// Returns the point of this end nearest to `p`.
     fn nearest(self, p: Point) -> Point {
         match self {
             PassageEnd::At(point) => point,
@@ -48,17 +48,17 @@ impl PassageEnd {
     }
 }
 
-/// A connection from place to place.
+/// A connection between two ends, through a portal or within a cell.
 #[derive(Debug, Clone, Copy)]
 struct Passage {
     /// The portal's number; `None` within a cell.
     portal: Option<usize>,
-    /// Length of the path over the portal's middle.
+    /// Length of the path through the portal's middle.
     cost: f64,
 }
 
 impl Adjacency {
-    /// Builds the graph. Linear.
+    /// Builds the graph in linear time.
     pub fn new(decomposition: &Decomposition, centers: Vec<Point>) -> Self {
         let middles = decomposition.portals.iter().map(|portal| (portal.low + portal.high) * 0.5).collect();
         let cells = UnGraph::with_capacity(centers.len(), decomposition.portals.len());
@@ -75,17 +75,19 @@ impl Adjacency {
         adjacency
     }
 
-    /// Returns the passage from a point to another, or to the nearest of some goals.
+    /// Returns the passage between two ends, through a portal or within a cell.
     fn passage(&self, [from, to]: [PassageEnd; 2], portal: Option<usize>) -> Passage {
         let from = from.nearest(Point::zeros());
         let last = portal.map_or(from, |portal| self.middles[portal]);
         Passage { portal, cost: (last - from).norm() + (to.nearest(last) - last).norm() }
     }
 
-    /// Returns a channel from the start, given the cells that contain it, to any goal, and the places that the search
-    /// expanded, in order. A passage from a cell to the next costs the distance from the one's centre over the portal's
-    /// middle to the other's; for the end cells, the start and the nearest goal replace the centres. The default search
-    /// finds the cheapest channel, in `O(n log n)` for `n` cells.
+    /// Returns a channel from the start to any goal, and the places that the search expanded, in order.
+    /// `start_cells` are the cells that contain the start.
+    ///
+    /// A passage from one cell to the next costs the distance from centre to centre through the portal's middle. For
+    /// the first and the last cell, the start and the nearest goal replace the centre. The default search finds the
+    /// cheapest channel, in `O(n log n)` for `n` cells.
     pub fn channel(
         &self,
         portals: &[CellPortal],
@@ -93,7 +95,7 @@ impl Adjacency {
         start_cells: &[usize],
         how: RoadmapSearch,
     ) -> (Option<Channel>, Vec<Configuration>) {
-        // The ends are additional nodes, with the portals of the cells that hold them.
+        // The ends of the path are additional nodes, joined through the portals of the cells that contain them.
         let mut graph = self.cells.clone();
         let at_start = PassageEnd::At(terminals.start);
         let start = graph.add_node(at_start);
@@ -131,7 +133,7 @@ impl Adjacency {
         (path.map(|places| self.passed(portals, terminals, &graph, start, &places)), expanded)
     }
 
-    /// Returns the channel that leads from place to place.
+    /// Returns the channel along the route that the search found.
     fn passed(
         &self,
         portals: &[CellPortal],

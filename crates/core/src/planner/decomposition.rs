@@ -6,13 +6,13 @@ use cplan_geometry::planar::{Boundary, Status};
 use cplan_geometry::{Orientation, Point, orientation};
 use cplan_interrupt::checkpoint;
 
-/// A trapezoid or triangle of free space between two sides and two verticals.
+/// A trapezoid or triangle of free space between two vertical lines and two sides of the boundary.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Cell {
-    /// Abscissae of its verticals.
+    /// Abscissae of the vertical lines.
     pub left: f64,
     pub right: f64,
-    /// Sides below and above, indices into [`Boundary::sides`].
+    /// The sides below and above, as indices into [`Boundary::sides`].
     pub floor: usize,
     pub ceiling: usize,
 }
@@ -27,7 +27,7 @@ impl Cell {
         self.left <= p.x && p.x <= self.right && is_free(self.floor) && is_free(self.ceiling)
     }
 
-    /// Returns the part of a segment in the closed cell.
+    /// Returns the part of a segment in the closed cell; `None` if there is none.
     fn part(&self, boundary: &Boundary, segment: &Segment) -> Option<Segment> {
         let infinite = f64::INFINITY;
         let between = segment.within([self.left, -infinite], [self.right, infinite])?;
@@ -35,13 +35,13 @@ impl Cell {
         between.left_of(floor.0, floor.1)?.left_of(ceiling.0, ceiling.1)
     }
 
-    /// Returns the ordinates of floor and ceiling at the abscissa `x`, rounded into the cell.
+    /// Returns the ordinates of floor and ceiling at the abscissa `x`, rounded to lie within the cell.
     pub fn span(&self, boundary: &Boundary, x: f64) -> (f64, f64) {
         let [floor, ceiling] = [self.floor, self.ceiling].map(|side| boundary.ordinate(side, x));
         (floor, ceiling)
     }
 
-    /// Returns the corners, counter-clockwise: three for a triangle, otherwise four.
+    /// Returns the corners, counter-clockwise: three of a triangle, otherwise four.
     pub fn corners(&self, boundary: &Boundary) -> Vec<Point> {
         let (left, right) = (self.span(boundary, self.left), self.span(boundary, self.right));
         let mut corners = vec![
@@ -57,11 +57,11 @@ impl Cell {
         corners
     }
 
-    /// Returns the centre of area, rounded into the cell.
+    /// Returns the centroid, rounded to lie within the cell.
     pub fn centroid(&self, boundary: &Boundary) -> Point {
         let (left, right) = (self.span(boundary, self.left), self.span(boundary, self.right));
         let (a, b) = (left.1 - left.0, right.1 - right.0);
-        // The centre lies on the line through the middles of the parallel sides.
+        // The centroid lies on the line through the middles of the parallel sides.
         let t = if a + b > 0.0 { (a + 2.0 * b) / (3.0 * (a + b)) } else { 0.5 };
         let x = (self.left + t * (self.right - self.left)).clamp(self.left, self.right);
         let (floor, ceiling) = self.span(boundary, x);
@@ -70,19 +70,19 @@ impl Cell {
     }
 }
 
-/// A piece of a vertical, of positive length, that two cells share.
+/// A piece of a vertical line, of positive length, that two cells share.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct CellPortal {
-    /// The cell to its left and the one to its right.
+    /// The cells to the left and to the right of the portal.
     pub cells: [usize; 2],
-    /// Lower and upper end, in closed free space exactly.
+    /// Lower and upper end. The ends lie exactly in closed free space.
     pub low: Point,
     pub high: Point,
-    /// True for ends that are vertices, not places on a side.
+    /// For each end, true if it is a vertex, and false if it is a point on a side.
     pub at_vertices: [bool; 2],
 }
 
-/// Cells that do not overlap and cover closed free space, and the portals between them.
+/// Cells that cover closed free space without overlapping, and the portals between them.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct Decomposition {
     pub cells: Vec<Cell>,
@@ -92,9 +92,9 @@ pub(super) struct Decomposition {
 impl Decomposition {
     /// Sweeps a vertical line over free space from left to right, `O(n log n)` for `n` vertices.
     ///
-    /// All vertices of one abscissa are one event, so verticals through several vertices and vertical sides need no
-    /// special case. The cells that a portal joins follow from the order of the vertices on the line alone, which is
-    /// exact.
+    /// All vertices with the same abscissa are one event. So vertical lines through several vertices, and vertical
+    /// sides, need no special case. Which cells a portal joins follows from the order of the vertices on the line
+    /// alone, which is exact.
     pub fn new(boundary: &Boundary) -> Self {
         let sides = boundary.sides.len();
         let (status, cell_above) = (Status::new(sides), vec![NO_ENTRY; sides]);
@@ -108,12 +108,12 @@ impl Decomposition {
         sweep.result
     }
 
-    /// Returns the cells that contain `p`, borders included. Exact; linear.
+    /// Returns the cells that contain `p`, borders included. Exact; linear in the number of cells.
     pub fn cells_at<'a>(&'a self, boundary: &'a Boundary, p: Point) -> impl Iterator<Item = usize> + 'a {
         (0..self.cells.len()).filter(move |&cell| self.cells[cell].contains(boundary, p))
     }
 
-    /// Returns the cells that contain a part of a segment, with that part. Linear.
+    /// Returns the cells that contain a part of a segment, each with that part. Linear in the number of cells.
     pub fn parts_of(&self, boundary: &Boundary, segment: &Segment) -> Vec<(u32, Segment)> {
         if segment.is_point() {
             let [at, _] = segment.ends();
@@ -124,8 +124,8 @@ impl Decomposition {
     }
 }
 
-/// Neighbouring vertices on the sweep line, and the continuing sides next to them. All sides between those two end at
-/// one of the vertices, or begin there.
+/// Neighbouring vertices on the sweep line, between the two sides next to them that continue across the line. All
+/// sides in between end or begin at one of the vertices.
 #[derive(Debug, Clone, Copy)]
 struct Cluster {
     vertices: (usize, usize),
@@ -133,8 +133,9 @@ struct Cluster {
     above: Option<usize>,
 }
 
-/// Free space between two neighbours in the status, ending or beginning at a cluster. Its ends on the line are given
-/// as ranks: 0 the side below the cluster, `i` the cluster's `i`th vertex, one more than the last the side above.
+/// Free space between two neighbouring sides on the sweep line that ends or begins at a cluster. The ends of the gap
+/// on the line are given as ranks: 0 for the side below the cluster, `i` for the cluster's `i`th vertex, and one
+/// more than the number of vertices for the side above.
 #[derive(Debug, Clone, Copy)]
 struct Gap {
     cell: usize,
@@ -144,15 +145,15 @@ struct Gap {
 
 struct Sweep<'a> {
     boundary: &'a Boundary,
-    /// Sides that meet the sweep line; none is vertical.
+    /// The sides that meet the sweep line, from bottom to top, without vertical ones.
     status: Status,
-    /// The unfinished cell above each of them, if free space lies there.
+    /// For each side in `status`, the unfinished cell above it; `NO_ENTRY` if the area above is an obstacle.
     cell_above: Vec<u32>,
     result: Decomposition,
 }
 
 impl Sweep<'_> {
-    /// Passes the vertical with vertices `begin..begin + count`.
+    /// Moves the sweep line past the vertices `begin..begin + count`, which have the same abscissa.
     fn pass(&mut self, begin: usize, count: usize) {
         let boundary = self.boundary;
         let mut clusters: Vec<Cluster> = Vec::new();
@@ -165,7 +166,8 @@ impl Sweep<'_> {
                 None => self.status.last_where(|side| boundary.place(side, at) == Orientation::CounterClockwise),
             };
             let above = self.status.above(highest.or(lowest).or(below));
-            // The side below either is the one below the last cluster, or ends there.
+            // The vertex joins the last cluster if the next continuing side below both is the same, or if that side
+            // ends at a vertex of the cluster.
             let joins = |last: &Cluster| {
                 below == last.below
                     || below.is_some_and(|side| boundary.sides[side].right_end() >= last.vertices.0)
@@ -181,8 +183,8 @@ impl Sweep<'_> {
         }
     }
 
-    /// Ends the cells left of a cluster, replaces the sides that end there by those that begin, starts the cells to
-    /// the right and joins them by portals.
+    /// Moves the sweep line past a cluster: finishes the cells to the left, replaces the sides that end by those
+    /// that begin, starts the cells to the right, and joins the cells by portals.
     fn replace(&mut self, cluster: Cluster) {
         let (first, last) = cluster.vertices;
         let x = self.boundary.vertices[first].x;
@@ -217,7 +219,7 @@ impl Sweep<'_> {
         self.join(cluster, &left, &right);
     }
 
-    /// Begins a cell between two sides and returns its number; `NO_ENTRY` if the area is an obstacle.
+    /// Starts a cell between two sides and returns its number. Returns `NO_ENTRY` if the area is an obstacle.
     fn begin(&mut self, floor: usize, ceiling: usize, x: f64) -> u32 {
         let sides = &self.boundary.sides;
         if !sides[floor].is_floor() || sides[ceiling].is_floor() || is_slit(self.boundary, floor, ceiling) {
@@ -227,10 +229,11 @@ impl Sweep<'_> {
         self.result.cells.len() as u32 - 1
     }
 
-    /// Returns the gaps at a cluster, from bottom to top, between sides that end there; `end` selects the end.
+    /// Returns the gaps at a cluster, from bottom to top. `end` gives the vertex at which a side ends on the sweep
+    /// line.
     fn gaps(&self, cluster: Cluster, end: impl Fn(usize) -> usize) -> Vec<Gap> {
         let (first, last) = cluster.vertices;
-        // A side without an end here lies between sides with one only where sides cross.
+        // Only if sides cross, a side without an end here lies between sides with one.
         let rank = |side: usize| end(side).checked_sub(first).map_or(0, |k| (k + 1).min(last - first + 1));
         let mut gaps = Vec::new();
         let mut floor = cluster.below;
@@ -251,7 +254,7 @@ impl Sweep<'_> {
         }
     }
 
-    /// Adds a portal wherever a gap on the left and one on the right, both in ascending order, overlap.
+    /// Adds a portal wherever a gap on the left and one on the right overlap. Both lists are in ascending order.
     fn join(&mut self, cluster: Cluster, left: &[Gap], right: &[Gap]) {
         let (mut i, mut j) = (0, 0);
         while i < left.len() && j < right.len() {
@@ -269,7 +272,7 @@ impl Sweep<'_> {
         }
     }
 
-    /// Returns the portal between two cells from one rank to another.
+    /// Returns the portal between two cells, from one rank to another.
     fn portal(&self, cluster: Cluster, cells: [usize; 2], low: usize, high: usize) -> CellPortal {
         let (first, last) = cluster.vertices;
         let vertices = &self.boundary.vertices;
@@ -278,7 +281,7 @@ impl Sweep<'_> {
         let on_side = |side: usize| Point::new(x, self.boundary.ordinate(side, x));
         let vertex = |rank: usize| (1..=last - first).contains(&rank).then(|| vertices[first + rank - 1]);
         let ends = (vertex(low), vertex(high));
-        // Rounding may put a point on a side beyond a vertex that is within rounding of it.
+        // Rounding may put a point of a side beyond a vertex that is very near to the side.
         let (low, high) = match ends {
             (Some(a), Some(b)) => (a, b),
             (Some(a), None) => (a, Point::new(x, on_side(ceiling).y.max(a.y))),
@@ -289,7 +292,7 @@ impl Sweep<'_> {
     }
 }
 
-/// Returns true if two sides coincide, so that nothing lies between them.
+/// Returns true if two sides coincide, so that there is no area between them.
 fn is_slit(boundary: &Boundary, floor: usize, ceiling: usize) -> bool {
     let (floor, ceiling) = (boundary.sides[floor], boundary.sides[ceiling]);
     (floor.from, floor.to) == (ceiling.to, ceiling.from)

@@ -1,8 +1,8 @@
-//! Converts cells to a path.
+//! Converts cells of a grid to a path.
 //!
-//! A field's path is the curve along it: within 0.05 cells of the curve (`simplify`), and to the goal itself rather
-//! than the centre of its cell. It is then certified without further changes. A path that fails the certificate gets a
-//! finer grid.
+//! The path of a field follows the curve along the field, to within 0.05 cells (`simplify`). It ends at the goal
+//! itself rather than at the centre of the goal's cell, and is certified without further changes. If the certificate
+//! fails, the solver plans again on a finer grid.
 
 use super::attach::{Attachment, JoinedQuery};
 use super::simplify::simplified;
@@ -11,19 +11,20 @@ use crate::cspace::Grid;
 use crate::space::{Configuration, Measure, Metric, Path};
 use cplan_harmonic::{Guide, Place, follow};
 
-/// Returns the row or column of number `at` of the unbounded lattice along an axis; `None` beyond a limit.
+/// Returns the row or column with number `at` on an axis whose numbers continue across a seam; `None` beyond a
+/// limit.
 pub fn place(grid: &Grid, axis: usize, at: i64) -> Option<usize> {
     let n = grid.cells[axis] as i64;
     let at = if grid.topology.ranges[axis].is_circle() { at.rem_euclid(n) } else { at };
     (0..n).contains(&at).then_some(at as usize)
 }
 
-/// Returns the cell at a place of the unbounded lattice; `None` beyond a limit.
+/// Returns the cell at a place given by row and column numbers that continue across seams; `None` beyond a limit.
 pub fn cell(grid: &Grid, [i, j]: Place) -> Option<usize> {
     Some(place(grid, 0, i)? * grid.cells[1] + place(grid, 1, j)?)
 }
 
-/// A polyline in lattice units: unwrapped, cell `(i, j)` covers `[i, i + 1] x [j, j + 1]`.
+/// A polyline in lattice units, unwrapped. Cell `(i, j)` covers `[i, i + 1] x [j, j + 1]`.
 pub type Line = Vec<[f64; 2]>;
 
 /// Converts an unwrapped configuration to lattice units.
@@ -39,8 +40,8 @@ fn from_lattice(grid: &Grid, at: [f64; 2]) -> Configuration {
     Configuration::new(a, b)
 }
 
-/// Returns the centres of neighbouring `cells`, unwrapped. The first is the copy nearest to `near`, and each next one
-/// lies one cell away, also across a seam.
+/// Returns the centres of neighbouring `cells`, unwrapped. The first is the copy nearest to `near`. Each following
+/// one is one cell away from the one before, also across a seam.
 pub fn unwrap(grid: &Grid, cells: &[usize], near: Configuration) -> Line {
     let columns = grid.cells[1];
     let near = to_lattice(grid, near);
@@ -56,7 +57,7 @@ pub fn unwrap(grid: &Grid, cells: &[usize], near: Configuration) -> Line {
     for &cell in &cells[1..] {
         let next = split(cell);
         for k in [0, 1] {
-            // One step, or the distance to the other side of a seam, which is one step too.
+            // The difference is at most one cell, or, across a seam, the number of cells less one.
             at[k] += match next[k] as i64 - last[k] as i64 {
                 step @ -1..=1 => step as f64,
                 step => -step.signum() as f64,
@@ -68,8 +69,9 @@ pub fn unwrap(grid: &Grid, cells: &[usize], near: Configuration) -> Line {
     line
 }
 
-/// Returns the goal for a path that ends at `cell`: the nearest one to `near` (the unwrapped centre of the cell) among
-/// those joined there, as its nearest copy. For goals along a segment only the part in the cell counts.
+/// Returns the goal for a path that ends at `cell`, and the goal's cells. Of the goals joined to this cell, it
+/// chooses the one nearest to `near` (the unwrapped centre of the cell), as its copy nearest to `near`. Of goals
+/// along a segment, only the part in the cell counts.
 fn goal_at<'a>(
     grid: &Grid,
     joined: &'a JoinedQuery,
@@ -87,9 +89,10 @@ fn goal_at<'a>(
     here.min_by(|a, b| (a.0 - near).norm().total_cmp(&(b.0 - near).norm()))
 }
 
-/// Returns the path from the exact start through the centres of `cells` (neighbours, the first joined to the start, the
-/// last to a goal) to the exact goal, taut on request. The grid does not prove the pieces between a configuration and a
-/// cell that does not contain it. `None` if the cells are not such a chain.
+/// Returns the path from the exact start through the centres of `cells` to the exact goal, pulled taut for
+/// [`PathKind::Taut`]. Consecutive cells must be neighbours; the first is joined to the start and the last to a
+/// goal, otherwise the result is `None`. The grid proves nothing about the segment between a configuration and a
+/// cell that does not contain it.
 pub fn path(grid: &Grid, query: &Query, joined: &JoinedQuery, cells: &[usize], kind: PathKind) -> Option<Path> {
     let line = unwrap(grid, cells, query.start);
     let goal = goal_at(grid, joined, *cells.last()?, from_lattice(grid, *line.last()?))?;
@@ -98,17 +101,20 @@ pub fn path(grid: &Grid, query: &Query, joined: &JoinedQuery, cells: &[usize], k
     Some(between(grid, query.start, &line, goal.0))
 }
 
-/// Greatest distance of a path from the curve along the field, in cells. Where the curve's radius is `r` cells, pieces
-/// are some `sqrt(r / 2.5)` cells long, and their direction deviates from the curve's by at most `1 / sqrt(10 r)`.
+/// Greatest distance of a path from the curve along the field, in cells. Where the curve's radius is `r` cells,
+/// straight pieces are then about `sqrt(r / 2.5)` cells long. Their direction deviates from the curve's by at most
+/// `1 / sqrt(10 r)`.
 const MAX_CURVE_DISTANCE: f64 = 0.05;
 
-/// Number of cells before the goal over which the path blends. The field knows only the goal's cell. So the path blends
-/// from the curve to the centre of that cell into one to the goal itself, and arrives in the curve's direction.
+/// Length before the goal, in cells, over which the path leaves the curve. The curve leads to the centre of the
+/// goal's cell. The path changes gradually from the curve to one that ends at the goal itself, and arrives in the
+/// curve's direction.
 const BLENDED_CELLS: f64 = 12.0;
 
-/// Returns the path from the exact start along a field ([`follow`]) to the exact goal, no farther off the curve than
-/// `MAX_CURVE_DISTANCE` except for the `BLENDED_CELLS`; or a taut path. It stays in free cells, except for the pieces between a
-/// configuration and a cell that does not contain it. `home` is the cell joined to the start.
+/// Returns the path from the exact start along a field ([`follow`]) to the exact goal. For [`PathKind::Taut`] the
+/// path is pulled taut. Otherwise it stays within `MAX_CURVE_DISTANCE` of the curve, except in the last
+/// `BLENDED_CELLS`. The path stays in free cells, except for the segment between a configuration and a cell that
+/// does not contain it. `home` is the cell joined to the start.
 ///
 /// # Errors
 /// If the field does not lead to a goal.
@@ -122,7 +128,7 @@ pub fn along<G: Guide>(
 ) -> Result<Path, G::DeadEnd> {
     let center = unwrap(grid, &[home], query.start)[0];
     let from = if joined.start.contained { within_cell(center, to_lattice(grid, query.start)) } else { center };
-    // Cells are counted from their corners here, from their centres in `follow`.
+    // Coordinates here are relative to the corners of cells, in `follow` to their centres.
     let streamline = follow(guide, grid.step(), from.map(|x| x - 0.5))?;
     let mut line: Line = streamline.points.into_iter().map(|point| point.map(|x| x + 0.5)).collect();
     let end = streamline.place.map(|x| x as f64 + 0.5);
@@ -145,15 +151,15 @@ pub fn along<G: Guide>(
     Ok(between(grid, query.start, &line, goal.0))
 }
 
-/// Returns a point of the closed cell about `center`, away from the sides that it shares with the following cells,
-/// which may be blocked, or beyond a limit.
+/// Returns the point of the closed cell about `center` nearest to `at`, kept off the sides of the cell. The sides
+/// belong also to neighbouring cells, which may be blocked or beyond a limit.
 fn within_cell(center: [f64; 2], at: [f64; 2]) -> [f64; 2] {
     const HALF_CELL: f64 = 0.5 - 1e-9;
     [0, 1].map(|k| at[k].clamp(center[k] - HALF_CELL, center[k] + HALF_CELL))
 }
 
-/// Returns the line with its end moved to `goal`. Points before the end move less the farther they are from it. Returns
-/// the line unchanged where it would leave the free cells.
+/// Returns the line with its end moved to `goal`. Points before the end move less, the farther they are from it. If
+/// the moved line would leave the free cells, returns the line unchanged.
 fn arriving(grid: &Grid, line: Line, goal: [f64; 2]) -> Line {
     let end = line[line.len() - 1];
     let by = [0, 1].map(|k| goal[k] - end[k]);
@@ -173,7 +179,7 @@ fn arriving(grid: &Grid, line: Line, goal: [f64; 2]) -> Line {
     if range > 0.0 && is_clear(&moved[first..]) { moved } else { line }
 }
 
-/// Returns a line from the exact start to the exact goal.
+/// Returns the line with the exact start and the exact goal as its ends.
 fn completed(
     grid: &Grid,
     query: &Query,
@@ -181,7 +187,7 @@ fn completed(
     mut line: Line,
     (goal, attachment): (Configuration, &Attachment),
 ) -> Line {
-    // A configuration that equals an end of the line, up to rounding, replaces it.
+    // If an end of the line equals the configuration up to rounding, the configuration replaces it.
     let (from, to) = (to_lattice(grid, query.start), to_lattice(grid, goal));
     if line.len() == 1 && joined.start.contained && attachment.contained {
         return vec![from, to];
@@ -198,7 +204,7 @@ fn completed(
     line
 }
 
-/// Returns a line as a path between the configurations at its ends.
+/// Converts a line to a path between two configurations, which replace the line's ends.
 fn between(grid: &Grid, start: Configuration, line: &[[f64; 2]], goal: Configuration) -> Path {
     let inner = line[1..line.len() - 1].iter().map(|&at| from_lattice(grid, at));
     Path::new(std::iter::once(start).chain(inner).chain([goal]).collect())

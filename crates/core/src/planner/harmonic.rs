@@ -6,16 +6,17 @@ use crate::cspace::Grid;
 use cplan_harmonic::{Component, Field, Lattice, Place, PotentialGuide, harmonic};
 use cplan_interrupt::checkpoint;
 
-/// Solves Laplace's equation on the goal's component (1 at the goals, 0 on obstacles and beyond limits, periodic on
-/// circles) and climbs it along its gradient, interpolated between the cells (Connolly, Grupen 1993; [`follow`]).
+/// Solves Laplace's equation on the cells connected with the goal, and follows the solution's gradient upwards, as
+/// interpolated between the cells (Connolly, Grupen 1993; [`follow`]). The value is 1 at the goals and 0 on
+/// obstacles and beyond limits; on circles it is periodic.
 ///
 /// [`follow`]: cplan_harmonic::follow()
 ///
-/// Complete on the grid: for any length of a corridor, the field has no local maximum except the goals (see
+/// Complete on the grid: the only local maxima of the field are the goals, even in long corridors (see
 /// [`cplan_harmonic::harmonic`]). So if no path is found, no path exists between the cells.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Harmonic {
-    /// [`PathKind::Own`] is the curve along the gradient.
+    /// The kind of path. [`PathKind::Own`] is the curve along the gradient.
     pub path: PathKind,
 }
 
@@ -50,7 +51,7 @@ impl Planner for Harmonic {
         checkpoint();
         let component = Component::new(map, wave);
         let size = |windows: usize| Size::Windows { cells: component.len(), windows };
-        // The nearest cell of the start that the wave reached.
+        // The cell of the start that is nearest to it among those that the wave reached.
         let Some(start) = joined.start.cells.iter().find_map(|&cell| component.position_of(cell)) else {
             let size = size(0);
             return Run {

@@ -1,10 +1,10 @@
-//! Planners: pure functions from a space and a query to a run. They know nothing of arms or obstacles.
+//! Planners: functions from a space and a query to a run. They know nothing of arms or obstacles.
 //!
-//! Both roadmap planners begin with `geometry::planar`, which takes polygons apart into vertices and sides. A path may
-//! touch obstacles, along sides too, but not squeeze between two that touch in a point: triangles and cells are
-//! neighbours only through pieces of positive length. [`PathKind`] selects the planner's own path or a taut one. The
-//! `FieldPlanner` of the crate `fields` follows any field on a `cspace::ZonedGrid`, whose cells know the world's
-//! preferences.
+//! The planners for polygons begin with `geometry::planar`, which converts polygons to vertices and sides. A path
+//! may touch obstacles, also along their sides. It does not squeeze between two that touch in a point, because
+//! triangles and cells are neighbours only through portals of positive length. [`PathKind`] selects the planner's
+//! own path or a taut one. The `FieldPlanner` of the crate `fields` follows any field on a `cspace::ZonedGrid`,
+//! whose cells know the world's preferences.
 //!
 //! ```
 //! use cplan_core::cspace::regions;
@@ -15,7 +15,7 @@
 //! let workspace = Workspace::new([Obstacle::circle("post", [1.5, 0.0], 0.1)?]);
 //! let scene = Scene::new(Arm::rr([1.0, 0.8], 0.06)?, workspace)?;
 //! let (start, goal) = (Configuration::new(-0.6, 0.2), Configuration::new(0.6, 0.2));
-//! // Polygons a millimetre larger than the C-obstacles, over one turn to either side of the start.
+//! // Create polygons a millimetre larger than the C-obstacles, over one turn to either side of the start.
 //! let space = regions(&scene, 1e-3, start, 1);
 //! let planner = Visibility::default();
 //! let map = planner.build(&space);
@@ -60,65 +60,64 @@ use std::sync::Arc;
 pub struct Query {
     /// First configuration of the path.
     pub start: Configuration,
-    /// Alternative goals; on a circle axis also their copies.
+    /// Alternative goals. On a circle their copies are goals as well.
     pub goals: GoalSet,
 }
 
 /// The outcome of a run.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Proposal {
-    /// A path in the free space of the representation, starting at the start exactly and ending at a goal (or a copy of
-    /// it) exactly.
+    /// A path in free space. It starts exactly at the start and ends exactly at a goal or a copy of one.
     Found(Path),
-    /// The representation holds no path. [`crate::cspace::Proves`] tells what that proves.
+    /// Free space has no path. [`crate::cspace::Proves`] states whether that proves that there is none at all.
     NoPath,
-    /// Unknown: the reason, in words.
+    /// The planner cannot answer. The text is the reason.
     GaveUp(String),
 }
 
-/// Size of the structure that a planner built.
+/// Size of the structure that a planner searched.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Size {
-    /// The visited part of a roadmap, or all cells and their adjacencies.
+    /// The visited part of a roadmap, or all cells and portals of a decomposition.
     Graph {
-        /// Nodes, or cells.
+        /// Number of nodes, or of cells.
         nodes: usize,
-        /// Arcs, or adjacencies.
+        /// Number of edges, or of portals.
         edges: usize,
     },
-    /// A field on a grid, solved piece by piece.
+    /// A field on a grid, solved in windows: groups of cells.
     Windows {
-        /// Free cells that were visited.
+        /// Number of free cells that were visited.
         cells: usize,
-        /// Sets of cells whose equations were solved together.
+        /// Number of windows.
         windows: usize,
     },
     /// A field on a grid.
     Grid {
-        /// Free cells that were visited.
+        /// Number of free cells that were visited.
         cells: usize,
-        /// Passes over them (levels of a wavefront).
+        /// Number of passes over these cells. For a wavefront, the number of levels.
         sweeps: usize,
     },
-    /// Values of joint 1 at which free values of joint 2 are known exactly.
+    /// The values of joint 1 at which the free values of joint 2 were computed exactly.
     Slices {
         /// Number of such values.
         slices: usize,
     },
     /// Cells of a grid that a search reached.
     Search {
-        /// Cells whose neighbours were examined.
+        /// Number of cells whose neighbours were examined.
         expanded: usize,
-        /// Cells that were reached.
+        /// Number of cells that were reached.
         labeled: usize,
     },
-    /// Cells of a grid reached by a search that restarts, round by round.
+    /// A search of a grid in rounds, each with a higher limit of moves.
     Deepening {
         /// Number of rounds.
         rounds: usize,
-        /// Number of times that a cell was expanded, in all rounds together.
+        /// Number of expansions of cells, in all rounds together.
         expansions: usize,
-        /// Cells that were reached.
+        /// Number of cells that were reached.
         labeled: usize,
     },
     /// Nothing was built.
@@ -126,7 +125,7 @@ pub enum Size {
 }
 
 impl Size {
-    /// Returns the numbers, by name.
+    /// Returns the numbers with their names in results.
     #[must_use]
     pub fn figures(self) -> Vec<(&'static str, usize)> {
         match self {
@@ -169,12 +168,12 @@ impl std::fmt::Display for Size {
     }
 }
 
-/// Points of a channel through which paths may lead.
+/// Points of a channel that the planner's paths pass through.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct ChannelPoints {
-    /// Centres of area of its cells, in order (`C1`, `C2`, ...).
+    /// Centroids of the channel's cells, in order (`C1`, `C2`, ...).
     pub centers: Vec<Configuration>,
-    /// Middles of the portals between them, one less (`Q1`, `Q2`, ...).
+    /// Middles of the portals between the cells, one fewer (`Q1`, `Q2`, ...).
     pub middles: Vec<Configuration>,
 }
 
@@ -190,7 +189,7 @@ pub enum GraphKind {
 }
 
 impl GraphKind {
-    /// Returns the kind of visibility graph, if it is one.
+    /// Returns the kind of visibility graph; `None` for other graphs.
     #[must_use]
     pub fn visibility(self) -> Option<VisibilityGraph> {
         if let Self::Visibility(graph) = self { Some(graph) } else { None }
@@ -200,7 +199,7 @@ impl GraphKind {
 /// Shape of the cells of a decomposition.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CellKind {
-    /// Trapezoids from a line that sweeps over free space.
+    /// Trapezoids, made by a line that sweeps over free space.
     Trapezoids,
     /// Triangles.
     Triangles,
@@ -209,29 +208,29 @@ pub enum CellKind {
 /// A record of the planner's search, for pictures.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Trace {
-    /// Arcs of the reduced visibility graph.
+    /// Edges of the reduced visibility graph.
     Roadmap {
-        /// Both ends of each arc.
+        /// Both ends of each edge.
         edges: Vec<[Configuration; 2]>,
-        /// True if the arcs include all arcs between corners; otherwise they are those that the search examined.
+        /// True if all edges between corners are included; false if only those that the search examined.
         whole: bool,
     },
-    /// Free stretches of slices on the path, one after the other: both ends of each.
+    /// The free intervals of the slices on the path, in order.
     Slices {
-        /// The least and the greatest value of joint 2 of each stretch.
+        /// Both ends of each interval: the configurations with the least and the greatest value of joint 2.
         free: Vec<[Configuration; 2]>,
     },
-    /// Cells of the decomposition (corners, counter-clockwise) and the indices of those in the channel, in order.
+    /// The cells of a decomposition, and those in the channel.
     Channel {
         /// Shape of the cells.
         kind: CellKind,
-        /// Corners of each cell; shared with the planner's map.
+        /// Corners of each cell, counter-clockwise. Shared with the planner's map.
         cells: Arc<[Vec<Configuration>]>,
-        /// Indices of the channel's cells.
+        /// Indices of the cells in the channel, in order.
         channel: Vec<usize>,
-        /// Points on paths through the middle of the channel; empty if they have no fixed place.
+        /// Points of paths through the middle of the channel; empty if the planner has none.
         points: ChannelPoints,
-        /// Configurations that the search expanded, in order, if they are to be shown.
+        /// Configurations that the search expanded, in order; empty if pictures do not show them.
         expanded: Vec<Configuration>,
     },
     /// A graph of straight motions.
@@ -243,47 +242,47 @@ pub enum Trace {
         /// The kind of graph.
         kind: GraphKind,
     },
-    /// Boxes of a subdivision: lower and upper corner of each.
+    /// Boxes of a subdivision, by their lower and upper corners.
     Boxes {
-        /// Boxes without any collision.
+        /// Boxes of free configurations only.
         free: Vec<[Configuration; 2]>,
-        /// Boxes with collisions only.
+        /// Boxes of colliding configurations only.
         stuck: Vec<[Configuration; 2]>,
-        /// Boxes that are neither proven free nor proven stuck.
+        /// Boxes that are proven neither free nor colliding.
         mixed: Vec<[Configuration; 2]>,
     },
-    /// Steps to the goal for every cell of the grid, or steps from the start for a forward search; `u32::MAX` for cells
-    /// that were not reached.
+    /// For each cell of a grid, the number of steps to the goal, or from the start for a forward search. `u32::MAX`
+    /// for cells that were not reached.
     Wavefront {
-        /// Shape of the grid.
+        /// Number of cells along each axis.
         cells: [usize; 2],
         /// One value per cell.
         labels: Vec<u32>,
-        /// Cells in the order in which a search expanded them; empty for the wave, which reaches all cells of a label
-        /// at once.
+        /// Cells in the order in which the search expanded them. Empty for the wave, which labels all cells of a
+        /// level at once.
         expanded: Vec<u32>,
         /// True if the search began at the start.
         forward: bool,
     },
-    /// Natural logarithm of the potential for every cell (0 at the goal, lower farther away), minus infinity where
+    /// The natural logarithm of the potential for each cell: 0 at the goal, lower farther away. Minus infinity where
     /// there is no potential.
     Field {
-        /// Shape of the grid.
+        /// Number of cells along each axis.
         cells: [usize; 2],
         /// One value per cell.
         potential: Vec<f64>,
     },
-    /// The harmonic potential of the cells from which the goal can be reached. Its logarithms are for pictures alone,
-    /// and are computed when a picture needs them ([`Trace::logarithms`]).
+    /// The harmonic potential of the cells from which the goal can be reached. Its logarithms are only for pictures,
+    /// so [`Trace::logarithms`] computes them on request.
     Harmonic {
         /// The cells that the field covers.
         component: Component,
-        /// `None` if the start is in none of these cells.
+        /// The potential; `None` if the start is in none of these cells.
         potential: Option<Potential>,
     },
-    /// A potential that paths descend, for every cell; infinite where there is no potential.
+    /// A potential that paths descend, for each cell. Infinite where there is no potential.
     Potential {
-        /// Shape of the grid.
+        /// Number of cells along each axis.
         cells: [usize; 2],
         /// One value per cell.
         heights: Vec<f64>,
@@ -291,8 +290,9 @@ pub enum Trace {
 }
 
 impl Trace {
-    /// Returns the shape of the grid and the natural logarithm of the potential for every cell, for a field that paths
-    /// ascend. The logarithm is minus infinity where there is no potential. Linear in the number of cells.
+    /// Returns, for a field that paths ascend, the number of cells along each axis and the natural logarithm of the
+    /// potential of each cell. The logarithm is minus infinity where there is no potential. `None` for other traces.
+    /// Linear in the number of cells.
     #[must_use]
     pub fn logarithms(&self) -> Option<([usize; 2], Cow<'_, [f64]>)> {
         match self {
@@ -312,35 +312,36 @@ impl Trace {
 /// A remark of a planner about a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Note {
-    /// The field was not relaxed to the required tolerance. No path is followed in it.
+    /// The relaxation of the field stopped at the limit of sweeps, before its tolerance. The planner follows no path
+    /// in it.
     Unconverged {
-        /// Passes over all cells, until the limit.
+        /// Number of passes over all cells.
         sweeps: usize,
-        /// The measure in the last sweep.
+        /// The measured change in the last pass.
         change: f64,
     },
-    /// The path left local minima, which the forces alone do not leave.
+    /// The path left local minima by moves that are not along the forces.
     Escaped {
-        /// The method, in words.
+        /// The method, as words that follow "escaped from a local minimum".
         how: &'static str,
         /// Number of local minima.
         minima: usize,
-        /// Number of moves that led out of them.
+        /// Number of moves that left local minima.
         moves: usize,
     },
-    /// The field was relaxed to the tolerance of its measure, but its values around the path were too small for that
-    /// measure. Then it was relaxed to a relative tolerance.
+    /// The relaxation met its tolerance, but the values around the path were so small that the path was not
+    /// reliable. So the relaxation continued to a relative tolerance.
     Continued {
-        /// Passes over all cells until the measure was met.
+        /// Number of passes over all cells until the tolerance was met.
         first: usize,
-        /// Passes after that.
+        /// Number of passes after that.
         more: usize,
     },
-    /// The relaxation stopped before the tolerance, at the limit of a GPU's precision.
+    /// The relaxation stopped before its tolerance, at the limit of single precision on a GPU.
     Floor {
-        /// Passes over all cells, until only rounding changed.
+        /// Number of passes over all cells until only rounding changed values.
         sweeps: usize,
-        /// Greatest relative change of a value in the last sweep.
+        /// Greatest relative change of a value in the last pass.
         change: f64,
     },
 }
@@ -354,8 +355,8 @@ impl std::fmt::Display for Note {
             Self::Continued { first, more } => {
                 write!(
                     f,
-                    "the measure was met after {first} sweeps; {more} more, by relative change, for the small values about the \
-                     path"
+                    "the measure was met after {first} sweeps; {more} more, by relative change, for the small values \
+                     about the path"
                 )
             }
             Self::Escaped { how, minima, moves } => {
@@ -369,32 +370,32 @@ impl std::fmt::Display for Note {
     }
 }
 
-/// A planner's answer.
+/// A planner's answer to a query.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Run {
     /// The outcome.
     pub outcome: Proposal,
-    /// The trace, for pictures.
+    /// A record of the search, for pictures.
     pub trace: Trace,
-    /// Size of the structure that was built.
+    /// Size of the structure that was searched.
     pub size: Size,
-    /// A remark about the outcome, if any.
+    /// A remark about the outcome; `None` if there is none.
     pub note: Option<Note>,
 }
 
-/// A planner: settings are the fields of the implementing type.
+/// A planner. Its settings are the fields of the implementing type.
 ///
-/// Structures that do not depend on the query are built once and can serve many queries. Deterministic: same input,
-/// same output.
+/// Structures that do not depend on the query are built once and can serve many queries. Planners are deterministic:
+/// the same input gives the same output.
 pub trait Planner {
     /// Name on the command line.
     const NAME: &'static str;
-    /// The representation that it works on. The type states, for example, that visibility needs polygons.
+    /// The representation of free space that the planner needs, such as polygons or a grid.
     type Space;
-    /// The structure that it prepares.
+    /// The structure that the planner builds from a space.
     type Map;
 
-    /// Prepares a space for queries.
+    /// Builds the planner's structure for a space.
     fn build(&self, space: &Self::Space) -> Self::Map;
 
     /// Answers one query.

@@ -1,7 +1,7 @@
 //! Shortest paths through triangulated free space.
 //!
-//! This search does not use petgraph, which requests all arcs of a node at once. Here arcs wait on the open list before
-//! they are known.
+//! This search does not use petgraph, which asks for all edges of a node at once. Here the open list also holds sets
+//! of edges that are not known yet.
 
 use super::NO_ENTRY;
 use super::mesh::{Bound, Cone, ConeContinuation, Crossing, Mesh, Tangency};
@@ -11,55 +11,56 @@ use cplan_geometry::{OpenList, Orientation, Point, cross, orientation};
 use cplan_interrupt::checkpoint;
 use std::cmp::Reverse;
 
-/// Two lines whose directions enclose less than this sine are not intersected: rounding would be magnified by its
-/// inverse.
+/// Rays and edges are not intersected if the sine of the angle between them is below this, because rounding would be
+/// multiplied by its inverse.
 const PARALLEL_SINE: f64 = 1e-6;
 
-/// A* over the reduced visibility graph whose arcs are found while they are needed.
+/// A* over the reduced visibility graph, whose edges are found while they are needed.
 ///
-/// The open list holds reached nodes and *cones*: the view from a node through an edge of the triangulation. A cone's
-/// estimate is a lower bound on the length of paths through it. So a node's arcs are found in the order in which they
-/// matter, and most never. This is the search of Polyanya (Cui, Harabor, Grastien 2017) with two changes. Cones are
-/// bounded by lines through vertices rather than by rounded points, so that visibility is decided exactly. Turns are
-/// nodes of their own. The search is correct for any norm: pulling a path taut never makes it longer.
+/// The open list holds reached nodes and *cones*. A cone is the view from a node through an edge of the
+/// triangulation. Its estimate is a lower bound on the length of paths through it. So the most promising edges of a
+/// node are found first, and most edges are never found. This is the search of Polyanya (Cui, Harabor, Grastien
+/// 2017) with two changes. Lines through vertices bound cones, rather than rounded points, so visibility is decided
+/// exactly. Turns are separate nodes. The search is correct for any norm, because pulling a path taut never makes it
+/// longer.
 pub(super) struct Polyanya<'a> {
     mesh: &'a Mesh,
     measure: Measure,
     terminals: &'a Terminals,
-    /// True for triangles that hold a goal.
+    /// For each triangle, true if it contains a goal.
     has_goal: Vec<bool>,
     nodes: Vec<Node>,
-    /// Least cost of each corner so far.
+    /// Least cost at which each corner has been reached so far.
     reached: Vec<f64>,
     open: OpenList<Open>,
     cones: Vec<(Cone, u32)>,
-    /// Number of entries ever put on the open list.
+    /// Number of entries that have been put on the open list.
     pushed: u32,
-    /// Arcs found: ends.
+    /// Both ends of each edge of the visibility graph found so far.
     pub arcs: Vec<[Point; 2]>,
 }
 
-/// A reached point, and its predecessor.
+/// A point that a path reaches, with the node before it.
 #[derive(Debug, Clone, Copy)]
 struct Node {
     at: Point,
     cost: f64,
     parent: u32,
-    /// `NO_ENTRY` for the start and goals.
+    /// Number of the corner; `NO_ENTRY` for the start and goals.
     corner: u32,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Step {
-    /// Look around at a node.
+    /// Look in all useful directions from a node.
     Turn(u32),
-    /// Follow a cone, an index into [`Polyanya::cones`].
+    /// Follow a cone, given by its index in [`Polyanya::cones`].
     Look(u32),
-    /// A goal, as a node.
+    /// End at a goal, given by its node.
     Arrive(u32),
 }
 
-/// An entry of the open list: true for an arrival, its number, and the step to do. Among equal estimates an arrival
+/// An entry of the open list: whether it is an arrival, its number, and the step. Among equal estimates an arrival
 /// comes first, then the latest entry.
 type Open = (Reverse<bool>, Reverse<u32>, Step);
 
@@ -81,13 +82,14 @@ impl<'a> Polyanya<'a> {
         }
     }
 
-    /// Returns the number of visited nodes: the start, goals in sight, corners.
+    /// Returns the number of visited nodes: the start, the goals that were seen, and the corners.
     pub fn nodes(&self) -> usize {
         let corners = self.reached.iter().filter(|cost| cost.is_finite()).count();
         corners + self.nodes.iter().filter(|node| node.corner == NO_ENTRY).count()
     }
 
-    /// Returns the shortest path from start to any goal; `None` if there is no path. Waypoints are not collinear.
+    /// Returns the shortest path from the start to any goal; `None` if there is no path. No three consecutive
+    /// waypoints are collinear.
     pub fn path(&mut self) -> Option<Vec<Point>> {
         let start = self.terminals.start;
         self.nodes.push(Node { at: start, cost: 0.0, parent: NO_ENTRY, corner: NO_ENTRY });
@@ -100,7 +102,7 @@ impl<'a> Polyanya<'a> {
                 self.push_cone(0, successor.cone, self.estimate(0, &successor.cone));
             }
         }
-        // Triangles share corners.
+        // Triangles share corners, so remove duplicates.
         seen.sort_unstable();
         seen.dedup();
         seen.into_iter().for_each(|corner| self.see(0, corner));
@@ -118,12 +120,12 @@ impl<'a> Polyanya<'a> {
         None
     }
 
-    /// Returns true if a shorter path to the same corner has been found since.
+    /// Returns true if a shorter path to the node's corner has been found since.
     fn is_stale(&self, Node { corner, cost, .. }: Node) -> bool {
         corner != NO_ENTRY && self.reached[corner as usize] < cost
     }
 
-    /// Adds the view beyond a corner for paths that turn there.
+    /// Adds the cones and corners that a path sees after a turn at a node.
     fn turn(&mut self, number: u32) {
         let node = self.nodes[number as usize];
         if self.is_stale(node) {
@@ -140,7 +142,7 @@ impl<'a> Polyanya<'a> {
         }
     }
 
-    /// Follows a cone while it is the best of all.
+    /// Follows a cone while its estimate is the least of all.
     fn follow(&mut self, mut cone: Cone, root: u32) {
         let node = self.nodes[root as usize];
         if self.is_stale(node) {
@@ -172,7 +174,8 @@ impl<'a> Polyanya<'a> {
         }
     }
 
-    /// Records that a node sees a corner.
+    /// Adds the edge from a node to a corner that it sees, and the corner as a node if this path is the shortest so
+    /// far.
     fn see(&mut self, root: u32, number: u32) {
         let corner = &self.mesh.corners()[number as usize];
         let node = self.nodes[root as usize];
@@ -189,7 +192,7 @@ impl<'a> Polyanya<'a> {
         }
     }
 
-    /// Ends at the goals in a triangle, at the nearest visible place of each.
+    /// Adds the goals in a triangle that the node sees, each at its nearest visible point.
     fn find_goals(&mut self, root: u32, triangle: u32, sees: impl Fn(&Segment) -> Option<Segment>) {
         if !self.has_goal[triangle as usize] {
             return;
@@ -212,7 +215,7 @@ impl<'a> Polyanya<'a> {
         self.nodes.len() as u32 - 1
     }
 
-    /// Returns a lower bound on the length of paths by a node and through a cone; infinite at a wall.
+    /// Returns a lower bound on the length of paths through a node and a cone; infinite at a wall.
     fn estimate(&self, root: u32, cone: &Cone) -> f64 {
         if self.mesh.is_wall(cone.edge) {
             return f64::INFINITY;
@@ -224,7 +227,7 @@ impl<'a> Polyanya<'a> {
         cost + self.terminals.goals.iter().map(through).fold(f64::INFINITY, f64::min)
     }
 
-    /// Puts a cone on the open list, unless it ends at a wall.
+    /// Puts a cone on the open list, unless its edge is a wall.
     fn push_cone(&mut self, root: u32, cone: Cone, estimate: f64) {
         if estimate.is_finite() {
             self.cones.push((cone, root));
@@ -258,8 +261,8 @@ impl<'a> Polyanya<'a> {
     }
 }
 
-/// Returns the point where a ray meets the segment from `a` to `b`; `fallback` if it is drawn to that end, or nearly
-/// parallel.
+/// Returns the point where a ray meets the segment from `a` to `b`. Returns `fallback` if the ray leads to that
+/// point, or is nearly parallel to the segment.
 fn meeting(Bound { from, to }: Bound, [a, b]: [Point; 2], fallback: Point) -> Point {
     let (line, edge) = (to - from, b - a);
     let sine = cross(line, edge);

@@ -1,26 +1,26 @@
-//! Cutting the corners of a path of cells.
+//! Shortens a path of cells by cutting its corners.
 
 use super::grid_path::{Line, place};
 use crate::cspace::Grid;
 use cplan_interrupt::checkpoint;
 
-/// Distance (in cells) within which a segment counts as passing through a cell, so that a segment through a corner
-/// passes both cells beside it. Far above the rounding of lattice coordinates (1e-11 for a hundred thousand cells), and
-/// far below anything that matters to a path.
+/// Distance, in cells, within which a segment counts as passing through a cell. So a segment through a corner of
+/// cells passes both cells beside it. The value is far above the rounding of lattice coordinates (1e-11 for a
+/// hundred thousand cells), and far below the size of any detail of a path.
 pub(super) const TOUCH_DISTANCE: f64 = 1e-9;
 
-/// Greatest number of rounds of tightening; ...
+/// Greatest number of rounds in which a path is shortened.
 const MAX_ROUNDS: usize = 8;
-/// ... they end earlier when one gains less than this share of the length.
+/// Rounds end when one shortens the path by less than this fraction of its length.
 const MIN_GAIN: f64 = 1e-3;
 
-/// Returns a shorter polyline with the same ends. Each of its segments passes only through free cells (touching
-/// counts), or is a piece of the given one. Never longer in any norm; with few corners. Some `n log n` cell checks for
-/// a line that is `n` cells long.
+/// Returns a shorter polyline with the same ends and few corners. Each of its segments either passes only through
+/// free cells (touching counts), or is a segment of the given line. The result is never longer, in any norm. Takes
+/// about `n log n` cell checks for a line that is `n` cells long.
 pub(super) fn shortcut(grid: &Grid, line: &[[f64; 2]]) -> Line {
     let mut best = farthest(grid, line);
     for _ in 0..MAX_ROUNDS {
-        // Backwards, and from points between the corners too: that pulls the corners towards the obstacles.
+        // Go backwards, and use points between the corners as well: that pulls the corners towards the obstacles.
         let mut fine = refine(grid, &best);
         fine.reverse();
         let mut next = farthest(grid, &fine);
@@ -36,14 +36,14 @@ pub(super) fn shortcut(grid: &Grid, line: &[[f64; 2]]) -> Line {
     best
 }
 
-/// Returns the length in the configuration space.
+/// Returns the Euclidean length in joint space.
 fn length(grid: &Grid, line: &[[f64; 2]]) -> f64 {
     let step = grid.step();
     line.windows(2).map(|w| ((w[1][0] - w[0][0]) * step[0]).hypot((w[1][1] - w[0][1]) * step[1])).sum()
 }
 
-/// Returns a line that goes from each corner on to a far visible one along the line. The distance is doubled while the
-/// corner is visible, then bisected. The next corner always counts as visible.
+/// Returns a line that goes from each corner to a visible one far along the line. The search doubles the distance
+/// along the line while the corner there is visible, then bisects. The next corner always counts as visible.
 fn farthest(grid: &Grid, line: &[[f64; 2]]) -> Line {
     let mut corners = vec![line[0]];
     let mut at = 0;
@@ -61,7 +61,7 @@ fn farthest(grid: &Grid, line: &[[f64; 2]]) -> Line {
     corners
 }
 
-/// Returns the line with further points on its clear segments, not more than a cell apart.
+/// Returns the line with additional points on its clear segments, at most a cell apart.
 fn refine(grid: &Grid, line: &[[f64; 2]]) -> Line {
     let mut points = vec![line[0]];
     for w in line.windows(2) {
@@ -81,7 +81,7 @@ pub(super) fn is_clear(grid: &Grid, a: [f64; 2], b: [f64; 2]) -> bool {
     let d = [b[0] - a[0], b[1] - a[1]];
     let rows = covered(grid, 0, a[0], b[0]);
     rows.into_iter().all(|i| {
-        // Both ends of the piece within row i, with some tolerance.
+        // The two ends of the segment's part in row i, with some tolerance.
         let at = |edge: f64| a[1] + ((edge - a[0]) / d[0]).clamp(0.0, 1.0) * d[1];
         let (from, to) = if d[0].abs() <= TOUCH_DISTANCE {
             (a[1], b[1])
@@ -94,8 +94,8 @@ pub(super) fn is_clear(grid: &Grid, a: [f64; 2], b: [f64; 2]) -> bool {
     })
 }
 
-/// Returns the rows or columns between two coordinates, touched ones included. All are within
-/// the limits, because the ends are.
+/// Returns the rows or columns between two coordinates, including those that are only touched. All are within the
+/// limits, because the ends are.
 fn covered(grid: &Grid, axis: usize, from: f64, to: f64) -> std::ops::RangeInclusive<i64> {
     let (first, last) =
         ((from.min(to) - TOUCH_DISTANCE).floor() as i64, (from.max(to) + TOUCH_DISTANCE).floor() as i64);

@@ -1,12 +1,13 @@
-//! Removes points of a curve.
+//! Approximates a curve by fewer points.
 
 use super::grid_path::Line;
 use super::shortcut::is_clear;
 use crate::cspace::Grid;
 use cplan_interrupt::checkpoint;
 
-/// Returns some of a line's points, its ends among them, such that no other point is farther than `tolerance` (in
-/// cells) from the new piece that passes it. New pieces pass only through free cells. Some `n log n` point checks.
+/// Returns some of a line's points, including its ends. All other points are within `tolerance` (in cells) of the
+/// segment that replaces them. New segments pass only through free cells. Takes about `n log n` distances for `n`
+/// points.
 pub(super) fn simplified(grid: &Grid, line: &[[f64; 2]], tolerance: f64) -> Line {
     let mut kept = vec![line[0]];
     let mut at = 0;
@@ -16,7 +17,7 @@ pub(super) fn simplified(grid: &Grid, line: &[[f64; 2]], tolerance: f64) -> Line
             let (a, b) = (line[at], line[to]);
             line[at + 1..to].iter().all(|&p| distance(p, a, b) <= tolerance) && is_clear(grid, a, b)
         };
-        // The distance is doubled while it fits, then bisected.
+        // The search doubles the number of replaced points while a segment fits, then bisects.
         let (mut good, mut bad) = (at + 1, line.len());
         while good + 1 < bad {
             let ahead = (at + 2 * (good - at)).min(line.len() - 1);
@@ -29,7 +30,7 @@ pub(super) fn simplified(grid: &Grid, line: &[[f64; 2]], tolerance: f64) -> Line
     kept
 }
 
-/// Returns the distance of a point from a segment.
+/// Returns the distance between a point and a segment.
 fn distance(p: [f64; 2], a: [f64; 2], b: [f64; 2]) -> f64 {
     let (d, r) = ([b[0] - a[0], b[1] - a[1]], [p[0] - a[0], p[1] - a[1]]);
     let square = d[0] * d[0] + d[1] * d[1];
@@ -50,7 +51,7 @@ mod tests {
 
     #[test]
     fn a_circle_keeps_as_many_points_as_the_tolerance_asks_for() {
-        // The chord of an arc of `a` on a circle of radius 40 is off by 40 (1 - cos(a / 2)).
+        // A chord of an arc of angle `a` on a circle of radius 40 is at most 40 (1 - cos(a / 2)) from the arc.
         let circle: Line = (0..=2000)
             .map(|k| (f64::from(k) / 2000.0 * std::f64::consts::TAU).sin_cos())
             .map(|(sin, cos)| [50.0 + 40.0 * cos, 50.0 + 40.0 * sin])

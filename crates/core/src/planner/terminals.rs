@@ -1,4 +1,4 @@
-//! Ends of paths over polygonal regions.
+//! The ends of paths in polygonal free space.
 
 use super::Query;
 use super::mesh::Mesh;
@@ -7,23 +7,24 @@ use crate::space::{Measure, Metric, Segment};
 use cplan_geometry::Point;
 use std::f64::consts::TAU;
 
-/// Number of places at which a segment of goals is tried, in addition to the one nearest to the start.
+/// Number of evenly spaced points of a goal segment that roadmaps add as goals, besides the point nearest to the
+/// start. An odd number, so the middle is among them.
 const PLACES_PER_SEGMENT: usize = 17;
 
-/// Ends of the paths that answer a query.
+/// The start and the goals of the paths that answer a query.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Terminals {
-    /// The start, in the window.
+    /// The start, within the window.
     pub start: Point,
-    /// All copies of all goals that lie in the window and, in part, in closed free space; at least one.
+    /// The copies of goals in the window that lie at least partly in closed free space. There is at least one.
     pub goals: Vec<Segment>,
-    /// Parts of the goals in convex cells of free space, with the cell's number; sorted by number.
+    /// The parts of the goals in each convex cell of free space, with the cell's number; sorted by number.
     pub parts: Vec<(u32, Segment)>,
 }
 
 impl Terminals {
-    /// Returns the ends for a query, or the reason in words if there are none. `parts_of` finds the cells of closed
-    /// free space that hold any of a segment.
+    /// Collects the ends of paths for a query. Returns the reason if the start, or every goal, is not in free space.
+    /// `parts_of` returns the cells of closed free space that contain a part of a segment, with that part.
     pub fn new(
         regions: &Regions,
         query: &Query,
@@ -53,8 +54,8 @@ impl Terminals {
         Ok(Self { start, goals, parts })
     }
 
-    /// Returns goals as places in a mesh's free space: a point unchanged, and for a segment some of its points and the
-    /// one nearest to the start.
+    /// Returns goals as points in a mesh's free space. A point stays one point; a segment becomes some of its points
+    /// and the one nearest to the start.
     pub fn places<'a>(&'a self, mesh: &'a Mesh) -> impl Iterator<Item = Point> + 'a {
         let places = self.goals.iter().flat_map(|goals| {
             let count = if goals.is_point() { 1 } else { PLACES_PER_SEGMENT };
@@ -70,7 +71,8 @@ impl Terminals {
         self.parts[begin..].iter().take_while(move |part| part.0 == cell)
     }
 
-    /// Returns the distance from `p` to the nearest goal: a lower bound on the length of any path there.
+    /// Returns the distance from `p` to the nearest goal. It is a lower bound on the length of any path from `p` to
+    /// a goal.
     pub fn distance(&self, measure: Measure, p: Point) -> f64 {
         self.goals.iter().map(|goal| goal.distance(measure, p)).fold(f64::INFINITY, f64::min)
     }
@@ -80,14 +82,15 @@ fn shown(p: Point) -> String {
     format!("({:.6}, {:.6})", p.x, p.y)
 }
 
-/// Returns the copies of a piece, shifted by whole turns along circle axes, that are at least in part in the window; on
-/// intervals the piece itself.
+/// Returns the copies of a segment, by whole turns on circles, whose ranges of joint values overlap the window. On
+/// intervals there is only the segment itself.
 fn window_copies(regions: &Regions, piece: &Segment) -> Vec<Segment> {
     let [from, to] = piece.ends();
     let turns = |k: usize| {
         let (least, greatest) = (from[k].min(to[k]), from[k].max(to[k]));
         let (lower, upper) = regions.window[k];
-        // From the turn at which the copy's greater end is in the window to the turn at which its lesser end is.
+        // The range is from the turn at which the copy's greater end enters the window to the one at which its
+        // lesser end leaves it.
         let copies = regions.topology.ranges[k].copies_within(least, (lower - (greatest - least), upper));
         copies.map(move |copy| ((copy - least) / TAU).round())
     };

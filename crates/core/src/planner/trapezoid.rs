@@ -1,7 +1,7 @@
-//! Paths by exact cell decomposition: trapezoids, a channel, a funnel path.
+//! Paths by exact cell decomposition into trapezoids.
 //!
-//! `decomposition` makes the cells, `channel` finds a sequence of them that leads to the goal, and
-//! [`crate::space::funnel_path`] pulls the path taut.
+//! `decomposition` makes the cells. `channel` finds a sequence of cells that leads to the goal.
+//! [`crate::space::funnel_path`] pulls the path through them taut.
 
 use super::channel::{Adjacency, Channel};
 use super::decomposition::{CellPortal, Decomposition};
@@ -16,21 +16,22 @@ use cplan_geometry::{Orientation, Point, orientation};
 use std::ops::Range;
 use std::sync::Arc;
 
-/// The *trapezoidal decomposition*: finds a channel of cells from start to goal whenever there is one, and a path in
-/// it.
+/// The *trapezoidal decomposition*. It finds a channel of cells from start to goal whenever there is one, and a path
+/// in the channel.
 ///
-/// Cells are joined where they share a piece of vertical of positive length (a *portal*). A*, or another search, finds
-/// the channel. A passage from a cell to the next costs the distance from the one's centre over the portal's middle to
-/// the other's; for the end cells, start and goal replace the centres (Latombe, *Robot Motion Planning*, 1991, section
-/// 5.1). The path is free but not the shortest, even when taut: another channel may hold a shorter one.
+/// Two cells are joined if they share a piece of a vertical line of positive length (a *portal*). A* or another
+/// search finds the channel. A passage from one cell to the next costs the distance from centre to centre through
+/// the portal's middle; for the first and the last cell, start and goal replace the centre (Latombe, *Robot Motion
+/// Planning*, 1991, section 5.1). The path is free but not the shortest, even when taut: another channel may contain
+/// a shorter one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Trapezoid {
     /// The kind of path. [`PathKind::Taut`] is pulled taut within the channel, so it may touch obstacles.
-    /// [`PathKind::Own`] leads through the middles of the channel's portals and the centres of its cells: start, `Q1`,
-    /// `C2`, `Q2`, ..., goal (Latombe). [`PathKind::Middles`] leaves out the centres of cells that it crosses from one
+    /// [`PathKind::Own`] passes through the middles of the portals and the centres of the cells: start, `Q1`, `C2`,
+    /// `Q2`, ..., goal (Latombe). [`PathKind::Middles`] omits the centres of cells that it crosses from one vertical
     /// side to the other.
     pub path: PathKind,
-    /// The search method over the adjacency of cells.
+    /// The search method over the graph of cells.
     pub search: RoadmapSearch,
 }
 
@@ -40,12 +41,12 @@ impl Default for Trapezoid {
     }
 }
 
-/// A decomposition and the adjacency of its cells.
+/// A decomposition and the graph of its cells.
 #[derive(Debug, Clone)]
 pub struct TrapezoidMap {
     boundary: Boundary,
     decomposition: Decomposition,
-    /// Corners of the cells.
+    /// Corners of each cell, for pictures.
     corners: Arc<[Vec<Configuration>]>,
     adjacency: Adjacency,
 }
@@ -106,7 +107,7 @@ impl Planner for Trapezoid {
 }
 
 impl TrapezoidMap {
-    /// Returns the centres and middles along a channel.
+    /// Returns the centres of cells and middles of portals along a channel.
     fn points(&self, channel: &Channel) -> ChannelPoints {
         let all = |points: &[Point], numbers: &[usize]| numbers.iter().map(|&number| points[number]).collect();
         ChannelPoints {
@@ -115,9 +116,9 @@ impl TrapezoidMap {
         }
     }
 
-    /// Returns the path through the middles of the portals and the centres of the cells between them. If `sparing`, it
-    /// visits the centre only of cells that are left by the side by which they are entered, since straight on would be
-    /// along that side.
+    /// Returns the path through the middles of the portals and the centres of the cells between them. If `sparing`,
+    /// it visits a centre only if the path enters and leaves the cell through the same vertical side; otherwise it
+    /// would run along that side.
     fn middle_path(&self, channel: &Channel, sparing: bool) -> Vec<Point> {
         let mut waypoints = vec![channel.start];
         for (k, &cell_portal) in channel.portals.iter().enumerate() {
@@ -132,7 +133,7 @@ impl TrapezoidMap {
         waypoints
     }
 
-    /// Returns the shortest path within the channel.
+    /// Returns the shortest path within the channel to any of its goals.
     fn taut_path(&self, channel: &Channel) -> Vec<Point> {
         let cell_portal = |k: usize| self.decomposition.portals[channel.portals[k]];
         let portal = |k: usize| {
@@ -142,8 +143,9 @@ impl TrapezoidMap {
         let portals: Vec<Portal> = (0..channel.portals.len()).map(portal).collect();
         let goal = nearest_end(channel.start, &channel.goals, &portals);
         let path = turns(channel.start, goal, &portals);
-        // Where a portal ends in the middle of a side, its end is rounded into free space, and a taut path along the
-        // side turns there by a rounding error. A funnel path turns only at vertices, so such turns are removed.
+        // If a portal ends in the middle of a side, its end is rounded into free space. A taut path along the side
+        // then turns there because of rounding. An exact funnel path turns only at vertices, so these turns are
+        // removed.
         let is_vertex = |turn: &Turn| {
             let CellPortal { low, at_vertices, .. } = cell_portal(turn.portal);
             at_vertices[usize::from(turn.at != low)]
@@ -167,11 +169,11 @@ impl TrapezoidMap {
         waypoints
     }
 
-    /// Returns true if the straight line from `a` to `b` stays in the channel through these portals; exact. Linear in
-    /// their number.
+    /// Returns true if the straight line from `a` to `b` stays in the channel through these portals. Exact; linear
+    /// in the number of portals.
     ///
-    /// Vertices at the ends of the portals decide that: each side between is straight, and `a`, `b` and these vertices are
-    /// on its free side.
+    /// Only portal ends that are vertices need a check. The sides between vertices are straight, and `a`, `b` and
+    /// these vertices are on their free side.
     fn is_straight(&self, channel: &Channel, portals: Range<usize>, a: Point, b: Point) -> bool {
         let mut x = a.x;
         portals.map(|k| self.decomposition.portals[channel.portals[k]]).all(

@@ -1,13 +1,13 @@
-//! Shortest paths by visibility graph and A*.
+//! Shortest paths by A* over the visibility graph.
 //!
-//! `mesh` triangulates free space and follows cones of sight from triangle to triangle. Cones are bounded by lines
-//! through vertices, so that exact predicates decide visibility. `VisibilityMap::arcs` reads the whole reduced
-//! visibility graph off it.
+//! `mesh` triangulates free space and follows cones of sight from triangle to triangle. Lines through vertices bound
+//! the cones, so exact predicates decide visibility. `VisibilityMap::arcs` finds the whole reduced visibility graph
+//! with them.
 //!
-//! A query (`polyanya`) does not need the whole graph. It is A* over that graph, but keeps both cones and corners on
-//! the open list, each with a lower bound on the length of paths through it. So arcs are found in the order in which
-//! they matter (Polyanya). All other searches build the whole graph. One search serves all metrics: shortest paths in
-//! any norm turn at the same corners, and only lengths and bounds differ ([`crate::space::Measure`]).
+//! A query with the default search (`polyanya`) does not need the whole graph. Its open list holds cones as well as
+//! corners, each with a lower bound on the length of paths through it. So only edges that matter to the search are
+//! found. All other searches build the whole graph. Shortest paths in any norm turn at the same corners, and only
+//! lengths and bounds differ ([`crate::space::Measure`]), so one search serves all metrics.
 
 mod full;
 
@@ -23,14 +23,15 @@ use cplan_interrupt::checkpoint;
 use petgraph::graph::NodeIndex;
 use serde::{Deserialize, Serialize};
 
-/// The set of arcs of a visibility graph.
+/// The set of edges of a visibility graph.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum VisibilityGraph {
-    /// Arcs between convex corners of C-obstacles that are tangent at both ends: enough for shortest paths.
+    /// The edges between convex corners of C-obstacles that are tangent at both ends. They are enough for shortest
+    /// paths.
     #[default]
     Reduced,
-    /// All arcs of the definition: between all corners of free space that see each other.
+    /// All edges of the definition: between any two corners of free space that see each other.
     Full,
 }
 
@@ -50,27 +51,27 @@ impl VisibilityGraph {
 
 /// The *reduced visibility graph* and A* over it: finds the shortest path in closed free space.
 ///
-/// Nodes are the convex corners of C-obstacles, the start and all copies of the goals; arcs are the segments in closed
+/// Nodes are the convex corners of C-obstacles, the start and all copies of the goals. Edges are segments in closed
 /// free space that are tangent to the obstacle at each end that is a corner. A shortest path turns only at convex
-/// corners and only around them, so it uses none of the arcs left out (Latombe, *Robot Motion Planning*, 1991, section
-/// 4.1). A path may touch obstacles, but does not squeeze between two that touch in a corner: it is always a limit of
-/// paths in the interior of free space.
+/// corners and only around them, so it needs no other edges (Latombe, *Robot Motion Planning*, 1991, section 4.1). A
+/// path may touch obstacles, but does not squeeze between two that touch in a corner: it is always a limit of paths
+/// in the interior of free space.
 ///
 /// Free space is triangulated (constrained Delaunay, `O(n log n)` for `n` corners and near-linear memory). The view
 /// from a corner is found by following its lines of sight from triangle to triangle, in time proportional to the
-/// triangles crossed. A query does so only as far as the estimate of A* requires. Signs are exact, lengths rounded.
+/// triangles crossed. The default search follows them only as far as it needs to. Signs are exact, lengths rounded.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Visibility {
-    /// The quantity to minimise. Of motions that take equally long, the one with the least Euclidean length counts.
+    /// The quantity to minimise. Among paths of equal travel time, the one with the least Euclidean length counts.
     pub metric: Metric,
-    /// The search method. The default search builds only the part of the graph that it needs; any other builds all of
-    /// it.
+    /// The search method. The default search builds only the part of the graph that it needs; any other search
+    /// builds the whole graph.
     pub search: RoadmapSearch,
-    /// The set of arcs. The full graph is always built completely.
+    /// The set of edges. [`VisibilityGraph::Full`] is always built completely.
     pub graph: VisibilityGraph,
 }
 
-/// Triangulated free space, from which the visibility graph is read.
+/// Triangulated free space, in which edges of the visibility graph are found.
 #[derive(Debug, Clone)]
 pub struct VisibilityMap {
     mesh: Mesh,
@@ -85,7 +86,7 @@ impl Planner for Visibility {
         VisibilityMap { mesh: Mesh::new(Boundary::new(&space.contours())) }
     }
 
-    /// Returns a run whose trace and size are those of the part of the graph that the search visited.
+    /// Answers a query. Trace and size describe the part of the graph that the search visited.
     fn query(&self, space: &Regions, map: &VisibilityMap, query: &Query) -> Run {
         let terminals = match Terminals::new(space, query, |segment| map.mesh.parts_of(segment)) {
             Ok(terminals) => terminals,
@@ -119,14 +120,15 @@ impl VisibilityMap {
         self.mesh.corners().len()
     }
 
-    /// Returns the ends of each arc between corners. In time proportional to the triangles that lines of sight cross.
+    /// Returns both ends of each edge between corners of the reduced graph. Linear in the triangles that lines of
+    /// sight cross.
     #[must_use]
     pub fn arcs(&self) -> Vec<[Configuration; 2]> {
         let corners = self.mesh.corners();
         self.pairs().into_iter().map(|pair| pair.map(|number| corners[number as usize].at)).collect()
     }
 
-    /// Returns the corners at the ends of all arcs.
+    /// Returns the numbers of the corners at both ends of each edge.
     fn pairs(&self) -> Vec<[u32; 2]> {
         let corners = self.mesh.corners();
         let mut pairs = Vec::new();
@@ -134,7 +136,7 @@ impl VisibilityMap {
         for (number, corner) in (0..).zip(corners) {
             checkpoint();
             let is_tangent = |other: u32| corners[other as usize].tangency(corner.at) != Tangency::None;
-            // Each arc is found from its left end: corners are numbered in that order.
+            // Each edge is found from its left end, since corners are numbered from left to right.
             let arc = |half_edge: u32| {
                 let other = self.mesh.corner_at(half_edge).filter(|&other| other > number && is_tangent(other))?;
                 Some([number, other])
@@ -149,7 +151,7 @@ impl VisibilityMap {
 }
 
 impl Visibility {
-    /// Returns a search of the whole graph.
+    /// Builds the whole graph and searches it.
     fn whole(&self, map: &VisibilityMap, terminals: &Terminals) -> Run {
         let measure = Measure::from(self.metric);
         let query_graph = match self.graph {
@@ -172,8 +174,8 @@ impl Visibility {
 }
 
 impl VisibilityMap {
-    /// Returns the whole graph with a query's ends. For each goal it uses the place nearest to the start or corner that
-    /// sees it.
+    /// Returns the whole reduced graph with the start and the goals of a query. From the start and from each corner,
+    /// an edge leads to the nearest visible point of each goal.
     fn query_graph(&self, measure: Measure, terminals: &Terminals) -> QueryGraph {
         let (mesh, corners) = (&self.mesh, self.mesh.corners());
         let mut roadmap = Roadmap::new(measure);
@@ -205,20 +207,20 @@ impl VisibilityMap {
     }
 }
 
-/// A graph, to which visible goals are added node by node.
+/// A graph to which visible goals are added node by node.
 struct Ends<'a> {
     mesh: &'a Mesh,
     measure: Measure,
     terminals: &'a Terminals,
     query_graph: &'a mut QueryGraph,
-    /// Half-edges at visible vertices; filled only with `notes`.
+    /// Half-edges that begin at vertices seen from the start; filled only while `notes` is true.
     seen: Vec<u32>,
-    /// True to collect `seen`.
+    /// True to fill `seen`.
     notes: bool,
 }
 
 impl Ends<'_> {
-    /// Joins a node with the goals that it sees in a cone, and collects the vertices if they are needed.
+    /// Joins a node with the goals that it sees in a cone, and fills `seen` if requested.
     fn look(&mut self, root: NodeIndex, cone: Cone) {
         checkpoint();
         self.mesh.look(self.query_graph.at(root), cone, |crossing, cone| {

@@ -1,4 +1,4 @@
-//! Searches of a grid: the wavefront, whose labels are the distances from the goal, and other textbook searches.
+//! Searches of a grid: the wavefront, which labels cells with their distance from the goal, and classical searches.
 
 use super::attach::JoinedQuery;
 use super::{PathKind, Planner, Proposal, Query, Run, Size, Trace, grid_path};
@@ -10,30 +10,32 @@ use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::str::FromStr;
 
-/// The search method for the cells of a grid. All methods begin at the goal, like the wave, so that a label counts the
-/// moves to it. All except the wave can also begin at the start.
+/// The search method on a grid. The wave begins at the goals. The other methods begin at the goals as well, or at
+/// the start if requested. A cell's label counts the moves to the cells where the search began.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum GridSearch {
-    /// Labels the goal's whole component, then descends: a path with the fewest moves. All moves count alike.
+    /// Labels all cells connected with the goals, then descends. Finds a path with the fewest moves; all moves count
+    /// alike.
     #[default]
     Wave,
-    /// Breadth-first, until it meets the start: fewest moves.
+    /// Breadth-first, until it meets the start. Finds a path with the fewest moves.
     BreadthFirst,
-    /// Depth-first: any path.
+    /// Depth-first. Finds any path.
     DepthFirst,
-    /// Least cost, where a diagonal move counts as the square root of 2 straight ones.
+    /// Least cost first, where a diagonal move costs the square root of 2 straight ones. Finds a path of least cost.
     Dijkstra,
-    /// The same cost, guided by the distance from the start.
+    /// Least sum of cost and distance from the target first. Finds a path of least cost.
     AStar,
-    /// The cell nearest to the start: any path, found soon.
+    /// The cell nearest to the target first. Finds any path, soon.
     Greedy,
-    /// Depth-first within a limit of moves, which grows until it meets the start: fewest moves.
+    /// Depth-first within a limit of moves, which grows until the search meets its target. Finds a path with the
+    /// fewest moves.
     IterativeDeepening,
 }
 
 impl GridSearch {
-    /// All, in the order of the command line's help.
+    /// All methods, in the order of the command line's help.
     pub const ALL: [Self; 7] = [
         Self::Wave,
         Self::BreadthFirst,
@@ -58,7 +60,7 @@ impl GridSearch {
         }
     }
 
-    /// Returns the order in which cells are expanded one by one; `None` for the wave, which needs no order.
+    /// Returns the order in which cells are expanded; `None` for the wave, which labels whole levels at once.
     fn order(self, ties: Ties) -> Option<Order> {
         match self {
             Self::Wave => None,
@@ -89,25 +91,25 @@ impl FromStr for GridSearch {
     }
 }
 
-/// Labels cells with the number of moves to the nearest goal (0 there), over cells that share a side (or a corner too),
-/// and descends the labels from the start until it reaches a goal. With the default settings that is a path of cells
-/// shortest in the `L1` metric (Latombe 1991, the navigation function in that metric).
+/// Labels cells with the number of moves to the nearest goal, then descends the labels from the start to a goal.
+/// Moves lead to cells that share a side, or also to those that share a corner. With the default settings the result
+/// is a path of cells that is shortest in the `L1` metric (Latombe 1991, the navigation function in that metric).
 ///
-/// Linear in the number of cells. Dijkstra and A\* take an additional logarithm, over the cells that they visit;
-/// iterative deepening multiplies by the number of moves. Complete on the grid with every search: if no path is found,
-/// there is none between the cells. A diagonal move needs both cells beside it free, so eight neighbours connect no
-/// more cells than four.
+/// Linear in the number of cells. Dijkstra and A\* need an additional logarithmic factor, for the cells that they
+/// visit; iterative deepening needs an additional factor, the number of moves. Every search is complete on the grid:
+/// if no path is found, there is none between the cells. A diagonal move needs both cells beside it free, so eight
+/// neighbours connect no more cells than four.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Wavefront {
     /// The search method for cells.
     pub search: GridSearch,
-    /// The rule by which A\* chooses among equally promising cells.
+    /// The rule by which A\* chooses among cells of equal estimate.
     pub ties: Ties,
-    /// True for a search from the start to a goal, rather than from the goals to the start; the wave ignores it.
+    /// True to search from the start to a goal; false to search from the goals to the start. The wave ignores it.
     pub forward: bool,
-    /// The cells to which a move leads.
+    /// The neighbours to which a move may lead.
     pub neighborhood: Neighborhood,
-    /// [`PathKind::Own`] is the staircase from cell to cell.
+    /// The kind of path. [`PathKind::Own`] leads from cell to cell like a staircase.
     pub path: PathKind,
 }
 
@@ -152,8 +154,8 @@ impl Planner for Wavefront {
 }
 
 impl Wavefront {
-    /// Returns the cells from the nearest start cell that is connected with a goal, if there is one; the record of the
-    /// search; and the number of cells visited.
+    /// Returns the cells of a path, the record of the search, and the number of cells visited. The path begins at
+    /// the nearest cell of the start that is connected with a goal; it is `None` if there is no such cell.
     fn cells(&self, map: &FreeCells, joined: &JoinedQuery) -> (Option<Vec<usize>>, Trace, Size) {
         let sources = joined.sources();
         let Some(order) = self.search.order(self.ties) else {
@@ -181,16 +183,16 @@ impl Wavefront {
         (cells, trace, size)
     }
 
-    /// Returns the cells found by a search that begins at the goals.
+    /// Returns the cells of a path, found by a search that begins at the goals.
     fn search_backward(&self, map: &FreeCells, joined: &JoinedQuery, order: Order) -> (Option<Vec<usize>>, Search) {
-        // A search that does not meet its target has labelled all cells that are connected with a goal, including other
-        // cells of the start.
+        // A search that does not meet its target has labelled all cells that are connected with a goal. Other cells
+        // of the start may be among them.
         let search = Search::new(map, self.neighborhood, order, &joined.sources(), joined.start.cells[0]);
         (joined.start.cells.iter().find_map(|&cell| search.path_back(cell)), search)
     }
 
-    /// Returns the cells found by a search that begins at the nearest start cell that is connected with a goal, or at
-    /// the nearest start cell if none is connected.
+    /// Returns the cells of a path, found by a search that begins at the nearest cell of the start that is connected
+    /// with a goal. If no cell is connected, the search from the nearest one is returned.
     fn search_forward(&self, map: &FreeCells, joined: &JoinedQuery, order: Order) -> (Option<Vec<usize>>, Search) {
         let goals = joined.sources();
         let from = |&cell: &usize| Search::to_any(map, self.neighborhood, order, &[cell], &goals);

@@ -4,15 +4,15 @@ use super::{Configuration, JointRange, Segment, Topology};
 use std::f64::consts::TAU;
 
 impl Segment {
-    /// Returns the copy that is moved by whole turns of each joint.
+    /// Returns the copy of the segment by whole turns of each joint.
     #[must_use]
     pub fn turned(&self, turns: [f64; 2]) -> Self {
         let [from, to] = self.ends().map(|q| Configuration::from_fn(|k, _| JointRange::Circle.turned(q[k], turns[k])));
         Self::new(from, to)
     }
 
-    /// Returns its copies in the fundamental domain. For a segment across a seam these are several whole copies that
-    /// cover it there.
+    /// Returns the copies of the segment that overlap the fundamental domain, uncut. A segment across a seam has
+    /// several.
     pub fn wrapped(&self, topology: &Topology) -> impl Iterator<Item = Self> + use<> {
         let [from, to] = self.ends();
         let [first, second] = [0, 1].map(|k| into_domain(topology.ranges[k], [from[k], to[k]]));
@@ -22,10 +22,10 @@ impl Segment {
         })
     }
 
-    /// Returns it as copies within the fundamental domain, cut in two at a seam. Exact except for the ends at a cut. A
-    /// segment within the domain is returned unchanged.
+    /// Returns the segment as parts within the fundamental domain: at a seam it is cut, and the parts are copies.
+    /// Exact except for the ends at a cut. A segment within the domain is returned unchanged.
     pub fn within_domain(&self, topology: &Topology) -> impl Iterator<Item = Self> + use<> {
-        // On an interval there are no copies, and no goal is lost that lies beyond a limit.
+        // An interval needs no copies, and goals beyond its limits must not be cut off.
         let bounds = topology
             .ranges
             .map(|axis| if axis.is_circle() { axis.domain() } else { (f64::NEG_INFINITY, f64::INFINITY) });
@@ -33,7 +33,8 @@ impl Segment {
         self.wrapped(topology).filter_map(move |copy| copy.within(lower, upper))
     }
 
-    /// Returns the copies that may be nearest to `q`: on a circle those at most a turn from its middle.
+    /// Returns the copies of the segment that may be nearest to `q`. On a circle these are the copy whose middle is
+    /// nearest and the ones a turn lower and higher.
     pub fn copies_near(&self, topology: &Topology, q: Configuration) -> impl Iterator<Item = Self> + use<> {
         let middle = self.at(0.5);
         let turns = [0, 1].map(|k| {
@@ -47,14 +48,15 @@ impl Segment {
     }
 }
 
-/// Returns the copies of a range of values that lie in the domain of an axis.
+/// Returns the copies of a range of values that overlap the domain of an axis.
 fn into_domain(axis: JointRange, [from, to]: [f64; 2]) -> Vec<[f64; 2]> {
     let (lower, upper) = axis.domain();
     match axis {
         JointRange::Interval { .. } => vec![[from, to]],
         JointRange::Circle if from == to => vec![[axis.wrap(from); 2]],
         JointRange::Circle => {
-            // From where its greatest value comes past the lower end to where its least one is short of the upper end.
+            // The first copy is the lowest whose greatest value is above `lower`; the last is the highest whose
+            // least value is below `upper`.
             let first = ((lower - from.max(to)) / TAU).floor() as i64 + 1;
             let last = ((upper - from.min(to)) / TAU).ceil() as i64 - 1;
             (first..=last).map(|turns| [from, to].map(|value| axis.turned(value, turns as f64))).collect()

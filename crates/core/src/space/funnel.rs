@@ -4,20 +4,20 @@ use super::{Measure, Metric, Segment};
 use cplan_geometry::{Orientation, Point, orientation};
 use std::collections::VecDeque;
 
-/// A portal with its ends on the left and the right, as seen when passing it.
+/// A segment that a path crosses. Left and right are as seen by someone on the path.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Portal {
-    /// The end to the left.
+    /// The left end.
     pub left: Point,
-    /// The end to the right.
+    /// The right end.
     pub right: Point,
 }
 
-/// Returns the shortest polyline from `start` to `goal` that crosses all portals in order: the taut path.
+/// Returns the shortest polyline from `start` to `goal` that crosses all portals in order.
 ///
-/// Consecutive portals must lie on the border of a common convex cell, start and goal in the first and the last one.
-/// The *funnel* algorithm (Lee, Preparata 1984), linear. Turns are decided exactly, so in exact arithmetic every piece
-/// crosses its portals.
+/// Consecutive portals must lie on the border of a common convex cell; `start` lies in the first cell and `goal` in
+/// the last. This is the *funnel* algorithm (Lee, Preparata 1984), with linear cost. Turns are decided exactly, so
+/// in exact arithmetic the path crosses every portal.
 #[must_use]
 pub fn funnel_path(start: Point, goal: Point, portals: &[Portal]) -> Vec<Point> {
     let turns = turns(start, goal, portals).into_iter().map(|turn| turn.at);
@@ -26,11 +26,11 @@ pub fn funnel_path(start: Point, goal: Point, portals: &[Portal]) -> Vec<Point> 
     path
 }
 
-/// Returns the place on a segment with the shortest funnel path through the portals.
+/// Returns the goal on a segment with the shortest funnel path through the portals.
 ///
-/// The length is a convex function of the place, which golden-section search minimises. The path is straight after its
-/// last turn, so the place nearest to that turn is the exact minimum if it is at least as good. Takes some dozens of
-/// funnel paths.
+/// The length is a convex function of the goal's position, so golden-section search finds the minimum approximately.
+/// After its last turn the path is straight. So the function also tries the goal nearest to that turn, and returns
+/// it if its path is not longer. Computes some dozens of funnel paths.
 #[must_use]
 pub fn nearest_end(start: Point, goals: &Segment, portals: &[Portal]) -> Point {
     let euclid = Measure::from(Metric::Euclidean);
@@ -57,10 +57,10 @@ pub fn nearest_end(start: Point, goals: &Segment, portals: &[Portal]) -> Point {
     if to_foot <= shortest * (1.0 + LENGTH_ROUNDING) { foot } else { best }
 }
 
-/// Golden sections: they leave less than a millionth of the segment.
+/// Number of steps of the golden-section search: they narrow the segment to less than a millionth.
 const GOLDEN_SECTIONS: usize = 30;
 
-/// Share by which a length may be greater for rounding.
+/// Relative rounding error allowed when two lengths are compared.
 const LENGTH_ROUNDING: f64 = 1e-12;
 
 /// Returns the turns of the funnel path, in order, without start and goal.
@@ -77,23 +77,23 @@ pub fn turns(start: Point, goal: Point, portals: &[Portal]) -> Vec<Turn> {
     path
 }
 
-/// An end of a portal that bounds the funnel, and at which the string may turn.
+/// A point at which the path may turn: an end of a portal, or the goal.
 #[derive(Debug, Clone, Copy)]
 pub struct Turn {
-    /// Position of the turn.
+    /// The point.
     pub at: Point,
-    /// Index of the portal.
+    /// Index of the portal that ends there; the number of portals for the goal.
     pub portal: usize,
 }
 
 const RIGHT_SIDE: usize = 0;
 const LEFT_SIDE: usize = 1;
 
-/// The shortest paths from the apex to both ends of a portal: chains that turn outwards.
+/// The shortest paths from the apex to both ends of a portal, as chains of turns that bend outwards.
 struct Funnel {
     apex: Point,
     chains: [VecDeque<Turn>; 2],
-    /// The turns of the path up to the apex, included.
+    /// The turns of the path up to the apex, which is the last of them.
     path: Vec<Turn>,
 }
 
@@ -105,12 +105,13 @@ impl Funnel {
             self.add(LEFT_SIDE, Turn { at: left, portal });
         }
         if left == self.apex || right == self.apex {
-            // Passed at the apex itself, in any direction.
+            // The path passes this portal at the apex, in any direction.
             self.chains.iter_mut().for_each(VecDeque::clear);
         }
     }
 
-    /// Makes a point the end of a chain. Where it is beyond the other chain, the string turns at that.
+    /// Makes `turn` the end of a chain. If it is beyond the other chain, the path turns at the points of that chain
+    /// that it passes.
     fn add(&mut self, side: usize, turn: Turn) {
         let [inwards, outwards] = match side {
             RIGHT_SIDE => [Orientation::CounterClockwise, Orientation::Clockwise],
@@ -174,7 +175,7 @@ mod tests {
 
     #[test]
     fn a_turn_back_on_one_vertical_avoids_obstacles_between() {
-        // Right below the wall, left above it; the wall ends at (2, 1) and (2, 1.5).
+        // The path passes right of the wall, then left of it. The wall ends at (2, 1) and (2, 1.5).
         let wall = [portal((2.0, 1.0), (2.0, 0.0)), portal((2.0, 1.5), (2.0, 3.0))];
         let path = funnel_path(Point::new(0.0, 0.5), Point::new(0.0, 2.0), &wall);
         assert_eq!(path, points(&[(0.0, 0.5), (2.0, 1.0), (2.0, 1.5), (0.0, 2.0)]));
@@ -197,8 +198,8 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(2000))]
 
-        /// Compares with the shortest of all paths between ends of portals that cross the portals between. On a coarse
-        /// lattice many ends are collinear.
+        /// Compares with the shortest of all paths from one portal end to another that cross the portals in between.
+        /// On a coarse lattice many ends are collinear.
         #[test]
         fn no_path_from_end_to_end_is_shorter(
             ends in prop::collection::vec((-4..4i32, 0..4i32), 0..12), start in -4..4i32, goal in -4..4i32,

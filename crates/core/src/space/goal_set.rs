@@ -1,13 +1,13 @@
-//! The set of configurations in which a motion may end.
+//! Sets of goals.
 
 use super::{Configuration, Measure, Metric, Segment, Topology};
 use serde::{Deserialize, Serialize};
 
-/// A set of alternative goals: single configurations, and straight segments of them.
+/// A set of alternative goals: single configurations, and straight segments of configurations.
 ///
-/// A goal of the tip leaves a joint free if the tip is on that joint's axis, or if the tip's goal is on the axis of
-/// joint 1. Then all values of the joint within its limits are goals, which is a segment. On a circle, copies by whole
-/// turns belong to the set.
+/// A tip goal leaves a joint free if the tip is on that joint's axis, or if the target is on the axis of joint 1.
+/// Then all values of the joint within its limits are goals, which is a segment. On a circle, copies by whole turns
+/// belong to the set.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct GoalSet {
@@ -15,29 +15,31 @@ pub struct GoalSet {
 }
 
 impl GoalSet {
-    /// Returns its pieces; points are segments of length 0.
+    /// Returns the segments of the set; a single configuration is a segment of length 0.
     #[must_use]
     pub fn pieces(&self) -> &[Segment] {
         &self.pieces
     }
 
-    /// Iterates over its single configurations.
+    /// Iterates over the single configurations of the set.
     pub fn points(&self) -> impl Iterator<Item = Configuration> {
         self.pieces.iter().filter(|piece| piece.is_point()).map(|piece| piece.ends()[0])
     }
 
-    /// Returns true if it is empty.
+    /// Returns true if there are no goals.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.pieces.is_empty()
     }
 
-    /// Iterates over the copies of its pieces in the fundamental domain; several cover a piece across a seam.
+    /// Iterates over the copies of all segments that overlap the fundamental domain. A segment across a seam has
+    /// several.
     pub fn wrapped(&self, topology: &Topology) -> impl Iterator<Item = Segment> {
         self.pieces.iter().flat_map(|piece| piece.wrapped(topology))
     }
 
-    /// Returns the configuration of the set nearest to `q`, as the copy nearest to it; the first of several.
+    /// Returns the goal nearest to `q`, as its copy nearest to `q`; the first if several are equally near. `None` if
+    /// the set is empty.
     #[must_use]
     pub fn nearest(&self, topology: &Topology, metric: Metric, q: Configuration) -> Option<Configuration> {
         let measure = Measure::from(metric);
@@ -46,13 +48,13 @@ impl GoalSet {
         places.reduce(|best, next| if metric.norm(next - q) < metric.norm(best - q) { next } else { best })
     }
 
-    /// Returns the length of the shortest displacement from `q` to the set; infinite if it is empty.
+    /// Returns the length of the shortest displacement from `q` to a goal; infinite if there is none.
     #[must_use]
     pub fn distance(&self, topology: &Topology, metric: Metric, q: Configuration) -> f64 {
         self.nearest(topology, metric, q).map_or(f64::INFINITY, |goal| metric.norm(goal - q))
     }
 
-    /// Returns true if `q`, or a copy of it, is in the set up to a Euclidean distance.
+    /// Returns true if `q` or a copy of it is within a Euclidean distance of `tolerance` of a goal.
     #[must_use]
     pub fn contains(&self, topology: &Topology, q: Configuration, tolerance: f64) -> bool {
         self.distance(topology, Metric::Euclidean, q) <= tolerance
@@ -115,7 +117,7 @@ mod tests {
         assert_eq!(wrapped(at(PI, 0.5), at(PI, 1.0)), [Segment::new(at(-PI, 0.5), at(-PI, 1.0))]);
         let across = wrapped(at(3.0, 0.5), at(4.0, 0.5));
         assert_eq!(across[1..], [Segment::new(at(3.0, 0.5), at(4.0, 0.5))]);
-        // Turns are taken off with more digits than a double 2 pi has.
+        // Whole turns are subtracted with more digits of 2 pi than a double has.
         let [from, to] = across[0].ends();
         assert!((from - at(3.0 - TAU, 0.5)).amax().max((to - at(4.0 - TAU, 0.5)).amax()) < 1e-15, "{across:?}");
     }

@@ -1,19 +1,20 @@
-//! A metric in the form that shortest-path searches use.
+//! Norms for shortest-path searches, which break ties of travel time.
 
 use super::{Metric, Segment};
 use cplan_geometry::{Point, Vector, cross};
 
-/// Weight of the Euclidean length beside travel time. Among motions that take equally long it prefers the shortest; no
-/// path that it chooses takes longer than the quickest by more than this part of its Euclidean length at the higher of
-/// the top speeds. Far above the rounding of sums of lengths.
+/// Weight of the Euclidean length in a sum with travel time. Among paths of equal time the sum prefers the shortest.
+/// The time that is lost is at most this fraction of the path's Euclidean length divided by the higher top speed.
+/// The weight is far above the rounding of sums of lengths.
 const TIE_BREAK_WEIGHT: f64 = 1e-10;
 
-/// A norm whose balls have no flat sides, so that pulling a path taut makes it shorter.
+/// A norm whose unit ball has no flat sides, so that pulling a path taut always shortens it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Measure {
-    /// Euclidean length after both coordinates have been multiplied by weights.
+    /// Euclidean length of the displacement with its coordinates multiplied by these weights.
     Ellipse([f64; 2]),
-    /// The greater of both coordinates multiplied by weights, and a little of the Euclidean length.
+    /// The greater of the coordinates' magnitudes multiplied by these weights, plus a small multiple of the
+    /// Euclidean length.
     Rectangle([f64; 2]),
 }
 
@@ -28,7 +29,7 @@ impl From<Metric> for Measure {
 }
 
 impl Measure {
-    /// Returns the length of a displacement.
+    /// Returns the norm of a displacement.
     #[must_use]
     pub fn norm(self, d: Vector) -> f64 {
         match self {
@@ -39,24 +40,25 @@ impl Measure {
         }
     }
 
-    /// Returns the factor of each coordinate.
+    /// Returns the weight of each coordinate.
     #[must_use]
     pub fn weights(self) -> [f64; 2] {
         let (Self::Ellipse(weights) | Self::Rectangle(weights)) = self;
         weights
     }
 
-    /// Returns true if balls are ellipses.
+    /// Returns true for [`Measure::Ellipse`], whose balls are ellipses.
     #[must_use]
     pub fn is_ellipse(self) -> bool {
         matches!(self, Self::Ellipse(_))
     }
 
-    /// Returns a lower bound on the length of paths from `root` to the nearest of the `goals` through a segment, from
-    /// `right` to `left` as seen from the root.
+    /// Returns a lower bound on the length of paths from `root` to the nearest of the `goals` that cross a segment.
+    /// `ends` are the right and left end of that segment as seen from the root.
     ///
-    /// It is the length of the shortest such path, except for [`Measure::Rectangle`] and goals on the root's side. Two
-    /// points farther apart give the line of the segment in the same direction, because the segment may be a point.
+    /// The bound is the length of the shortest such path, except for [`Measure::Rectangle`] with goals on the root's
+    /// side. `line` has two points farther apart on the line of the segment, in the same direction, because the
+    /// segment may be a point.
     #[must_use]
     pub fn through(self, root: Point, ends: [Point; 2], line: [Point; 2], goals: &Segment) -> f64 {
         let along = line[1] - line[0];
@@ -67,7 +69,7 @@ impl Measure {
         let beyond = goals.where_positive(-from, -to).map_or(f64::INFINITY, |beyond| self.across(root, ends, &beyond));
         let Some(before) = goals.where_positive(from, to) else { return beyond };
         let Self::Ellipse([u, v]) = self else { return beyond.min(before.distance(self, root)) };
-        // There and back is as long as to the mirror image.
+        // A path to the line and back is as long as the path to the goal's mirror image.
         let product = |a: Vector, b: Vector| u * u * a.x * b.x + v * v * a.y * b.y;
         let mirrored = |goal: Point| {
             let foot = line[0] + along * (product(goal - line[0], along) / product(along, along));
@@ -77,11 +79,11 @@ impl Measure {
         beyond.min(self.across(root, ends, &Segment::new(a, b)))
     }
 
-    /// Does the same if all goals lie beyond the segment.
+    /// Does the same as [`Measure::through`] if all goals lie beyond the segment.
     ///
-    /// The length of a path over a point of the segment's line is a convex function of that point, and least where the
-    /// straight line to the nearest goal crosses the segment's line. If that point is outside of the segment, the
-    /// nearest end is optimal.
+    /// The length of a path over a point of the segment's line is a convex function of that point. It is least where
+    /// the straight line to the nearest goal crosses the segment's line. If that point is outside of the segment,
+    /// the nearest end is optimal.
     fn across(self, root: Point, [right, left]: [Point; 2], goals: &Segment) -> f64 {
         let goal = goals.nearest(self, root) - root;
         let via = |end: Point| self.norm(end - root) + goals.distance(self, end);
@@ -135,7 +137,7 @@ mod tests {
             }
         }
 
-        /// Goals all along a segment: against the least over many of them.
+        /// Compares the bound for a segment of goals with the least bound over many goals on it.
         #[test]
         fn bounds_are_the_shortest_path_to_any_goal(
             root in (-3.0..3.0, 0.1..2.0f64),

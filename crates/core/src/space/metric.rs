@@ -1,30 +1,30 @@
-//! Metrics on motions in joint space.
+//! Metrics of joint space.
 
 use super::{Configuration, Path};
 
-/// A norm on displacements in joint space. For every norm, shortest paths among polygons turn at convex corners only:
-/// replacing a piece of a path by the straight segment never makes it longer. So the funnel path is as short as any
-/// path in its homotopy class.
+/// A norm on displacements in joint space. For every norm, a path does not get longer if a straight segment replaces
+/// a piece of it. So some shortest path among polygons turns at convex corners only, and the funnel path is as short
+/// as any path in its homotopy class.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum Metric {
-    /// `sqrt(d1^2 + d2^2)`, mixing radians and metres.
+    /// `sqrt(d1^2 + d2^2)`, which adds squares of radians and metres.
     #[default]
     Euclidean,
     /// `sqrt((w1 d1)^2 + (w2 d2)^2)`.
     Weighted {
-        /// A joint's weight, positive.
+        /// A positive weight for each joint.
         weights: [f64; 2],
     },
-    /// The greater of `|d1| / v1` and `|d2| / v2`: seconds at the joints' top speeds, in a motion of both joints
-    /// together.
+    /// The greater of `|d1| / v1` and `|d2| / v2`: the time, seconds, in which both joints move together at their
+    /// top speeds.
     Time {
-        /// A joint's top speed, positive; radians or metres a second.
+        /// Top speed of each joint, rad/s or m/s; positive.
         speeds: [f64; 2],
     },
 }
 
 impl Metric {
-    /// Returns the length of a straight displacement.
+    /// Returns the norm of a displacement.
     #[must_use]
     pub fn norm(self, d: Configuration) -> f64 {
         match self {

@@ -1,15 +1,16 @@
-//! Configurations, paths, and the topology of the space they live in.
+//! Configurations, paths, and the topology of joint space.
 //!
-//! Goals are a set ([`GoalSet`]): configurations, and segments if a tip goal leaves a joint free. Roadmaps end where
-//! their last leg meets a segment perpendicularly, or at an end of its free part. Fields start in all its free cells.
-//! Boxes that meet it are goals for certificates and proofs, and bounds refer to its nearest point.
+//! Goals are a [`GoalSet`]: configurations, and segments if a tip goal leaves a joint free. A roadmap ends where its
+//! last edge meets a segment at a right angle, or at an end of the segment's free part. A field has all free cells
+//! of a segment as goals. Certificates and proofs treat every box that meets a segment as a goal, and lower bounds
+//! use the segment's nearest point.
 //!
 //! ```
 //! use cplan_core::space::{Configuration, JointRange, Topology};
 //!
 //! let topology = Topology { ranges: [JointRange::Circle, JointRange::Interval { lower: -2.0, upper: 2.0 }] };
 //! let (from, to) = (Configuration::new(3.0, 0.0), Configuration::new(-3.0, 0.0));
-//! // The short direction crosses the seam, where the path continues to count.
+//! // The shorter direction crosses the seam, and values continue to count past pi.
 //! assert!((topology.distance(from, to) - (std::f64::consts::TAU - 6.0)).abs() < 1e-12);
 //! assert!(topology.lift(to, from)[0] > 3.0);
 //! ```

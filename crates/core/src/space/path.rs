@@ -2,15 +2,15 @@
 
 use super::Configuration;
 
-/// A polyline in joint space, in *unwrapped* values. On a circle axis a waypoint may lie beyond a turn, so the
-/// direction of a motion around it is never ambiguous. At least one waypoint.
+/// A polyline in joint space, in *unwrapped* values: on a circle, a waypoint may lie beyond pi, so the direction of
+/// a motion around the circle is never ambiguous. A path has at least one waypoint.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Path {
     waypoints: Vec<Configuration>,
 }
 
 impl Path {
-    /// Creates a path through `waypoints`, without consecutive repetitions.
+    /// Creates a path through `waypoints`; drops each waypoint that equals the one before it.
     ///
     /// # Panics
     /// If there are no waypoints.
@@ -39,13 +39,13 @@ impl Path {
         self.waypoints[self.waypoints.len() - 1]
     }
 
-    /// Iterates over the straight pieces. A path without motion has none.
+    /// Iterates over the straight segments. A path without motion has none.
     pub fn segments(&self) -> impl Iterator<Item = (Configuration, Configuration)> + '_ {
         self.waypoints.windows(2).map(|w| (w[0], w[1]))
     }
 
-    /// Returns the part between two distances along it, in joint space; reversed if the first is greater. Distances are
-    /// clamped to its ends.
+    /// Returns the part between two distances from the start, measured along the path by its Euclidean length. The
+    /// part is reversed if `from` is greater than `to`. Distances are clamped to the path's ends.
     #[must_use]
     pub fn part(&self, from: f64, to: f64) -> Self {
         if from > to {
@@ -75,7 +75,7 @@ impl Path {
         if waypoints.is_empty() { Self::new(vec![self.goal()]) } else { Self::new(waypoints) }
     }
 
-    /// Returns the Euclidean length in joint space (mixing rad and m).
+    /// Returns the Euclidean length in joint space, which adds squares of radians and metres.
     #[must_use]
     pub fn length(&self) -> f64 {
         // Not `sum`, which is -0 for an empty path.

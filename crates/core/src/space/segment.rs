@@ -4,7 +4,7 @@ use super::{Configuration, Measure};
 use cplan_geometry::{Orientation, Point, cross, orientation};
 use serde::{Deserialize, Serialize};
 
-/// All configurations on a straight line between two; a single one if both ends are equal.
+/// A straight line between two configurations, both included; a single configuration if they are equal.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(from = "[Configuration; 2]", into = "[Configuration; 2]")]
 pub struct Segment {
@@ -19,31 +19,32 @@ impl Segment {
         Self { from, to }
     }
 
-    /// Creates a single configuration.
+    /// Creates a segment of a single configuration.
     #[must_use]
     pub fn point(q: Configuration) -> Self {
         Self { from: q, to: q }
     }
 
-    /// Returns its two ends.
+    /// Returns the two ends.
     #[must_use]
     pub fn ends(&self) -> [Configuration; 2] {
         [self.from, self.to]
     }
 
-    /// Returns true if it is a single configuration.
+    /// Returns true if the segment is a single configuration.
     #[must_use]
     pub fn is_point(&self) -> bool {
         self.from == self.to
     }
 
-    /// Returns the distance of its ends in joint space.
+    /// Returns the Euclidean length in joint space.
     #[must_use]
     pub fn length(&self) -> f64 {
         (self.to - self.from).norm()
     }
 
-    /// Returns the configuration at a share from end to end. A coordinate that both ends share keeps all its bits.
+    /// Returns the configuration at a fraction of the segment, 0 at the first end and 1 at the second. A coordinate
+    /// that is equal at both ends stays exactly equal.
     #[must_use]
     pub fn at(&self, share: f64) -> Configuration {
         match share {
@@ -53,13 +54,14 @@ impl Segment {
         }
     }
 
-    /// Returns a shifted copy.
+    /// Returns the segment moved by a displacement.
     #[must_use]
     pub fn shifted(&self, by: Configuration) -> Self {
         Self { from: self.from + by, to: self.to + by }
     }
 
-    /// Returns the part on which an affine function is not negative, given its values at both ends.
+    /// Returns the part on which an affine function is not negative, given its values at the two ends; `None` if
+    /// there is none.
     #[must_use]
     pub fn where_positive(&self, at_from: f64, at_to: f64) -> Option<Self> {
         let share = at_from / (at_from - at_to);
@@ -71,21 +73,21 @@ impl Segment {
         }
     }
 
-    /// Returns the part on or to the left of the directed line from `a` to `b`.
+    /// Returns the part on or to the left of the directed line from `a` to `b`; `None` if there is none.
     #[must_use]
     pub fn left_of(&self, a: Point, b: Point) -> Option<Self> {
         let [from, to] = self.ends().map(|p| cross(b - a, p - a));
         self.where_positive(from, to)
     }
 
-    /// Returns the part in a convex polygon, counter-clockwise.
+    /// Returns the part in a convex polygon with these corners, counter-clockwise; `None` if there is none.
     #[must_use]
     pub fn within_polygon(&self, corners: &[Point]) -> Option<Self> {
         let n = corners.len();
         (0..n).try_fold(*self, |part, k| part.left_of(corners[k], corners[(k + 1) % n]))
     }
 
-    /// Returns the part in a box, which may have infinite sides.
+    /// Returns the part in a box, which may have infinite sides; `None` if there is none.
     #[must_use]
     pub fn within(&self, lower: [f64; 2], upper: [f64; 2]) -> Option<Self> {
         (0..2).try_fold(*self, |part, k| {
@@ -94,7 +96,7 @@ impl Segment {
         })
     }
 
-    /// Returns true if any part of it lies in a box, sides included. Exact.
+    /// Returns true if the segment and a box have a point in common, sides included. Exact.
     #[must_use]
     pub fn meets(&self, lower: [f64; 2], upper: [f64; 2]) -> bool {
         let overlaps = |k: usize| {
@@ -107,14 +109,16 @@ impl Segment {
         if self.from[0] == self.to[0] || self.from[1] == self.to[1] {
             return true;
         }
-        // A slanted segment misses a box that it overlaps along both axes if all corners lie on one side of it.
+        // Both ranges overlap, and the segment is slanted. It misses the box exactly if all corners lie strictly on
+        // one side.
         let [a, b] = self.ends();
         let sides = [[lower[0], lower[1]], [upper[0], lower[1]], [upper[0], upper[1]], [lower[0], upper[1]]]
             .map(|[x, y]| orientation(a, b, Point::new(x, y)));
         [Orientation::Clockwise, Orientation::CounterClockwise].iter().all(|side| sides.iter().any(|s| s != side))
     }
 
-    /// Returns its place nearest to `p`, the first of several; exact up to rounding.
+    /// Returns the configuration of the segment nearest to `p`, up to rounding; the first if several are equally
+    /// near.
     #[must_use]
     pub fn nearest(&self, measure: Measure, p: Configuration) -> Configuration {
         if self.is_point() {
@@ -128,7 +132,8 @@ impl Segment {
         if measure.is_ellipse() {
             return self.at(foot);
         }
-        // The maximum of two terms is least at an end, where one term vanishes, or where both are equal.
+        // The maximum of two terms is least at an end of the segment, where one term vanishes, or where both are
+        // equal.
         let share = |rate: f64, value: f64| if rate == 0.0 { 0.0 } else { value / rate };
         let shares = [
             foot,
@@ -145,7 +150,7 @@ impl Segment {
         shares.into_iter().map(|share| self.at(share)).reduce(better).unwrap_or(self.from)
     }
 
-    /// Returns the length of the shortest displacement from `p` to it.
+    /// Returns the length of the shortest displacement from `p` to the segment.
     #[must_use]
     pub fn distance(&self, measure: Measure, p: Configuration) -> f64 {
         measure.norm(self.nearest(measure, p) - p)

@@ -1,25 +1,25 @@
-//! Random numbers and configurations that follow from a seed.
+//! Random numbers and configurations that depend only on a seed.
 
 use super::{Configuration, Topology};
 
 /// A sequence of random numbers, the same on every machine for the same seed.
 ///
-/// Sebastiano Vigna's SplitMix64: 64 bits of state. Implemented here so that no library release can change the numbers
-/// of a seed.
+/// This is Sebastiano Vigna's SplitMix64, with 64 bits of state. It is implemented here so that no library release
+/// can change the numbers of a seed.
 #[derive(Debug, Clone)]
 pub struct SplitMix64(u64);
 
 impl SplitMix64 {
-    /// Starts the sequence of a seed.
+    /// Creates the sequence of a seed.
     #[must_use]
     pub fn new(seed: u64) -> Self {
         Self(seed)
     }
 
-    /// Starts the `number`-th of many sequences of a seed.
+    /// Creates sequence `number` of a seed.
     #[must_use]
     pub fn nth(seed: u64, number: u64) -> Self {
-        // The numbers of a sequence are as good as random, and so are those that begin with them.
+        // Numbers of a sequence are random enough to be seeds themselves.
         let mut seeds = Self(seed ^ number.rotate_left(32));
         Self(seeds.bits())
     }
@@ -33,12 +33,13 @@ impl SplitMix64 {
         z ^ (z >> 31)
     }
 
-    /// Returns a uniform number in `[0, 1)`, a multiple of 2^-53.
+    /// Returns a number that is uniform in `[0, 1)` and a multiple of 2^-53.
     pub fn unit(&mut self) -> f64 {
         (self.bits() >> 11) as f64 / (1_u64 << 53) as f64
     }
 
-    /// Returns the next configuration, uniform within the limits, and within a turn on circles; joint 1 is drawn first.
+    /// Returns a uniform configuration within the limits, on circles within one turn. Draws the value of joint 1
+    /// first.
     pub fn configuration(&mut self, topology: &Topology) -> Configuration {
         let [q1, q2] = topology.ranges.map(|axis| {
             let (lower, upper) = axis.domain();

@@ -1,18 +1,18 @@
-//! Intervals and circles: the only code that wraps configurations.
+//! Intervals and circles. Only this module wraps configurations.
 
 use super::Configuration;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::{PI, TAU};
 
-/// Difference between a whole turn and the double [`TAU`], to double precision. After 80 000 turns (half a million
-/// radians) it adds up to 2e-11 rad, far more than the margins of certificates.
+/// Exact 2 pi less the double [`TAU`], to double precision. Over 80 000 turns (half a million radians) the
+/// difference adds up to 2e-11 rad, far more than the margins of certificates.
 const TAU_REMAINDER: f64 = 2.449_293_598_294_706_4e-16;
 
-/// Returns `turns` whole turns as a sum of two doubles, exact to far below a rounding of the second. `turns` is an
-/// integer.
+/// Returns the angle of `turns` whole turns as the sum of two doubles. The error is far below a rounding of the
+/// second. `turns` must be an integer.
 fn whole_turns(turns: f64) -> [f64; 2] {
     let high = turns * TAU;
-    // The rounding error of the product, exactly.
+    // The multiplication's rounding error, exactly.
     let left_out = turns.mul_add(TAU, -high);
     [high, left_out + turns * TAU_REMAINDER]
 }
@@ -24,7 +24,7 @@ fn two_sum(a: f64, b: f64) -> [f64; 2] {
     [sum, (a - (sum - of_b)) + (b - of_b)]
 }
 
-/// Returns `value` plus whole turns, correct to two roundings of the result, even if the two cancel.
+/// Returns `value` plus whole turns. The error is at most two roundings of the result, even if the two terms cancel.
 fn turned(value: f64, turns: f64) -> f64 {
     if turns == 0.0 {
         return value;
@@ -38,15 +38,15 @@ fn turned(value: f64, turns: f64) -> f64 {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum JointRange {
-    /// An interval from `lower` to `upper`, both included. The range of a revolute joint may exceed a full turn: then
-    /// poses repeat within it, but configurations do not.
+    /// An interval from `lower` to `upper`, both included. The range of a revolute joint may exceed a full turn.
+    /// Values that differ by whole turns then have the same pose, but are different configurations.
     Interval {
         /// The least value of the joint.
         lower: f64,
         /// The greatest value of the joint.
         upper: f64,
     },
-    /// A joint without limits: values that differ by whole turns are the same configuration.
+    /// A joint without limits. Values that differ by whole turns are the same configuration.
     Circle,
 }
 
@@ -57,7 +57,8 @@ impl JointRange {
         matches!(self, JointRange::Circle)
     }
 
-    /// Returns the interval that represents every value once: the limits, or `[-pi, pi]`.
+    /// Returns the interval that represents every configuration: the limits, or `[-pi, pi]`, whose ends are the
+    /// same.
     #[must_use]
     pub fn domain(self) -> (f64, f64) {
         match self {
@@ -82,16 +83,16 @@ impl JointRange {
         }
     }
 
-    /// Returns the representative of `value` in the domain: unchanged on an interval, in `[-pi, pi)` on a circle. The
-    /// error is at most 1e-15 for magnitudes up to 1e15, because turns are subtracted with more digits of pi than a
-    /// double has. (Beyond that, a double does not distinguish neighbouring angles.)
+    /// Returns the representative of `value` in the domain: the value itself on an interval, and its copy in
+    /// `[-pi, pi)` on a circle. Turns are subtracted with more digits of pi than a double has, so the error is at most
+    /// 1e-15 for magnitudes up to 1e15. Beyond that, a double does not distinguish neighbouring angles.
     #[must_use]
     pub fn wrap(self, value: f64) -> f64 {
         if self != JointRange::Circle || (-PI..PI).contains(&value) {
             return value;
         }
         let near = turned(value, -(value / TAU).round_ties_even());
-        // The quotient is rounded, too, so one more turn may be needed near the seam.
+        // The quotient is rounded as well, so near the seam one more turn may be needed.
         match near {
             near if near >= PI => turned(near, -1.0).max(-PI),
             near if near < -PI => Some(turned(near, 1.0)).filter(|wrapped| *wrapped < PI).unwrap_or(-PI),
@@ -99,8 +100,8 @@ impl JointRange {
         }
     }
 
-    /// Returns the shortest signed displacement from `from` to `to`; on a circle in `[-pi, pi)`, as exact as
-    /// [`JointRange::wrap`].
+    /// Returns the shortest signed displacement from `from` to `to`. On a circle it is in `[-pi, pi)`, and as exact
+    /// as [`JointRange::wrap`].
     #[must_use]
     pub fn displacement(self, from: f64, to: f64) -> f64 {
         match self {
@@ -112,8 +113,9 @@ impl JointRange {
         }
     }
 
-    /// Returns the copy of `value` nearest to `near`: exactly `value` on an interval, and on a circle if no turn is
-    /// added. Otherwise correct to two roundings: half a million radians from zero, doubles are 6e-11 rad apart.
+    /// Returns the copy of `value` nearest to `near`. On an interval, or if no turn is added, this is exactly
+    /// `value`. Otherwise the error is at most two roundings of the result. (Half a million radians from zero,
+    /// doubles are 6e-11 rad apart.)
     #[must_use]
     pub fn lift(self, value: f64, near: f64) -> f64 {
         match self {
@@ -122,14 +124,14 @@ impl JointRange {
         }
     }
 
-    /// Returns `value` plus an integer number of whole turns, correct to two roundings of the result.
+    /// Returns `value` plus an integer number of whole turns. The error is at most two roundings of the result.
     #[must_use]
     pub fn turned(self, value: f64, turns: f64) -> f64 {
         turned(value, turns)
     }
 
-    /// Iterates over the copies of `value` from `lower` to `upper`, ascending; on an interval only over the value
-    /// itself, wherever it lies. The bounds must be finite.
+    /// Iterates over the copies of `value` from `lower` to `upper`, in ascending order. On an interval the only copy
+    /// is the value itself, even if it lies outside these bounds. The bounds must be finite.
     pub fn copies_within(self, value: f64, (lower, upper): (f64, f64)) -> impl Iterator<Item = f64> {
         let turns = match self {
             JointRange::Interval { .. } => 0..=0,
@@ -139,15 +141,15 @@ impl JointRange {
     }
 }
 
-/// The configuration space as a manifold: a product of two axes (rectangle, cylinder or torus).
+/// The shape of joint space: a product of two axes, which is a rectangle, cylinder or torus.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Topology {
-    /// Base to tip.
+    /// The ranges of joints 1 and 2.
     pub ranges: [JointRange; 2],
 }
 
 impl Topology {
-    /// Returns true if both values are allowed.
+    /// Returns true if both joint values are allowed.
     #[must_use]
     pub fn contains(&self, q: Configuration) -> bool {
         self.ranges[0].contains(q[0]) && self.ranges[1].contains(q[1])
@@ -171,7 +173,7 @@ impl Topology {
         self.displacement(from, to).norm()
     }
 
-    /// Returns the copy of `q` nearest to `near`, axis by axis as [`JointRange::lift`].
+    /// Returns the copy of `q` nearest to `near`; each axis follows [`JointRange::lift`].
     #[must_use]
     pub fn lift(&self, q: Configuration, near: Configuration) -> Configuration {
         Configuration::new(self.ranges[0].lift(q[0], near[0]), self.ranges[1].lift(q[1], near[1]))
@@ -232,7 +234,7 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(256))]
 
-        /// Compares with exact arithmetic, for angles of any size allowed in worlds.
+        /// Compares with exact arithmetic, for angles of any size that worlds allow.
         #[test]
         fn turns_are_taken_off_exactly(
             mantissa in -10.0..10.0_f64, decade in 0..6_i32, other in -10.0..10.0_f64, far in -1e6..1e6_f64,

@@ -1,17 +1,18 @@
 //! Iterative deepening (Korf 1985): depth-first search within a limit, repeated with greater limits.
 //!
-//! The textbook search keeps no table and expands a cell once for each path that leads there, which takes exponential
-//! time on a grid. Here each round expands a cell once, at its least number of moves, which previous rounds have found.
+//! The textbook search keeps no table. It expands a cell once for each path to the cell, which takes exponential
+//! time on a grid. Here each round expands a cell at most once, at its least number of moves, which previous rounds
+//! have found.
 
 use super::search::{CELLS_BETWEEN_CHECKPOINTS, Cost, Search};
 use super::{FreeCells, Neighborhood, UNREACHED};
 use cplan_interrupt::checkpoint;
 use std::collections::BTreeSet;
 
-/// Searches from `sources`, which are labelled already, until a round expands a target or labels no cell.
+/// Searches from `sources`, which are labelled already, until a round expands a target or labels no new cell.
 ///
-/// The round of limit `d` expands the cells within `d` moves, each once, so it is linear in their number: all rounds
-/// together take as long as the number of cells times the number of moves to the target.
+/// The round with limit `d` expands the cells within `d` moves, each once, so it is linear in their number. All
+/// rounds together take time proportional to the number of cells times the number of moves to the target.
 pub(super) fn deepen(
     search: &mut Search,
     free: &FreeCells,
@@ -19,7 +20,7 @@ pub(super) fn deepen(
     sources: &[usize],
     targets: &BTreeSet<usize>,
 ) {
-    // The limit of the last round that put the cell on the stack, plus one.
+    // For each cell, one plus the limit of the last round that put it on the stack.
     let mut seen = vec![0_u32; search.parents.len()];
     let mut stack: Vec<usize> = Vec::new();
     for limit in 0.. {
@@ -33,7 +34,7 @@ pub(super) fn deepen(
                 checkpoint();
             }
             let depth = search.costs[cell].moves();
-            // Cells at the limit are expanded for the first time: nearer cells were expanded in the previous round.
+            // A cell at the limit is expanded for the first time. Nearer cells were expanded in the previous round.
             if depth == limit {
                 search.expanded.push(cell as u32);
             }

@@ -1,17 +1,17 @@
-//! The free cells of a grid as packed bits, and the moves between them.
+//! The free cells of a grid, one bit each, and the moves between them.
 
 use crate::cspace::Grid;
 use serde::{Deserialize, Serialize};
 
-/// The cells that are neighbours of a cell.
+/// The cells that count as neighbours of a cell.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Neighborhood {
-    /// The cells that share a side.
+    /// Cells that share a side.
     #[default]
     Four,
-    /// Also those that share a corner. A diagonal move needs both adjacent cells free, because it passes through the
-    /// corner that all four share, and touching is contact.
+    /// Cells that share a side or a corner. A diagonal move needs both adjacent cells free. It passes through the
+    /// corner that all four cells share, and touching a blocked cell is contact.
     Eight,
 }
 
@@ -29,26 +29,26 @@ impl Neighborhood {
 /// A move between neighbouring cells.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Move {
-    /// Index of the cell that it leads to.
+    /// Index of the cell to which the move leads.
     pub to: usize,
     /// True for a move through a corner.
     pub is_diagonal: bool,
 }
 
-/// The free cells of a grid: one bit each, so that 4096 x 4096 cells take 2 MiB and stay in the cache. Cells have their
-/// index in the grid, `i * cells[1] + j`.
+/// The free cells of a grid, one bit each. 4096 x 4096 cells take 2 MiB, which fits in the cache. Cell `(i, j)` has
+/// its index in the grid, `i * cells[1] + j`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FreeCells {
     cells: [usize; 2],
     circles: [bool; 2],
-    /// Number of words per row; each row begins in a separate word.
+    /// Number of words per row. Each row begins in a new word.
     words: usize,
-    /// Bits beyond the last column are 0.
+    /// One bit per cell, 1 if free. Bits beyond the last column are 0.
     bits: Vec<u64>,
 }
 
 impl FreeCells {
-    /// Builds the bits. Linear in the number of cells.
+    /// Collects the free cells. Linear in the number of cells.
     ///
     /// # Panics
     /// If there are `2^32 - 1` cells or more.
@@ -72,7 +72,7 @@ impl FreeCells {
         self.cells
     }
 
-    /// Returns true for each axis whose last row (column) borders on the first.
+    /// Returns, for each axis, true if its last row or column borders on the first.
     #[must_use]
     pub fn circles(&self) -> [bool; 2] {
         self.circles
@@ -90,8 +90,9 @@ impl FreeCells {
         self.has(index / self.cells[1], index % self.cells[1])
     }
 
-    /// Iterates over the moves from cell `from`, also across the seams of circles: first to cells that share a side, in
-    /// the order `-q1, +q1, -q2, +q2`, then diagonal ones in the same order.
+    /// Iterates over the moves from cell `from`, also across the seams of circles. Moves to cells that share a side
+    /// come first, in the order `-q1, +q1, -q2, +q2`, then diagonal ones: `-q1 -q2`, `-q1 +q2`, `+q1 -q2`,
+    /// `+q1 +q2`.
     pub fn moves(&self, from: usize, neighborhood: Neighborhood) -> impl Iterator<Item = Move> + use<> {
         let columns = self.cells[1];
         let (i, j) = (from / columns, from % columns);
@@ -113,7 +114,7 @@ impl FreeCells {
         moves(straight, false).chain(moves(diagonals, true))
     }
 
-    /// Returns the rows (columns) before and after one; `None` beyond a limit.
+    /// Returns the rows or columns before and after number `at`; `None` beyond a limit.
     pub(super) fn beside(&self, axis: usize, at: usize) -> [Option<usize>; 2] {
         let (last, is_circle) = (self.cells[axis] - 1, self.circles[axis]);
         let before = if at > 0 { Some(at - 1) } else { is_circle.then_some(last) };
@@ -139,7 +140,7 @@ impl FreeCells {
         &self.bits[i * self.words..(i + 1) * self.words]
     }
 
-    /// Returns the number of runs: maximal stretches of free cells in a row.
+    /// Returns the number of runs in all rows. A run is a maximal sequence of free cells in a row.
     pub(super) fn runs(&self) -> usize {
         let mut runs = 0;
         for line in self.bits.chunks_exact(self.words.max(1)) {
@@ -152,7 +153,8 @@ impl FreeCells {
         runs
     }
 
-    /// Returns the first column in `from..to` that is free, or not free; `to` if no column is.
+    /// Returns the first column from `from` to before `to` that is free (or blocked, if `free` is false); `to` if
+    /// there is none.
     pub(super) fn next(&self, i: usize, from: usize, to: usize, free: bool) -> usize {
         if from >= to {
             return to;
@@ -170,13 +172,13 @@ impl FreeCells {
         to
     }
 
-    /// Returns the first column of the free run that ends before column `end`, or `end` if the previous cell is not
-    /// free.
+    /// Returns the first column of the free run that ends before column `end`. Returns `end` if the cell before is
+    /// blocked.
     pub(super) fn run_start(&self, i: usize, end: usize) -> usize {
         let line = self.row(i);
         let mut start = end;
         while start > 0 {
-            // The bits of the word up to that of the previous column, shifted to its top.
+            // The bits of the word up to the previous column, shifted to the top of the word.
             let held = (start - 1) % 64 + 1;
             let ones = ((line[(start - 1) / 64] << (64 - held)).leading_ones() as usize).min(held);
             start -= ones;

@@ -1,4 +1,4 @@
-//! The lattice of a grid.
+//! Converts a grid to the lattice of the crate `harmonic`.
 
 use crate::cspace::Grid;
 use cplan_harmonic::Lattice;

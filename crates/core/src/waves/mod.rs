@@ -1,7 +1,8 @@
-//! Steps to the goal: waves over the free cells of a grid, and other classical searches.
+//! Waves and other classical searches over the free cells of a grid.
 //!
-//! A wave proceeds by rows where free cells form long runs (`run_wave`), by tiles of 8 x 8 cells, one bit each, in
-//! mazes and noise (`tile_wave`), and cell by cell where diagonal moves count (`queue_wave`).
+//! There are three waves. `run_wave` proceeds by rows, and is fast if free cells form long runs. `tile_wave`
+//! proceeds by tiles of 8 x 8 cells, one bit each, and is fast in mazes and noise. `queue_wave` proceeds cell by
+//! cell, if diagonal moves count.
 
 mod deepening;
 mod free_cells;

@@ -1,14 +1,14 @@
-//! The wave over eight neighbours, cell by cell.
+//! The wave over eight neighbours, which proceeds cell by cell.
 
 use super::{FreeCells, Neighborhood, UNREACHED};
 use cplan_interrupt::checkpoint;
 
-/// Labels every cell that a wave from `sources` (free cells) reaches over the cells that share a side or a corner, and
-/// all others with [`UNREACHED`].
+/// Labels every cell that a wave from `sources` (free cells) reaches with the number of moves to it, and all others
+/// with [`UNREACHED`]. Moves lead to cells that share a side or a corner.
 ///
-/// Bits mark the cells that are not reached yet; the labels are written once each. Visiting a neighbour takes no
-/// branch: it is always written to the end of the next front, whose length increases only if the cell was not reached
-/// yet.
+/// Bits mark the cells that are not reached yet, and each label is written once. To visit a neighbour takes no
+/// branch: the neighbour is always written to the end of the next front, but the front becomes longer only if the
+/// cell was not reached before.
 pub(super) fn queue_wave_of_eight(free: &FreeCells, sources: &[usize]) -> Vec<u32> {
     let [rows, columns] = free.cells();
     let mut labels = vec![UNREACHED; rows * columns];
@@ -36,8 +36,8 @@ pub(super) fn queue_wave_of_eight(free: &FreeCells, sources: &[usize]) -> Vec<u3
     labels
 }
 
-/// Labels the cells of `front` (rows and columns) and writes those that they reach to `next`, which has room for all
-/// neighbours. Returns the number of those.
+/// Labels the cells of `front`, given by row and column. Writes the cells that they reach to `next`, which must have
+/// room for all neighbours. Returns the number of cells reached.
 fn advance(
     free: &FreeCells,
     front: &[[u32; 2]],
@@ -48,7 +48,7 @@ fn advance(
 ) -> usize {
     let ([rows, columns], words) = (free.cells(), free.words());
     let mut reached = 0;
-    // Writes a cell if it is not reached yet and `allowed` is 1, not 0.
+    // Writes a cell if `allowed` is 1 and the cell is not reached yet; `allowed` is 0 or 1.
     let mut reach = |i: usize, j: usize, allowed: u64| {
         let word = &mut waiting[i * words + j / 64];
         let is_new = *word >> (j % 64) & allowed;

@@ -1,38 +1,39 @@
-//! The wave run by run: many cells at a time.
+//! The wave over four neighbours, which proceeds by runs of cells in a row.
 
 use super::{FreeCells, UNREACHED};
 use cplan_geometry::farthest;
 use std::ops::Range;
 
-/// Number of levels per bucket of waiting stretches. Within a bucket the last one is taken first, so that a stretch is
-/// processed while the row that it came from is still in the cache. Wider buckets give more labels that are too great
-/// initially and must be written again.
+/// Number of levels per bucket of waiting stretches. The last stretch of a bucket is taken first, while the row that
+/// it came from is still in the cache. With more levels per bucket, more labels are too great initially and must be
+/// written again.
 const LEVELS_PER_BUCKET: usize = 16;
 
-/// Cost of handling a stretch beyond copying its cells, in cells (measured; about 100 ns).
+/// Cost of handling a stretch besides copying its cells, in cells (measured; about 100 ns).
 const STRETCH_COST: usize = 64;
 
-/// Greatest work, as a multiple of the number of cells. Beyond it the method gives up, because a queue would be done by
-/// then.
+/// Greatest work, in cells, as a multiple of the number of cells. A wave cell by cell would be finished by then, so
+/// the method gives up.
 const MAX_WORK_PER_CELL: usize = 5;
 
-/// Labels every cell that a wave from `sources` (free cells) reaches over shared sides, and all others with
-/// [`UNREACHED`]. Returns `None` if the method turns out to be slow.
+/// Labels every cell that a wave from `sources` (free cells) reaches over shared sides with the number of moves to
+/// it, and all others with [`UNREACHED`]. Returns `None` if the method turns out to be slow.
 ///
-/// In each row, labels of neighbouring free cells differ by at most one. Suppose a stretch of a row is copied to the
-/// next row, plus one and only where that is less. Then that row keeps this property except at the ends of the copy.
-/// From there the labels increase by one per cell until they meet smaller ones, or a wall. Both are loops without
-/// branches over plain arrays.
+/// In each row, labels of neighbouring free cells differ by at most one. A stretch of a row is passed on to the next
+/// row: its labels plus one are written there wherever that is less. The next row keeps the property, except at the
+/// ends of the stretch. From there the labels increase by one per cell until they meet smaller ones, or a wall. Both
+/// steps are loops without branches over plain arrays.
 ///
-/// The changed stretch of a row is passed on to the next rows, least labels first. A stretch may reach beyond its least
-/// label, so some labels are corrected later by a shorter path. When no stretch waits, no label exceeds a neighbour's
-/// by more than one: these are the distances, independent of the order.
+/// The changed stretch of a row is passed on to the next rows in turn, least labels first. A stretch may reach
+/// beyond its least label, so a shorter path corrects some labels later. When no stretch waits, no label exceeds a
+/// neighbour's by more than one. Such labels are the distances, whatever the order was.
 pub(super) fn run_wave(free: &FreeCells, sources: &[usize]) -> Option<Vec<u32>> {
     let [rows, columns] = free.cells();
     let mut labels = vec![UNREACHED; rows * columns];
     let most = MAX_WORK_PER_CELL.saturating_mul(labels.len().max(STRETCH_COST));
     let mut wave = RunWave { free, labels: &mut labels, queue: Queue::new(columns), work: 0 };
-    // The sources are added one after the other, so rows keep the property.
+    // The sources are added one after the other, so rows keep the property that neighbouring labels differ by at
+    // most one.
     for &source in sources {
         wave.labels[source] = 0;
         let (row, column) = (source / columns, source % columns);
@@ -55,7 +56,7 @@ pub(super) fn run_wave(free: &FreeCells, sources: &[usize]) -> Option<Vec<u32>> 
     Some(labels)
 }
 
-/// The neighbouring rows to which a change is passed on.
+/// The neighbouring rows to which a stretch is passed on.
 #[derive(Debug, Clone, Copy)]
 struct AffectedRows {
     before: bool,
@@ -70,7 +71,7 @@ impl AffectedRows {
     }
 }
 
-/// Neighbouring free cells of a row whose labels are to be passed on.
+/// Neighbouring free cells of a row, whose labels are to be passed on.
 #[derive(Debug, Clone)]
 struct Stretch {
     row: usize,
@@ -89,16 +90,16 @@ struct RunWave<'a> {
     free: &'a FreeCells,
     labels: &'a mut [u32],
     queue: Queue,
-    /// Work so far, in cells; see [`STRETCH_COST`].
+    /// Work done so far, in cells; see [`STRETCH_COST`].
     work: usize,
 }
 
 impl RunWave<'_> {
-    /// Improves row `to`, next to that of the stretch, and queues the changes there.
+    /// Passes a stretch on to the neighbouring row `to`, and queues the changes there.
     fn pass_on(&mut self, stretch: &Stretch, to: usize, rows: AffectedRows) {
         let (from, columns) = (stretch.row, self.free.cells()[1]);
         self.work += STRETCH_COST;
-        // This is a circle of one row.
+        // The circle has only one row.
         if from == to {
             return;
         }
@@ -114,7 +115,8 @@ impl RunWave<'_> {
             let Some((improved, least)) = improve(source, target) else { continue };
             let (first, last) = (start + improved.start, start + improved.end);
             let mut changed = first..last;
-            // Changes along the row lie beside blocked cells, and can get behind them, so they are also passed back.
+            // The changed run may reach behind blocked cells of the row that it came from, so it is passed back as
+            // well.
             if first == start {
                 let value = self.labels[to * columns + first] + 1;
                 changed.start = self.spread(to, first, Side::Before, value, rows.opposite());
@@ -127,8 +129,9 @@ impl RunWave<'_> {
         }
     }
 
-    /// Improves a row from `edge` to one side with `value`, `value + 1`, ..., and queues the changes for `rows`; beyond
-    /// a seam for both rows. Returns the new edge on this side of the seam.
+    /// Writes `value`, `value + 1`, ... to a row from `edge` to one side, while that lowers the labels. Queues the
+    /// changes for `rows`, and those beyond a seam for both rows. Returns the end of the change on this side of the
+    /// seam.
     fn spread(&mut self, row: usize, edge: usize, side: Side, value: u32, rows: AffectedRows) -> usize {
         let columns = self.free.cells()[1];
         let limit = if side == Side::Before { 0 } else { columns };
@@ -139,7 +142,7 @@ impl RunWave<'_> {
         here
     }
 
-    /// Does the same up to a limit or the seam. Returns the new edge and the next value.
+    /// Does the same up to a limit or the seam. Returns the end of the change and the next value.
     fn rise(&mut self, row: usize, edge: usize, side: Side, value: u32, rows: AffectedRows) -> (usize, u32) {
         let columns = self.free.cells()[1];
         let run = match side {
@@ -169,7 +172,8 @@ impl RunWave<'_> {
     }
 }
 
-/// Returns the same columns, starting at `at`, of two different rows: the first for reading, the second for writing.
+/// Returns the same columns of two different rows, which start at `at`: the first for reading, the second for
+/// writing.
 fn two_lines<'a>(labels: &'a mut [u32], at: [usize; 2], columns: &Range<usize>) -> (&'a [u32], &'a mut [u32]) {
     let (low, high) = labels.split_at_mut(at[0].max(at[1]));
     let low_line = |at: usize| at + columns.start..at + columns.end;
@@ -180,8 +184,8 @@ fn two_lines<'a>(labels: &'a mut [u32], at: [usize; 2], columns: &Range<usize>) 
     }
 }
 
-/// Writes `source + 1` where that is less than `target`. Returns the range from the first to the last changed cell, and
-/// the least label there.
+/// Writes `source + 1` wherever that is less than `target`. Returns the range from the first to the last changed
+/// cell, and the least label in it; `None` if nothing changed.
 fn improve(source: &[u32], target: &mut [u32]) -> Option<(Range<usize>, u32)> {
     let better = |(source, target): (&u32, &u32)| *target > *source + 1;
     let first = source.iter().zip(&*target).position(better)?;
@@ -194,8 +198,8 @@ fn improve(source: &[u32], target: &mut [u32]) -> Option<(Range<usize>, u32)> {
     Some((first..last + 1, least))
 }
 
-/// Returns how many of the first `length` numbers satisfy a condition. If the condition fails for a number, it must
-/// fail for all later ones.
+/// Returns how many of the first `length` numbers satisfy a condition. If a number does not satisfy it, all later
+/// ones must not satisfy it either.
 fn prefix(length: usize, condition: impl Fn(usize) -> bool) -> usize {
     if length == 0 || condition(length - 1) {
         return length;
@@ -203,23 +207,23 @@ fn prefix(length: usize, condition: impl Fn(usize) -> bool) -> usize {
     farthest(0, length - 1, |count| condition(count - 1))
 }
 
-/// Stretches by their least label, in a ring of buckets.
+/// The waiting stretches, sorted by their least label into a ring of buckets.
 struct Queue {
     buckets: Vec<Vec<Stretch>>,
-    /// Number of the current bucket, counted around the ring without end.
+    /// Number of the current bucket. It increases without end; the position in the ring is its remainder.
     current: usize,
     waiting: usize,
 }
 
 impl Queue {
-    /// Creates the queue. A stretch is at most as long as a row, and its labels increase by at most one per cell, which
-    /// bounds how far ahead labels can be.
+    /// Creates the queue for rows of `columns` cells. A stretch is at most as long as a row, and its labels increase
+    /// by at most one per cell. That bounds how far labels can be ahead of the current ones.
     fn new(columns: usize) -> Self {
         Self { buckets: vec![Vec::new(); columns / LEVELS_PER_BUCKET + 3], current: 0, waiting: 0 }
     }
 
-    /// Queues a stretch. It is out of order if its label is below the current ones, or too far ahead, which costs only
-    /// time.
+    /// Queues a stretch by its least label. A label below the current ones, or too far ahead, is queued out of
+    /// order, which only costs time.
     fn push(&mut self, label: u32, stretch: Stretch) {
         let ring = self.buckets.len();
         let bucket = (label as usize / LEVELS_PER_BUCKET).clamp(self.current, self.current + ring - 1);

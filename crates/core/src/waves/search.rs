@@ -1,7 +1,7 @@
-//! Textbook searches over the cells of a grid, which expand no more cells than necessary.
+//! Classical searches over the cells of a grid, which expand no more cells than necessary.
 //!
-//! They are not petgraph's, because they must report the number of expanded cells, tie-breaking and exact costs, and
-//! because array indices are faster than petgraph's hash tables. The tests compare their costs with petgraph's.
+//! petgraph's searches do not report the number of expanded cells, offer rules for ties, or use exact costs. Its
+//! hash tables are slower than arrays. The tests compare the costs with petgraph's.
 
 use super::deepening::deepen;
 use super::{FreeCells, Neighborhood, UNREACHED};
@@ -12,44 +12,44 @@ use std::cmp::Reverse;
 use std::collections::{BTreeSet, VecDeque};
 use std::f64::consts::SQRT_2;
 
-/// The order in which cells are expanded. All searches are one algorithm with different open lists.
+/// The order in which cells are expanded. All searches are one algorithm with different lists of waiting cells.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Order {
-    /// First in, first out: fewest moves.
+    /// The cell that was found first. Finds a path with the fewest moves.
     BreadthFirst,
-    /// Last in, first out: any path, seldom a short one.
+    /// The cell that was found last. Finds any path, seldom a short one.
     DepthFirst,
-    /// The cell of least cost: a shortest path.
+    /// The cell of least cost. Finds a shortest path.
     Dijkstra,
-    /// The cell with the least sum of cost and estimated cost of the rest: a shortest path, usually found sooner. The
-    /// estimate is the cost without obstacles, so no cell is expanded twice.
+    /// The cell with the least sum of cost and estimated remaining cost. Finds a shortest path, usually sooner than
+    /// Dijkstra's algorithm. The estimate is the cost without obstacles, so no cell is expanded twice.
     AStar(Ties),
-    /// The cell with the least estimated rest, the latest among equals: any path.
+    /// The cell with the least estimated remaining cost; the latest if several are equal. Finds any path.
     Greedy,
-    /// Depth first, but no deeper than a limit; then again from the beginning with a limit of one more move, until it
-    /// meets a target: fewest moves.
+    /// Depth-first search within a limit of moves, repeated with a limit of one more move until it meets a target.
+    /// Finds a path with the fewest moves.
     IterativeDeepening,
 }
 
-/// The rule for choosing among cells with the same estimate.
+/// The rule for choosing among cells with the same estimated total cost.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Ties {
-    /// The cell farther from the source, the latest among equals: continues straight ahead.
+    /// The cell farther from the source; the latest if several are equal. The search continues straight ahead.
     #[default]
     Farthest,
-    /// The earliest cell: equally promising cells are expanded in rounds, one step at a time.
+    /// The cell that was added first. Cells of equal estimate are expanded in rounds, one step at a time.
     First,
 }
 
 impl Ties {
-    /// Returns true for the default.
+    /// Returns true for the default rule.
     #[must_use]
     pub fn is_usual(&self) -> bool {
         *self == Self::default()
     }
 
-    /// Returns its name on the command line.
+    /// Returns the name on the command line.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -59,8 +59,8 @@ impl Ties {
     }
 }
 
-/// Cost of a path from cell to cell: 1 for a straight move and the square root of 2 for a diagonal one, in cells,
-/// independent of their size in joint space. Exact, because it is stored as two integers.
+/// Cost of a path from cell to cell: 1 for a straight move and the square root of 2 for a diagonal one, whatever the
+/// size of cells in joint space. It is stored as two integers, so it is exact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Cost {
     /// Number of straight moves.
@@ -92,36 +92,38 @@ impl Cost {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Search {
     pub(super) costs: Vec<Cost>,
-    /// The cell from which a cell was labelled, itself for sources; [`UNREACHED`] for cells without a label.
+    /// For each cell, the cell from which it was labelled. Sources have themselves, cells without a label
+    /// [`UNREACHED`].
     pub(super) parents: Vec<u32>,
-    /// Cells that were expanded, each once, in the order of their first expansion.
+    /// The cells that were expanded, each once, in the order of their first expansion.
     pub expanded: Vec<u32>,
-    /// Cells that were put on the list, sources included.
+    /// Number of cells that were labelled, sources included.
     pub labeled: usize,
-    /// The target that ended the search, if it met one.
+    /// The target that ended the search; `None` if it met none.
     pub met: Option<usize>,
     /// Number of rounds: 1, except for iterative deepening.
     pub rounds: usize,
-    /// Number of expansions in all rounds together; a cell may count several times.
+    /// Number of expansions in all rounds together. A cell may count several times.
     pub expansions: usize,
 }
 
-/// Expanding this many cells takes less than a millisecond.
+/// Number of cells that are expanded between two checks for an interruption. They take less than a millisecond.
 pub(super) const CELLS_BETWEEN_CHECKPOINTS: usize = 4096;
 
 impl Search {
-    /// Searches from all free cells among `sources` at once until `target` is expanded, or all reachable cells are.
+    /// Searches from all free cells among `sources` at once, until `target` or all reachable cells have been
+    /// expanded.
     ///
-    /// Breadth-first, depth-first and greedy search label a cell once, when they first reach it; the others lower the
-    /// cost of a cell until it is expanded. Linear in the number of labelled cells, and for Dijkstra and A\* times
-    /// their logarithm; filling the tables is linear in the size of the grid.
+    /// Breadth-first, depth-first and greedy search label a cell once, when they first reach it. The others lower
+    /// the cost of a cell until it is expanded. Linear in the number of labelled cells, for Dijkstra and A\* times
+    /// the logarithm of that number. In addition, tables are filled in time linear in the size of the grid.
     #[must_use]
     pub fn new(free: &FreeCells, neighborhood: Neighborhood, order: Order, sources: &[usize], target: usize) -> Self {
         Self::to_any(free, neighborhood, order, sources, &[target])
     }
 
-    /// Does the same until one of several targets is expanded. The estimate is that of the nearest target, and takes
-    /// time proportional to their number.
+    /// Does the same as [`Search::new`] until one of several targets is expanded. The estimate is that of the
+    /// nearest target, and takes time proportional to the number of targets.
     #[must_use]
     pub fn to_any(
         free: &FreeCells,
@@ -148,7 +150,7 @@ impl Search {
             open.push(source, Cost::default(), estimate(source));
         }
         while let Some((cell, cost)) = open.pop() {
-            // A lower cost has made this entry obsolete.
+            // The cell was reached at a lower cost later, so this entry is obsolete.
             if cost != search.costs[cell] {
                 continue;
             }
@@ -176,7 +178,7 @@ impl Search {
         search
     }
 
-    /// Starts a search: labels its sources, and returns the free ones, each once.
+    /// Labels the sources of a search, and returns the free ones, each once.
     fn begun(free: &FreeCells, sources: &[usize]) -> (Self, Vec<usize>) {
         let [rows, columns] = free.cells();
         let size = rows * columns;
@@ -192,21 +194,22 @@ impl Search {
         (Self { costs, parents, expanded: Vec::new(), labeled, met: None, rounds: 1, expansions: 0 }, begins)
     }
 
-    /// Returns the cost of the path by which `cell` was reached. It is a shortest path for cells that Dijkstra or A\*
-    /// has expanded, and one with fewest moves after a breadth-first search.
+    /// Returns the cost of the path by which `cell` was reached; `None` if it was not reached. For cells that
+    /// Dijkstra or A\* has expanded it is the least cost. After a breadth-first search the path has the fewest
+    /// moves.
     #[must_use]
     pub fn cost(&self, cell: usize) -> Option<Cost> {
         (self.parents[cell] != UNREACHED).then(|| self.costs[cell])
     }
 
-    /// Returns the number of moves on the path by which each cell was reached, or [`UNREACHED`].
+    /// Returns, for each cell, the number of moves on the path by which it was reached; [`UNREACHED`] if it was not.
     #[must_use]
     pub fn labels(&self) -> Vec<u32> {
         let label = |(cost, &parent): (&Cost, &u32)| if parent == UNREACHED { UNREACHED } else { cost.moves() };
         self.costs.iter().zip(&self.parents).map(label).collect()
     }
 
-    /// Returns the cells from `cell` back to the source, if it was reached.
+    /// Returns the cells of the path from `cell` back to the source; `None` if the cell was not reached.
     #[must_use]
     pub fn path_back(&self, cell: usize) -> Option<Vec<usize>> {
         if self.parents[cell] == UNREACHED {
@@ -222,7 +225,7 @@ impl Search {
     }
 }
 
-/// Returns the cost of the unobstructed path between two cells, by the shorter direction on circles.
+/// Returns the cost of a path between two cells without obstacles, in the shorter direction on circles.
 fn straight_cost(free: &FreeCells, neighborhood: Neighborhood, from: usize, to: usize) -> Cost {
     let cells = free.cells();
     let apart = |axis: usize| {
@@ -237,16 +240,17 @@ fn straight_cost(free: &FreeCells, neighborhood: Neighborhood, from: usize, to: 
     }
 }
 
-/// A waiting cell, by estimate; among equals by [`Ties`].
+/// The keys that break ties between waiting cells of equal estimate, followed by the cell and its cost.
 type WaitingCell = (Reverse<OrderedF64>, Reverse<u64>, usize, [u32; 2]);
 
 /// The list of cells that wait for expansion.
 enum OpenCells {
     Queue(VecDeque<(usize, Cost)>),
     Stack(Vec<(usize, Cost)>),
-    /// The least first. The number counts the cells that were added.
+    /// The cell of least estimate first. The number counts the cells that were added.
     Least(OpenList<WaitingCell>, Ties, u64),
-    /// The least rest first, and the latest of equals. The number counts the cells that were added.
+    /// The cell of least remaining cost first, and the latest of equal ones. The number counts the cells that were
+    /// added.
     Nearest(OpenList<WaitingCell>, u64),
 }
 
@@ -254,7 +258,7 @@ impl OpenCells {
     fn new(order: Order) -> Self {
         match order {
             Order::BreadthFirst => Self::Queue(VecDeque::new()),
-            // Each round of iterative deepening is depth first.
+            // Each round of iterative deepening is depth-first.
             Order::DepthFirst | Order::IterativeDeepening => Self::Stack(Vec::new()),
             Order::Dijkstra => Self::Least(OpenList::default(), Ties::First, 0),
             Order::AStar(ties) => Self::Least(OpenList::default(), ties, 0),
@@ -262,7 +266,7 @@ impl OpenCells {
         }
     }
 
-    /// Returns true if cells can get a smaller label later.
+    /// Returns true if the cost of a waiting cell may be lowered.
     fn relaxes(&self) -> bool {
         matches!(self, Self::Least(..))
     }

@@ -1,16 +1,16 @@
-//! Steps to the nearest source, for every free cell.
+//! The number of moves to the nearest source, for every free cell.
 
 use super::queue_wave::queue_wave_of_eight;
 use super::run_wave::run_wave;
 use super::tile_wave::tile_wave;
 use super::{FreeCells, Neighborhood, UNREACHED};
 
-/// Mean length of runs of free cells above which the wave works run by run. In narrower mazes and in noise, tile by
-/// tile is faster.
+/// Mean length of runs of free cells, in cells, above which the wave proceeds by runs. In narrower mazes and in
+/// noise, tiles are faster.
 const MIN_MEAN_RUN: usize = 40;
 
-/// The least number of moves from each cell to a source: the navigation function whose level sets a wave passes through
-/// (Latombe 1991).
+/// The least number of moves from each cell to a source. Its level sets are the fronts of a wave; Latombe (1991)
+/// calls it a navigation function.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StepLabels {
     neighborhood: Neighborhood,
@@ -18,11 +18,12 @@ pub struct StepLabels {
 }
 
 impl StepLabels {
-    /// Labels all cells that are connected with a free cell among `sources` (which get 0). Every move counts as one
-    /// step: over four neighbours the distance in the `L1` metric, over eight that in the maximum metric.
+    /// Labels all cells that are connected with a free cell among `sources`; the sources have label 0. Every move
+    /// counts as one step. With four neighbours labels are distances in the `L1` metric, with eight in the maximum
+    /// metric.
     ///
-    /// Linear in the number of cells. Over four neighbours some 2 to 6 ns per cell where free cells form long runs,
-    /// most of it for allocating the memory; otherwise about the time of a plain queue.
+    /// Linear in the number of cells. With four neighbours it takes about 2 to 6 ns per cell if free cells form long
+    /// runs, mostly to allocate the memory. Otherwise it takes about as long as a plain queue.
     #[must_use]
     pub fn new(free: &FreeCells, sources: &[usize], neighborhood: Neighborhood) -> Self {
         let sources: Vec<usize> = sources.iter().copied().filter(|&source| free.is_free(source)).collect();
@@ -34,33 +35,35 @@ impl StepLabels {
         Self { neighborhood, labels }
     }
 
-    /// Returns the label of each cell of the grid; [`UNREACHED`] for cells that are not free or not connected.
+    /// Returns the label of each cell of the grid; [`UNREACHED`] for cells that are blocked or not connected.
     #[must_use]
     pub fn labels(&self) -> &[u32] {
         &self.labels
     }
 
-    /// Returns the labels as a vector.
+    /// Converts the labels to a vector.
     #[must_use]
     pub fn into_labels(self) -> Vec<u32> {
         self.labels
     }
 
-    /// Returns the number of labelled cells. Linear.
+    /// Returns the number of labelled cells. Linear in the number of cells.
     #[must_use]
     pub fn reached(&self) -> usize {
         self.labels.iter().filter(|&&label| label != UNREACHED).count()
     }
 
-    /// Returns the number of distinct labels. Linear.
+    /// Returns the number of levels: the greatest label plus one, or 0 without labels. Linear in the number of
+    /// cells.
     #[must_use]
     pub fn levels(&self) -> usize {
         let labels = self.labels.iter().filter(|&&label| label != UNREACHED);
         labels.max().map_or(0, |&label| label as usize + 1)
     }
 
-    /// Returns the cells from `index` to a source, always to the smallest neighbour (the first of equals, so straight
-    /// before diagonal): a path of fewest moves. Returns `None` if the wave did not reach `index`.
+    /// Returns the cells of a path with the fewest moves from `index` to a source. It always goes to the neighbour
+    /// with the least label, to the first one if several are equal, so straight moves come before diagonal ones.
+    /// Returns `None` if the wave did not reach `index`.
     #[must_use]
     pub fn descend(&self, free: &FreeCells, index: usize) -> Option<Vec<usize>> {
         let mut label = self.labels[index];

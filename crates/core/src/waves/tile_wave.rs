@@ -1,22 +1,22 @@
-//! The wave level by level, on tiles of cells that fit in a word.
+//! The wave over four neighbours, which proceeds by tiles of cells that fit in a word.
 
 use super::{FreeCells, UNREACHED};
 use std::collections::VecDeque;
 
-/// Rows and columns of a tile. Its cell `(i, j)` is bit `TILE_SIDE i + j`.
+/// Number of rows and of columns of a tile. Cell `(i, j)` of a tile is bit `TILE_SIDE i + j`.
 const TILE_SIDE: usize = 8;
 
-/// The first row of a tile.
+/// The bits of a tile's first row.
 const FIRST_ROW: u64 = 0xff;
 
-/// The first column of a tile.
+/// The bits of a tile's first column.
 const FIRST_COLUMN: u64 = 0x0101_0101_0101_0101;
 
-/// Labels every cell that a wave from `sources` (free cells) reaches over shared sides, and all others with
-/// [`UNREACHED`].
+/// Labels every cell that a wave from `sources` (free cells) reaches over shared sides with the number of moves to
+/// it, and all others with [`UNREACHED`].
 ///
-/// The open cells are stored as one bit per cell, and one step within a tile is a few shifts of words. The labels,
-/// which are many times larger, are written once each and never read.
+/// Cells that wait to be reached are stored as one bit each, so one step within a tile takes a few shifts of words.
+/// Labels take much more memory, but each is written once and never read.
 pub(super) fn tile_wave(free: &FreeCells, sources: &[usize]) -> Vec<u32> {
     let [rows, columns] = free.cells();
     let mut labels = vec![UNREACHED; rows * columns];
@@ -43,11 +43,11 @@ pub(super) fn tile_wave(free: &FreeCells, sources: &[usize]) -> Vec<u32> {
 struct Tile {
     /// Free cells that the wave has not reached.
     waiting: u64,
-    /// Cells that the wave has reached and not left, of even and of odd levels.
+    /// Cells that the wave has reached but not left: those of even levels, and those of odd levels.
     front: [u64; 2],
-    /// Index of its first cell.
+    /// Index of the tile's first cell in the grid.
     corner: u32,
-    /// Tiles before it in its row.
+    /// Number of the tile in its row of tiles.
     column: u32,
 }
 
@@ -55,11 +55,12 @@ struct TileWave {
     tiles: Vec<Tile>,
     /// Number of tiles per row.
     across: usize,
-    /// Tiles with a front, and its level: never more than two levels at a time, in order.
+    /// Tiles with cells in the front, and the level of these cells. Levels are in order, and there are never more
+    /// than two.
     queue: VecDeque<[u32; 2]>,
-    /// True for each axis whose last row (column) borders on the first.
+    /// For each axis, true if its last row or column borders on the first.
     circles: [bool; 2],
-    /// Place of the last row (column) of the grid in its tile.
+    /// Position of the grid's last row and column within its tile.
     last: [usize; 2],
 }
 
@@ -82,7 +83,7 @@ impl TileWave {
         Self { tiles, across, queue: VecDeque::new(), circles: free.circles(), last }
     }
 
-    /// Adds the waiting cells to the tile's front.
+    /// Adds those of `cells` that wait to the tile's front.
     #[inline(always)]
     fn enter(&mut self, level: u32, tile: usize, cells: u64) {
         let at = &mut self.tiles[tile];
@@ -97,7 +98,7 @@ impl TileWave {
         }
     }
 
-    /// Enters the neighbours of a tile's front.
+    /// Adds the neighbours of a tile's front to the fronts of the next level.
     #[inline(always)]
     fn advance(&mut self, tile: usize, front: u64, level: u32) {
         let (size, across) = (self.tiles.len(), self.across);
@@ -148,8 +149,8 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(256))]
 
-        /// Compares with a textbook search, on sizes that do and do not fill the tiles, including single rows and
-        /// columns.
+        /// Compares with a breadth-first search, on grids that do and do not fill their tiles, including single rows
+        /// and columns.
         #[test]
         fn labels_are_those_of_a_search(
             rows in 1..28_usize, columns in 1..28_usize, circles in any::<[bool; 2]>(), seed in any::<u64>(), density in 0..45_u64,
@@ -161,7 +162,7 @@ mod tests {
             let free = FreeCells::new(&Grid { topology: Topology { ranges: axes }, proves, cells, blocked });
             let sources = [0, rows * columns / 2, rows * columns - 1];
             let sources: Vec<usize> = sources.into_iter().filter(|&source| free.is_free(source)).collect();
-            // A target that is never met: all is labelled.
+            // The target is never met, so all cells are labelled.
             let search = Search::new(&free, Neighborhood::Four, Order::BreadthFirst, &sources, usize::MAX);
             prop_assert_eq!(tile_wave(&free, &sources), search.labels());
         }

@@ -63,11 +63,11 @@ pub struct Boundary {
     pub sides: Vec<Side>,
     /// The sides that begin at vertex `v` are `first[v]..first[v + 1]`.
     first: Vec<u32>,
-    /// The sides by right end; those with the same right end from bottom to top. Those of `v` are `last[v]..last[v +
-    /// 1]` of them.
+    /// Numbers of the sides, sorted by right end; those with the same right end from bottom to top. Those that end
+    /// at vertex `v` are `by_right_end[last[v]..last[v + 1]]`.
     by_right_end: Vec<u32>,
     last: Vec<u32>,
-    /// For each vertex, the side straight below it that does not end there, or `NO_ENTRY`.
+    /// For each vertex, the side straight below it that does not end there; `NO_ENTRY` if there is none.
     below: Vec<u32>,
 }
 
@@ -102,8 +102,8 @@ impl Boundary {
         Self { vertices, sides, first: vec![], by_right_end: vec![], last: vec![], below: vec![] }
     }
 
-    /// Builds the first `count` sides of a ring of distinct corners, without cutting. Side `i` runs from corner `i` to
-    /// the next one.
+    /// Builds the first `count` sides of a ring of distinct corners, without cutting. Side `i` runs from corner `i`
+    /// to the next one.
     fn of_chain(ring: &[Point], count: usize) -> Self {
         let mut this = Self::bare(&[ring]);
         this.sides.truncate(count);
@@ -148,7 +148,7 @@ impl Boundary {
         self.by_right_end[self.last[v] as usize..self.last[v + 1] as usize].iter().map(|&side| side as usize)
     }
 
-    /// Returns the side straight below vertex `v` that does not end there.
+    /// Returns the side straight below vertex `v` that does not end there; `None` if there is none.
     pub fn below(&self, v: usize) -> Option<usize> {
         (self.below[v] != NO_ENTRY).then_some(self.below[v] as usize)
     }
@@ -163,8 +163,8 @@ impl Boundary {
         (self.vertices[self.sides[side].from as usize], self.vertices[self.sides[side].to as usize])
     }
 
-    /// Returns the position of `p` relative to the line through a side, directed to the right: counter-clockwise means
-    /// above.
+    /// Returns the position of `p` relative to the line through a side, directed to the right. Counter-clockwise
+    /// means above the line.
     pub fn place(&self, side: usize, p: Point) -> Orientation {
         let side = self.sides[side];
         orientation(self.vertices[side.left_end()], self.vertices[side.right_end()], p)
@@ -176,8 +176,8 @@ impl Boundary {
         from.x == to.x
     }
 
-    /// Returns the ordinate of a side that is not vertical at the abscissa `x` within its range, rounded *into* the
-    /// inside: the point `(x, y)` lies exactly on the side or inside.
+    /// Returns the ordinate of a side at the abscissa `x`. The side must not be vertical, and `x` must be within its
+    /// range. The ordinate is rounded *into* the inside: the point `(x, y)` lies exactly on the side or inside.
     pub fn ordinate(&self, side: usize, x: f64) -> f64 {
         let is_floor = self.sides[side].is_floor();
         let (from, to) = self.ends(side);

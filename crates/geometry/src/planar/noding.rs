@@ -1,16 +1,16 @@
-//! Noding: cuts sides where they touch or cross, so that they meet in vertices only.
+//! Noding cuts sides where they touch or cross, so that they meet in vertices only.
 
 use super::{Boundary, NO_ENTRY, Side, Status};
 use crate::{Orientation, Point};
 use cplan_interrupt::checkpoint;
 use std::cmp::Ordering;
 
-/// Sides that cross by at most this much cross because of rounding, as a fraction of the greatest coordinate: a few
-/// units in the last place of the values from which the corners were computed.
+/// Greatest distance by which sides may cross because of rounding, as a fraction of the greatest coordinate. It is a
+/// few units in the last place of the values from which the corners were computed.
 const CROSSING_TOLERANCE: f64 = 64.0 * f64::EPSILON;
 
-/// Number of passes after which remaining crossings are left. The first pass joins corners to the sides that rounding
-/// has moved them across. The pieces of these sides turn slightly, which rarely causes another crossing.
+/// Number of passes after which crossings that remain are ignored. The first pass joins each corner to the side that
+/// rounding has moved it across. The pieces of these sides turn slightly, which rarely causes another crossing.
 const MAX_PASSES: usize = 16;
 
 /// Returns a boundary whose sides meet in vertices only, with the side below each vertex. Each pass takes `O(n log n)`,
@@ -46,15 +46,15 @@ fn cut(sides: &mut Vec<Side>, cuts: &[(usize, u32)]) {
     }
 }
 
-/// A vertical sweep line that passes over all vertices from left to right. If sides cross, then two of them cross that
-/// are neighbours on it at some time (Shamos, Hoey 1976).
+/// A vertical sweep line that passes over all vertices from left to right. If any sides cross, then at some time two
+/// that cross are neighbours on the line (Shamos, Hoey 1976).
 struct Sweep<'a> {
     boundary: &'a mut Boundary,
     status: Status,
     below: Vec<u32>,
     /// [`CROSSING_TOLERANCE`] as a length.
     hair: f64,
-    /// Sides and the vertices at which they must be cut.
+    /// Sides, each with a vertex at which it must be cut.
     cuts: Vec<(usize, u32)>,
 }
 
@@ -80,7 +80,7 @@ impl<'a> Sweep<'a> {
             Some(lowest) => status.below(lowest),
             None => status.last_where(|side| boundary.place(side, at) == Orientation::CounterClockwise),
         };
-        // Other sides lie between those that end here only where sides cross.
+        // Only if sides cross, other sides lie between those that end here.
         while let Some(side) = below.filter(|&side| ends_here(side)) {
             below = status.below(side);
         }
@@ -104,7 +104,7 @@ impl<'a> Sweep<'a> {
         self.check(last, above);
     }
 
-    /// Orders two coincident sides, where obstacles touch: floors and ceilings alternate.
+    /// Puts two coincident sides, where obstacles touch, in the right order: floors and ceilings must alternate.
     fn tell_coincident(&mut self, below: Option<usize>, side: usize) {
         let sides = &mut self.boundary.sides;
         let expects_floor = below.is_none_or(|below| !sides[below].is_floor());
@@ -129,14 +129,14 @@ impl<'a> Sweep<'a> {
         if place == Orientation::Collinear {
             self.cuts.push((other, first as u32));
         } else if place != proper {
-            // Sides that do not cross can be neighbours by mistake, behind others that do.
+            // If other sides cross, two sides that do not can become neighbours by mistake.
             let cut = nearest_end(self.boundary, below, above).filter(|cut| cut.1 <= self.hair);
             self.cuts.extend(cut.map(|cut| cut.0));
         }
     }
 }
 
-/// For two sides that cross, returns one of them, the end of the other that is nearest to it, and the distance.
+/// For two sides that cross, returns a side and the end of the other one that is nearest to it, with the distance.
 fn nearest_end(boundary: &Boundary, a: usize, b: usize) -> Option<((usize, u32), f64)> {
     let candidates = [(a, b), (b, a)].into_iter().flat_map(|(side, other)| {
         let Side { from, to } = boundary.sides[other];

@@ -162,7 +162,7 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(256))]
 
-        /// Compared with a sorted list, whose positions are known.
+        /// Compares with a sorted list, whose positions are known.
         #[test]
         fn keeps_order_like_a_sorted_list(steps in proptest::collection::vec((0usize..60, any::<bool>()), 0..300)) {
             let place = |side: usize| (side * 37) % 61;

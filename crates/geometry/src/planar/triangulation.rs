@@ -15,10 +15,10 @@ pub struct HalfEdges {
 
 /// Triangulates the inside of a boundary without new vertices. Every triangle is exactly counter-clockwise.
 ///
-/// The sweep of Hertel and Mehlhorn (1983). Left of the sweep line, the inside between two neighbouring sides is
-/// triangulated up to a chain of vertices. The chain runs from the left end of the floor to that of the ceiling, and no
-/// triangle can be cut off it. Each vertex is joined to as much of the chain as it sees. This takes `O(n)` after the
-/// sweep that made the boundary.
+/// This is the sweep of Hertel and Mehlhorn (1983). Left of the sweep line, the inside between two neighbouring
+/// sides is triangulated up to a chain of vertices. The chain runs from the left end of the floor to that of the
+/// ceiling, and no triangle can be cut off it. Each vertex is joined to as much of the chain as it sees. This takes
+/// `O(n)` after the sweep that made the boundary.
 #[must_use]
 pub fn triangulate(boundary: &Boundary) -> HalfEdges {
     let mut sweep = Sweep {
@@ -49,7 +49,7 @@ struct Link {
     edge: u32,
 }
 
-/// A chain: its ends, and the link of its rightmost vertex.
+/// A chain, given by the links at its two ends and at its rightmost vertex.
 #[derive(Debug, Clone, Copy)]
 struct Region {
     bottom: u32,
@@ -60,7 +60,7 @@ struct Region {
 struct Sweep<'a> {
     vertices: &'a [Point],
     links: Vec<Link>,
-    /// For each inner edge, the half-edge that was made first, or `NO_ENTRY`.
+    /// For each inner edge, its first half-edge; `NO_ENTRY` if none has been made.
     pending: Vec<u32>,
     result: HalfEdges,
 }
@@ -139,7 +139,7 @@ impl Sweep<'_> {
 
     /// Splits a region at a vertex from which sides start within it. Returns the regions below and above.
     fn split(&mut self, region: Region, v: u32) -> (Option<Region>, Option<Region>) {
-        // Nothing lies between the vertex and the rightmost vertex before it.
+        // The segment from the vertex to the chain's rightmost vertex crosses nothing.
         let middle = region.rightmost;
         let edge = self.edge(NO_ENTRY);
         let copy = self.link(Link { below: NO_ENTRY, ..self.links[middle as usize] });
@@ -205,15 +205,15 @@ impl Sweep<'_> {
         }
     }
 
-    /// Returns true if the inside lies in the angle at `b` of three consecutive vertices of a chain, from bottom to
-    /// top.
+    /// Returns true if the inside lies in the angle at `b`. The three vertices follow each other on a chain from
+    /// bottom to top.
     fn is_open(&self, a: u32, b: u32, c: u32) -> bool {
         let [a, b, c] = [a, b, c].map(|v| self.vertices[v as usize]);
         orientation(a, b, c) == Orientation::Clockwise
     }
 
-    /// Makes a triangle from its corners and the edges after the second and third one. Returns the edge after the
-    /// first.
+    /// Makes a triangle from its corners and from the edges after the second and third corner. Returns the edge
+    /// after the first.
     fn triangle(&mut self, corners: [u32; 3], second: u32, third: u32) -> u32 {
         let half_edge = self.result.origin.len() as u32;
         self.result.origin.extend(corners);

@@ -24,7 +24,7 @@ pub(super) struct BridgedGraph {
 /// A diagonal. The region lies on both sides of it.
 pub(super) struct Bridge {
     pub ends: [usize; 2],
-    /// The hole for which it was made.
+    /// The hole for which the diagonal was made.
     pub ring: usize,
 }
 

@@ -28,7 +28,7 @@ const MIN_WIDTH_RATIO: f64 = 1e-6;
 /// A rectangle from `rear` to `front` along the axis, symmetric about it, with the joint at the origin.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Bar {
-    /// Unit vector from the joint to the middle of the front side.
+    /// Unit vector along the bar, from the joint to the middle of the front side.
     axis: Vector,
     front: f64,
     half_width: f64,
@@ -39,7 +39,7 @@ pub(super) struct Bar {
 }
 
 impl Bar {
-    /// Returns the shape as a bar, or `None` if it is not one.
+    /// Returns the shape as a bar; `None` if it is not a bar.
     pub fn of(shape: &Convex) -> Option<Self> {
         let core: &[Point; 4] = shape.core().try_into().ok()?;
         (0..4).find_map(|k| {
@@ -128,14 +128,16 @@ impl Bar {
     }
 }
 
-/// The first and the last direction of the bar's axis at which it meets any of the given points. Vectors of any length.
+/// The first and the last direction of the bar's axis at which it meets any of the given points. The vectors may
+/// have any length.
 struct Extremes {
     first: Vector,
     last: Vector,
 }
 
 impl Extremes {
-    /// Adds a point that lies `across` beside the axis, at `along` from the joint along it.
+    /// Adds a point. The bar touches it if the point is `along` from the joint along the axis, and `across` beside
+    /// the axis.
     fn add(&mut self, at: Vector, along: f64, across: f64) {
         let first = Vector::new(along * at.x + across * at.y, along * at.y - across * at.x);
         let last = Vector::new(along * at.x - across * at.y, along * at.y + across * at.x);
@@ -196,8 +198,9 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(20_000))]
 
-        /// All critical angles, sorted, with one distance between neighbours, give the same arcs. The shapes touch at
-        /// the ends, by an independent distance. Some positions have corners exactly at the reach of the bar.
+        /// Compares with the exhaustive method: all critical angles, sorted, with one distance between neighbours.
+        /// An independent distance confirms that the shapes touch at the ends. Some positions have corners exactly
+        /// at the reach of the bar.
         #[test]
         fn arcs_are_those_of_all_critical_angles(
             (back, half_width, turn) in (-0.2..0.2f64, 0.01..0.15f64, -PI..PI),

@@ -10,7 +10,7 @@ use std::f64::consts::{PI, TAU};
 /// tenth of [`ROUNDING`].
 const ANGLE_TOLERANCE: f64 = 1e-12;
 
-/// `cos` may exceed 1 by this much and still count as grazing, so that a contact lost to rounding is examined.
+/// A cosine may exceed 1 by this much and still count as grazing, so that a contact lost to rounding is examined.
 const GRAZING_COSINE: f64 = 1e-7;
 
 /// Computes the arcs of [`super::turning_from`] correctly in every degenerate position. The distance decides, at the

@@ -42,7 +42,7 @@ impl Corner {
     }
 }
 
-/// A side of a core: the points `normal * offset + tangent * t`, `t` from `from` to `to`.
+/// A side of a core: the points `normal * offset + tangent * t`, with `t` from `from` to `to`.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Side {
     /// Outward unit normal. The tangent is its counter-clockwise perpendicular and points along the outline.
@@ -51,12 +51,12 @@ pub(super) struct Side {
     pub offset: f64,
     /// Position of the side's start along its tangent.
     pub from: f64,
-    /// Position of its end.
+    /// Position of the side's end along its tangent.
     pub to: f64,
 }
 
-/// A rounded convex polygon prepared for the contact equations. A core of one corner has no sides, one of two corners
-/// has two.
+/// A rounded convex polygon prepared for the contact equations. A core of one corner has no sides; a core of two
+/// corners has two.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Features {
     pub(super) shape: Convex,
@@ -65,10 +65,10 @@ pub struct Features {
     /// Least and greatest distance of the core from the origin.
     pub(super) inner: f64,
     pub(super) outer: f64,
-    /// A disc around the core.
+    /// Centre and radius of a disc around the core.
     pub(super) center: Vector,
     pub(super) extent: f64,
-    /// The core as a bar about the origin, if it is one.
+    /// The core as a bar about the origin; `None` if it is not a bar.
     pub(super) bar: Option<Bar>,
 }
 
@@ -115,7 +115,7 @@ impl Features {
         &self.shape
     }
 
-    /// Returns bounds on the least and the greatest distance of the core from `pivot`, by the disc around it.
+    /// Returns a lower bound on the least distance of the core from `pivot`, and an upper bound on the greatest one.
     pub(super) fn distances(&self, pivot: Point) -> (f64, f64) {
         let center = (self.center - pivot).norm();
         (center - self.extent, center + self.extent)

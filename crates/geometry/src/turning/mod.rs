@@ -24,15 +24,15 @@ pub use features::product;
 use std::f64::consts::{PI, TAU};
 use touching::Placement;
 
-/// Bound on the error of a contact, as a distance between the shapes, metres. At any angle (or stretch) outside the
-/// result the shapes are at least `grow - ROUNDING` apart; at any angle in the result they are within `grow +
-/// ROUNDING`.
+/// Bound on the error of a contact, as a distance between the shapes, metres. At any angle (or displacement) outside
+/// the result the shapes are at least `grow - ROUNDING` apart. At any angle in the result they are within
+/// `grow + ROUNDING`.
 ///
-/// The formulas lose about 1e-13 m for coordinates up to about 100 m; the rest is margin. As an angle the error can be
-/// larger: its square root, where shapes graze each other.
+/// The formulas lose about 1e-13 m for coordinates up to about 100 m; the rest is margin. The error of an angle can
+/// be as large as the square root of this, where shapes graze each other.
 pub const ROUNDING: f64 = 1e-9;
 
-/// The values of a joint for which a part meets a piece.
+/// Whether a part meets a piece for no, all, or some values of a joint.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Hits {
     /// The shapes meet for no value.
@@ -50,7 +50,8 @@ pub fn turning(part: &Convex, pivot: Point, piece: &Convex, grow: f64, out: &mut
     turning_from(&Features::new(part), pivot, Vector::x(), &Features::new(piece), grow, out)
 }
 
-/// [`turning`] for prepared shapes, with angles counted from the direction of the unit vector `zero`.
+/// Does the same as [`turning`] for prepared shapes, with angles counted from the direction of the unit vector
+/// `zero`.
 ///
 /// Allocates only for `out` and in degenerate positions.
 pub fn turning_from(
@@ -74,7 +75,7 @@ pub fn turning_from(
     }
     let placement = Placement { part, pivot, zero, piece, radius, reach: (near - radius, far + radius) };
     match placement.ends() {
-        // No contact begins or ends, so one configuration decides for all angles.
+        // No contact begins or ends, so a test of one angle decides for all angles.
         Ok(ends) if ends.is_empty() => {
             let pose = Pose::new(pivot, 0.0);
             let distance = separation(&part.shape.at(&pose), &piece.shape).distance - grow;

@@ -4,25 +4,26 @@ use super::features::{Corner, Features, product, quotient};
 use crate::{Point, Vector};
 use std::f64::consts::{PI, TAU};
 
-/// Lengths closer than this, metres, are not compared because of rounding. Nor are ends closer than this, radians.
-/// Coordinates up to about 100 m lose about 1e-11 m, except where a corner's circle grazes a line.
+/// Lengths that differ by less than this, metres, are not compared, because rounding could change the result. The
+/// same is true for ends of arcs, radians. Coordinates up to about 100 m lose about 1e-11 m, except where a corner's
+/// circle grazes a line.
 const COMPARISON_TOLERANCE: f64 = 1e-9;
 
-/// Relative excess of a corner's squared distance below which its circle grazes a line: the square root has then lost
-/// too many digits (half of them at 1e-16) for [`COMPARISON_TOLERANCE`].
+/// A corner's circle grazes a line if its squared distance exceeds that of the line by less than this fraction. The
+/// square root has then lost too many digits for [`COMPARISON_TOLERANCE`]: half of them at 1e-16.
 const LINE_GRAZING_TOLERANCE: f64 = 1e-8;
 
-/// Directions between corners `r` apart lose digits as `r` shrinks. Their doubt grows by this, in square metres,
-/// divided by `r`.
+/// Directions between corners at a distance `r` lose digits as `r` becomes small. Their tolerance grows by this
+/// value, in square metres, divided by `r`.
 const DIRECTION_TOLERANCE: f64 = 1e-13;
 
-/// Two circles graze each other if the gap between their radii is closer than this fraction to the contact distance.
+/// Two circles graze each other if the gap between their radii equals the contact distance up to this fraction.
 const CIRCLE_GRAZING_TOLERANCE: f64 = 1e-6;
 
 /// Largest number of arcs of one pair of convex shapes. With more, which is rare, the exhaustive method takes over.
 const MAX_ARCS: usize = 8;
 
-/// A comparison was too close for rounding.
+/// The result of a comparison that was too close for rounding.
 pub(super) struct UndecidedComparison;
 
 /// Two shapes and their positions.
@@ -32,17 +33,17 @@ pub(super) struct Placement<'a> {
     pub part: &'a Features,
     /// Position of that origin.
     pub pivot: Point,
-    /// Unit vector of angle 0.
+    /// Unit vector in the direction of angle 0.
     pub zero: Vector,
     /// The fixed shape.
     pub piece: &'a Features,
-    /// Distance of the cores that counts as contact.
+    /// Distance between the cores that counts as contact, metres.
     pub radius: f64,
-    /// Corners of the part closer to the pivot or farther from it than this cannot touch.
+    /// Least and greatest distance from the pivot of the part's corners that can touch, metres.
     pub reach: (f64, f64),
 }
 
-/// Starts and ends of the forbidden arcs; angles in `[-pi, pi)`.
+/// Starts and ends of the forbidden arcs, as angles in `[-pi, pi)`.
 #[derive(Default)]
 pub(super) struct Ends {
     starts: [f64; MAX_ARCS],
@@ -66,7 +67,7 @@ impl Ends {
         Ok(())
     }
 
-    /// Joins each start with the next end. If in doubt, appends nothing.
+    /// Joins each start with the next end. Appends nothing if a comparison is undecided.
     pub(super) fn arcs(mut self, out: &mut Vec<[f64; 2]>) -> Result<(), UndecidedComparison> {
         let n = self.count[0];
         if n != self.count[1] {
@@ -127,7 +128,7 @@ impl Placement<'_> {
             for corner in self.corners_in_reach() {
                 for (across, start) in crossings(corner.distance2, along, from, to, [true, false])? {
                     let position = Vector::new(along, across);
-                    // Both neighbours of the corner must lie beyond the side, too.
+                    // Both neighbours of the corner must lie beyond the side as well.
                     let margin = corner.polar().iter().map(|&w| product(position, w).x).fold(f64::INFINITY, f64::min);
                     if is_positive(margin.min(foot_margin(across, from, to)), COMPARISON_TOLERANCE)? {
                         ends.push(start, quotient(quotient(product(position, side.normal), corner.at), self.zero))?;
@@ -208,8 +209,8 @@ impl Placement<'_> {
 }
 
 /// Returns where a circle about the origin crosses the side at `along` on its normal, from `from` to `to` on its
-/// tangent: up to two positions, each with its sign from `[at the positive root, at the negative one]`. Positions
-/// clearly off the side are omitted. Doubtful if the circle grazes the side.
+/// tangent. There are up to two positions. Each has its value of `start`: the first value for the positive root, the
+/// second for the negative one. Positions clearly off the side are omitted. Undecided if the circle grazes the side.
 fn crossings(
     distance2: f64,
     along: f64,
@@ -232,12 +233,13 @@ fn crossings(
     Ok([(root, start[0]), (-root, start[1])].into_iter().filter(move |&(across, _)| on_side(across)))
 }
 
-/// Returns the distance of a position on a side's line from the nearest end of the side, positive within it.
+/// Returns the distance of a position on a side's line from the nearest end of the side: positive within the side,
+/// negative outside.
 fn foot_margin(across: f64, from: f64, to: f64) -> f64 {
     (across - from).min(to - across)
 }
 
-/// Returns true if a length is positive. Doubtful if it is too small to decide.
+/// Returns true if a length is positive. Undecided if it is at most `doubt` in magnitude.
 fn is_positive(margin: f64, doubt: f64) -> Result<bool, UndecidedComparison> {
     if margin.abs() <= doubt { Err(UndecidedComparison) } else { Ok(margin > 0.0) }
 }

@@ -1,32 +1,33 @@
-//! Bisectors, as functions of the parameter of a site's rays.
+//! Bisectors of two sites, as functions of the parameter of one site's rays.
 
 use super::site::{CONTACT_DISTANCE, Site};
 use cplan_geometry::cross;
 use std::f64::consts::PI;
 
-/// Sides whose directions differ by less are one after the other: they have no bisector.
+/// Two sides whose directions differ by less follow each other on a line, so they have no bisector.
 const PARALLEL_SINE: f64 = 1e-9;
 
-/// The height on the rays of a site at which another site is equally near.
+/// The height on each ray of a site at which another site is equally near. The height is the distance along the ray.
 ///
-/// Instead of the height `h`, a quadratic polynomial of the parameter `t` is stored that increases with it: the height
-/// itself over a side, and `-(1 + t^2) / h` over a corner. The sign of a third such polynomial says where one of two
-/// sites is nearer.
+/// For each parameter `t` of a ray, a quadratic polynomial is stored that increases with the height `h`. For a side
+/// it is the height itself, for a corner `-(1 + t^2) / h`. The sign of the difference of two such polynomials tells
+/// which of two other sites is nearer.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Bisector {
     /// Coefficients of `1, t, t^2`.
     coefficients: [f64; 3],
     on_side: bool,
-    /// Start of the range in which the nearest point of the other site is not one of its ends.
+    /// The ends of the range of parameters to which the bisector applies. There, the nearest point of the other site
+    /// is not one of its ends.
     pub from: f64,
     pub to: f64,
-    /// The other one.
+    /// Number of the other site.
     pub other: usize,
 }
 
 impl Bisector {
-    /// Returns the bisectors of a site with another one, of number `other`. There are two if a corner sees both ends of
-    /// a side better than its middle.
+    /// Returns the bisectors of a site with another one, whose number is `other`. There are two if a corner sees
+    /// both ends of a side better than its middle.
     pub fn between(site: &Site, with: &Site, other: usize) -> impl Iterator<Item = Self> + use<> {
         let (parts, on_side) = match (site.is_side, with.is_side) {
             (true, true) => ([side_and_side(site, with), None, None], true),
@@ -42,19 +43,19 @@ impl Bisector {
         parts.into_iter().flatten().filter_map(made)
     }
 
-    /// Returns the value. The site with the least value is nearest.
+    /// Returns the polynomial's value. The site with the least value is nearest.
     pub fn value(&self, t: f64) -> f64 {
         let [a, b, c] = self.coefficients;
         a + t * (b + t * c)
     }
 
-    /// Returns the slope of the value.
+    /// Returns the polynomial's slope.
     pub fn slope(&self, t: f64) -> f64 {
         let [_, b, c] = self.coefficients;
         b + 2.0 * t * c
     }
 
-    /// Returns the height for the value.
+    /// Returns the height on the ray of parameter `t`.
     pub fn height(&self, t: f64) -> f64 {
         let value = self.value(t);
         match self.on_side {
@@ -64,31 +65,32 @@ impl Bisector {
         }
     }
 
-    /// Returns the distance of a chord of length `step` from a parabola over a side.
+    /// Returns the distance of a chord from the parabola over a side, for two parameters that differ by `step`. Zero
+    /// for corners.
     pub fn sag(&self, step: f64) -> f64 {
         if self.on_side { self.coefficients[2] * step * step / 4.0 } else { 0.0 }
     }
 
-    /// Returns where its value falls below another's. There is at most one such place.
+    /// Returns the parameter at which the value falls below that of `other`. There is at most one such parameter.
     pub fn falls_below(&self, other: &Self) -> Option<f64> {
         let [c, b, a] = [0, 1, 2].map(|k| self.coefficients[k] - other.coefficients[k]);
         let square = b * b - 4.0 * a * c;
         if square <= 0.0 {
             return None;
         }
-        // Of both zeros the one with a falling slope, without cancellation.
+        // Use the zero with a falling slope, computed without cancellation.
         let root = square.sqrt();
         let at = if b > 0.0 { (-b - root) / (2.0 * a) } else { 2.0 * c / (root - b) };
         at.is_finite().then_some(at)
     }
 }
 
-/// Returns the polynomial for `a + b cos + c sin` of twice the angle whose tangent is the parameter.
+/// Returns the polynomial for `a + b cos(x) + c sin(x)`, times `1 + t^2`, where `t = tan(x / 2)`.
 fn of_wave([a, b, c]: [f64; 3]) -> [f64; 3] {
     [a + b, 2.0 * c, a - b]
 }
 
-/// Coefficients, and from where to where.
+/// The coefficients of a bisector, and the ends of its range of parameters.
 type Part = ([f64; 3], f64, f64);
 
 fn side_and_point(site: &Site, point: &Site) -> Option<Part> {
@@ -99,7 +101,8 @@ fn side_and_point(site: &Site, point: &Site) -> Option<Part> {
 }
 
 fn side_and_side(site: &Site, side: &Site) -> Option<Part> {
-    // The height is the distance of the foot from the other side by how much slower the height over that one changes.
+    // The height is the distance of the ray's foot from the other side, divided by the difference of the rates at
+    // which the two distances change.
     let turned = site.normal() - side.normal();
     let apart = turned.norm_squared() / 2.0;
     if turned.norm() < PARALLEL_SINE {
@@ -111,7 +114,7 @@ fn side_and_side(site: &Site, side: &Site) -> Option<Part> {
     let foot = [there.dot(&side.along) + height[0] * rise, site.along.dot(&side.along) + height[1] * rise];
     let range = [(height[0], height[1]), (foot[0], foot[1]), (side.range[1] - foot[0], -foot[1])];
     let (from, to) = range.into_iter().fold((f64::NEG_INFINITY, f64::INFINITY), |(from, to), (value, slope)| {
-        // Where `value + slope * t` is not negative.
+        // The parameters at which `value + slope * t` is not negative.
         match -value / slope {
             at if slope > 0.0 => (at.max(from), to),
             at if slope < 0.0 => (from, at.min(to)),
@@ -140,8 +143,9 @@ fn point_and_side(site: &Site, side: &Site) -> [Option<Part>; 3] {
         return [None; 3];
     }
     let wave = [-1.0 / away, side.normal().dot(&site.along) / away, side.normal().dot(&site.normal()) / away];
-    // Half the angles from the middle ray to those with a foot at either end: its tangent from the ray that goes straight to the
-    // side is the foot's place there by the distance.
+    // Half of the angles from the middle ray to the rays whose foot is at either end of the side. The tangent of the
+    // angle from the ray perpendicular to the side is the foot's distance along the side divided by the distance
+    // from it.
     let straight = -side.normal();
     let begin = 0.5 * cross(site.along, straight).atan2(site.along.dot(&straight));
     let foot = there.dot(&side.along);

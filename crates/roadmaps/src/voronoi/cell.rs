@@ -1,36 +1,36 @@
-//! The cell of a site: which other one is as near, along all its rays.
+//! The cell of a site: on each of its rays, the other site that is equally near first.
 
 use super::bisector::Bisector;
 use super::site::Site;
 use cplan_interrupt::checkpoint;
 
-/// Parameters that differ by less are the same: rounding of where bisectors meet.
+/// Parameters that differ by less are equal up to the rounding of points where bisectors meet.
 const PARAMETER_TOLERANCE: f64 = 1e-11;
 
-/// Values that differ by less, relative to them, are the same where a bisector is chosen.
+/// Values that differ by less, relative to their size, count as equal when a bisector is chosen.
 const VALUE_TOLERANCE: f64 = 1e-10;
 
-/// Halvings of a parameter's range, down to the last bits.
+/// Number of times that a range of parameters is halved: enough to reach the last bits.
 const PARAMETER_HALVINGS: usize = 60;
 
-/// A piece of a cell's border.
+/// A piece of a cell's border, on one bisector.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Arc {
     pub bisector: Bisector,
-    /// Parameters of its ends.
+    /// Parameters of the ends.
     pub from: f64,
     pub to: f64,
 }
 
 impl Arc {
-    /// The greatest height of its ends, and so of all of it: no bisector has a hump.
+    /// Returns the greatest height on the arc. It is at one of the ends, since no bisector has a maximum in between.
     pub fn greatest(&self) -> f64 {
         self.bisector.height(self.from).max(self.bisector.height(self.to))
     }
 }
 
-/// Returns the lower envelope of a site's bisectors with others, in order; with gaps where there is none. `O(k m)` for `k` arcs and
-/// `m` bisectors.
+/// Returns the lower envelope of a site's bisectors with others, in order. The envelope has gaps where there is no
+/// bisector. `O(k m)` for `k` arcs and `m` bisectors.
 pub(super) fn border(site: &Site, others: &[Site], bisectors: &[Bisector]) -> Vec<Arc> {
     checkpoint();
     let [first, last] = site.range;
@@ -39,7 +39,7 @@ pub(super) fn border(site: &Site, others: &[Site], bisectors: &[Bisector]) -> Ve
     let mut arcs = Vec::new();
     let mut at = first;
     let mut current = envelope.lowest(at);
-    // Each bisector falls below another one twice at the most.
+    // Each bisector falls below another one at most twice.
     for _ in 0..8 * bisectors.len() + 8 {
         let Some(now) = current else {
             at = envelope.next_start(at);
@@ -63,16 +63,17 @@ pub(super) fn border(site: &Site, others: &[Site], bisectors: &[Bisector]) -> Ve
     arcs
 }
 
-/// Bisectors of a site with others, whose lower envelope is followed.
+/// The bisectors of a site with others, whose lower envelope is followed.
 struct Envelope<'a> {
     others: &'a [Site],
     bisectors: &'a [Bisector],
-    /// Parameters that differ by less are the same.
+    /// Parameters that differ by less count as equal.
     slack: f64,
 }
 
 impl<'a> Envelope<'a> {
-    /// Returns the bisector of least value right after a parameter; of equal ones that which falls most, and sides before corners.
+    /// Returns the bisector of least value right after a parameter; the one with the least slope if several are
+    /// equal. `None` if there is none.
     fn lowest(&self, at: f64) -> Option<&'a Bisector> {
         let here = || self.bisectors.iter().filter(|b| self.is_after(b, at));
         let least = here().map(|b| b.value(at)).fold(f64::INFINITY, f64::min);
@@ -80,12 +81,12 @@ impl<'a> Envelope<'a> {
         even.min_by(|a, b| a.slope(at).total_cmp(&b.slope(at)))
     }
 
-    /// Returns whether there is a bisector right after a parameter.
+    /// Returns true if a bisector exists right after a parameter.
     fn is_after(&self, b: &Bisector, at: f64) -> bool {
         b.from <= at + self.slack && b.to > at + self.slack
     }
 
-    /// Returns where the next bisector begins, after a gap; infinity if none does.
+    /// Returns the parameter at which the next bisector begins, after a gap; infinity if there is none.
     fn next_start(&self, at: f64) -> f64 {
         self.bisectors.iter().map(|b| b.from).filter(|from| *from > at + self.slack).fold(f64::INFINITY, f64::min)
     }
@@ -94,13 +95,14 @@ impl<'a> Envelope<'a> {
         self.others[b.other].is_side
     }
 
-    /// Returns whether two bisectors are with a side and with one of its own ends.
+    /// Returns true if one bisector is with a side and the other with an end of that side.
     fn touching(&self, a: &Bisector, b: &Bisector) -> bool {
         let (a, b) = (&self.others[a.other], &self.others[b.other]);
         a.is_side != b.is_side && [(a, b), (b, a)].iter().any(|(x, y)| x.is_side && (x.at == y.at || x.to == y.at))
     }
 
-    /// Returns the bisector with a side in place of that with its end: a side is nearer than its own end wherever it is seen.
+    /// Returns the bisector with a side, if `now` is with an end of that side. Where a side has a bisector, it is
+    /// nearer than its ends.
     fn side_of(&self, now: &'a Bisector, at: f64) -> &'a Bisector {
         if self.is_of_side(now) {
             return now;
@@ -109,7 +111,8 @@ impl<'a> Envelope<'a> {
         self.bisectors.iter().find(is_seen).unwrap_or(now)
     }
 
-    /// Returns where the envelope leaves a bisector that it follows from a parameter on, and the next one, if it is known.
+    /// Returns the parameter at which the envelope leaves a bisector that it follows from `at` on, and the next
+    /// bisector, if it is known.
     fn end(&self, now: &Bisector, at: f64) -> (f64, Option<&'a Bisector>) {
         let (mut end, mut next) = (now.to, None);
         for b in self.bisectors {
@@ -123,7 +126,7 @@ impl<'a> Envelope<'a> {
         self.hidden(now, at, end).unwrap_or((end, next))
     }
 
-    /// Returns where another bisector takes over within a range, before its end.
+    /// Returns the parameter at which another bisector takes over within a range; `None` if it does not.
     fn crossing(&self, b: &Bisector, now: &Bisector, [at, end]: [f64; 2]) -> Option<f64> {
         let event = if self.touching(b, now) {
             (self.is_of_side(b) && b.from > at).then_some(b.from)
@@ -136,7 +139,8 @@ impl<'a> Envelope<'a> {
         event.filter(|t| *t < end)
     }
 
-    /// Returns what rounding has hidden, which shows in the middle of a range: a lower bisector, and where it takes over.
+    /// Returns a takeover that rounding has hidden: the parameter and the lower bisector. The test is whether
+    /// another bisector is lower in the middle of the range.
     fn hidden(&self, now: &Bisector, at: f64, end: f64) -> Option<(f64, Option<&'a Bisector>)> {
         let is_below = |b: &Bisector, t: f64| {
             b.from <= t

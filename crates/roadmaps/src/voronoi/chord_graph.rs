@@ -10,17 +10,18 @@ use cplan_interrupt::checkpoint;
 use petgraph::graph::NodeIndex;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Ends of arcs that are nearer than this are one, radians or metres: where bisectors meet at a small angle, rounding moves
-/// the place by the root of that of coordinates.
+/// Ends of arcs nearer together than this are one node, radians or metres. Where bisectors meet at a small angle,
+/// the error of their intersection is the square root of the rounding error of coordinates.
 const JOIN_DISTANCE: f64 = 1e-7;
 
-/// Chords nearer to the boundary than this are no ways: they lead into its corners, or through where obstacles touch.
+/// Chords nearer to the boundary than this are not used. They lead into corners of the boundary, or between
+/// obstacles that touch.
 pub(super) const MIN_CHORD_CLEARANCE: f64 = JOIN_DISTANCE;
 
-/// Chords and nodes that are tried where a configuration is joined to the diagram.
+/// Number of nearest chords, and of nearest nodes, that are tried to join a configuration to the diagram.
 const MAX_TRIED_CONNECTIONS: usize = 12;
 
-/// The chords in a window, as a graph.
+/// The chords in a window as a graph.
 #[derive(Debug, Clone)]
 pub(super) struct ChordGraph {
     roadmap: Roadmap,
@@ -50,7 +51,7 @@ impl ChordGraph {
         graph
     }
 
-    /// Returns the node at a place, up to rounding.
+    /// Returns the node at a point, up to [`JOIN_DISTANCE`]; adds one if there is none.
     fn node(&mut self, places: &mut BTreeMap<[i64; 2], Vec<NodeIndex>>, at: Point) -> NodeIndex {
         let cell = [at.x, at.y].map(|value| (value / JOIN_DISTANCE).floor() as i64);
         let around = (-1..=1).flat_map(|i| (-1..=1).map(move |j| [cell[0] + i, cell[1] + j]));
@@ -64,7 +65,7 @@ impl ChordGraph {
         node
     }
 
-    /// Returns the roadmap with a query's ends.
+    /// Returns the roadmap with the start and the goals of a query.
     pub fn query_graph(&self, mesh: &Mesh, diagram: &Diagram, terminals: &Terminals) -> QueryGraph {
         let mut query_graph = self.roadmap.clone().query_graph(terminals.start);
         let start = query_graph.start;
@@ -72,11 +73,11 @@ impl ChordGraph {
         ends.extend(terminals.places(mesh).map(|at| query_graph.goal(at)));
         ends.sort_unstable();
         ends.dedup();
-        // Where each chord is met: how far along it, and the node there.
+        // For each chord that an end is joined to: the positions along the chord, and the nodes there.
         let mut met: BTreeMap<usize, Vec<(OrderedF64, NodeIndex)>> = BTreeMap::new();
         for &end in &ends {
             checkpoint();
-            // Without obstacles, or with start and goal in the same place, the end is already on the roadmap.
+            // Without obstacles, or with start and goal at the same place, the two can be joined directly.
             let is_there = self.chords.is_empty() || (query_graph.at(end) - terminals.start).norm() < JOIN_DISTANCE;
             if end != start && is_there && mesh.is_clear(terminals.start, query_graph.at(end)) {
                 query_graph.join(start, end);
@@ -97,7 +98,8 @@ impl ChordGraph {
         query_graph
     }
 
-    /// Joins an end to the diagram: to the chord that the line away from the boundary meets, or else to nearby nodes.
+    /// Joins an end to the diagram: to the chord that the line away from the boundary meets, otherwise to nearby
+    /// nodes.
     fn retract(
         &self,
         mesh: &Mesh,
@@ -134,7 +136,8 @@ impl ChordGraph {
     }
 }
 
-/// Returns the indices of the nearest of `count` things, nearest first.
+/// Returns the indices of the nearest of `count` items, nearest first. At most [`MAX_TRIED_CONNECTIONS`] are
+/// returned.
 fn nearest(count: usize, distance: impl Fn(usize) -> f64) -> Vec<usize> {
     let mut order: Vec<(OrderedF64, usize)> = (0..count).map(|k| (OrderedF64(distance(k)), k)).collect();
     if count > MAX_TRIED_CONNECTIONS {

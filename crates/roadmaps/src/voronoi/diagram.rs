@@ -11,37 +11,38 @@ use cplan_geometry::{Bounds, BoxTree, Point};
 use cplan_interrupt::checkpoint;
 use std::f64::consts::{PI, TAU};
 
-/// Chords of a parabola are nearer to it than this, radians or metres, ...
+/// Greatest distance of a chord from its parabola, radians or metres.
 const MAX_SAG: f64 = 1e-3;
 
-/// ... and than this share of its distance from the boundary, so that they keep that.
+/// Greatest distance of a chord from its parabola, as a fraction of the distance from the boundary. It keeps chords
+/// away from the boundary.
 const MAX_SAG_SHARE: f64 = 0.01;
 
 /// A straight piece of the diagram, or a chord of a parabola.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Chord {
     pub ends: Segment,
-    /// Least distance from its two sites.
+    /// Least distance from the two sites of the chord.
     pub width: f64,
 }
 
-/// The diagram for one turn of each circle, since all turns are alike, and for whole intervals.
+/// The diagram over one turn of each circle, since all turns are equal, and over whole intervals.
 #[derive(Debug, Clone)]
 pub(super) struct Diagram {
-    /// Sites of that part, sides cut at its borders, and then their copies around it.
+    /// The sites within that range, with sides cut at its ends, followed by copies of sites around it.
     sites: Vec<Site>,
-    /// For each site, the number of its original and the turns from there.
+    /// For each site, the number of the original site and the turns from there.
     originals: Vec<(usize, [i32; 2])>,
     lower: [f64; 2],
     ranges: [JointRange; 2],
-    /// A distance from the boundary that no configuration has.
+    /// A distance from the boundary that no configuration exceeds.
     most: f64,
     pub chords: Vec<Chord>,
 }
 
 impl Diagram {
-    /// Builds the diagram. `O(n m)` for `n` sites with `m` others within twice the greatest distance to the nearest
-    /// site.
+    /// Builds the diagram. `O(n m)` for `n` sites with `m` others near each of them: within twice the greatest
+    /// distance from the boundary.
     pub fn new(space: &Regions, mesh: &Mesh) -> Self {
         let ranges = space.topology.ranges;
         let part = [0, 1].map(|k| {
@@ -77,7 +78,7 @@ impl Diagram {
         diagram
     }
 
-    /// Returns all chords, each once.
+    /// Returns all chords of the first `count` sites, each once.
     fn drawn(&self, count: usize) -> Vec<Chord> {
         let bounds = |site: &Site| [site.at.inf(&site.to), site.at.sup(&site.to)];
         let tree = BoxTree::new(self.sites.iter().map(bounds).collect());
@@ -86,7 +87,8 @@ impl Diagram {
             let site = &self.sites[number];
             for arc in self.cell(&tree, number, bounds(site)) {
                 let (other, turns) = self.originals[arc.bisector.other];
-                // From a side rather than a corner, where parabolas are polynomials; of two alike from the first.
+                // Prefer a side to a corner, since its parabolas are polynomials; of two equal kinds take the one
+                // with the lower number.
                 if number < other || (number == other && turns > [0; 2]) {
                     chord(site, &self.sites[arc.bisector.other], &arc, [arc.from, arc.to], &mut chords);
                 }
@@ -95,7 +97,8 @@ impl Diagram {
         chords
     }
 
-    /// Returns the border of a site's cell among nearby sites, after proving that no others matter.
+    /// Returns the border of a site's cell among nearby sites, after it has proven that sites farther away do not
+    /// matter.
     fn cell(&self, tree: &BoxTree, number: usize, bounds: Bounds) -> Vec<Arc> {
         let most = self.most;
         let site = &self.sites[number];
@@ -119,22 +122,22 @@ impl Diagram {
         }
     }
 
-    /// Returns the place in the diagram's own turn, and the turns to get back.
+    /// Returns the copy of a point in the diagram's range, and the turns that lead back to the point.
     fn at_home(&self, p: Point) -> (Point, [f64; 2]) {
         let turns =
             [0, 1].map(|k| if self.ranges[k].is_circle() { ((p[k] - self.lower[k]) / TAU).floor() } else { 0.0 });
         (moved(p, turns.map(|turn| -turn)), turns)
     }
 
-    /// Returns where the straight line from a place, away from the nearest site, meets the diagram (O'Dunlaing, Yap
-    /// 1985). Linear.
+    /// Returns the point at which the straight line from `p`, away from the nearest site, meets the diagram
+    /// (O'Dunlaing, Yap 1985). Linear in the number of sites.
     pub fn retracted(&self, p: Point) -> Option<Point> {
         let (home, turns) = self.at_home(p);
         let distance = |site: &Site| (home - site.nearest(home)).norm();
         let nearest = self.sites.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
         let from = nearest.nearest(home);
         let displacement = home - from;
-        // On the boundary itself any of the site's rays will do.
+        // On the boundary, use any ray of the site.
         let ray = if displacement.norm() > CONTACT_DISTANCE {
             (from, displacement.normalize())
         } else {
@@ -145,9 +148,11 @@ impl Diagram {
         height.is_finite().then(|| moved(ray.0 + ray.1 * height, turns))
     }
 
-    /// Returns the distance of a free segment from the boundary. Linear in the number of sites, and in the length.
+    /// Returns the distance of a free segment from the boundary. Linear in the number of sites, and in the segment's
+    /// length.
     pub fn clearance(&self, a: Point, b: Point) -> f64 {
-        // Copies of sites reach no farther around the part than twice the greatest distance.
+        // Copies of sites are present only up to twice the greatest distance around the range, so long segments are
+        // halved.
         if (b - a).norm() > self.most {
             let middle = a + (b - a) / 2.0;
             return self.clearance(a, middle).min(self.clearance(middle, b));
@@ -157,7 +162,7 @@ impl Diagram {
         self.sites.iter().map(|site| site.distance(home, there)).fold(f64::INFINITY, f64::min)
     }
 
-    /// Iterates over all chords in a window, with their copies.
+    /// Iterates over all chords in a window, including their copies.
     pub fn repeated(&self, window: [(f64, f64); 2]) -> impl Iterator<Item = Chord> + '_ {
         let (lower, upper) = (window.map(|w| w.0), window.map(|w| w.1));
         self.chords.iter().flat_map(move |chord| {
@@ -180,8 +185,8 @@ impl Diagram {
     }
 }
 
-/// Returns a distance from the boundary that no configuration exceeds: the limits of an interval, or the copies of a
-/// site on two circles, are nearer.
+/// Returns a distance from the boundary that no configuration exceeds. The limits of an interval are nearer, or, on
+/// two circles, the copies of any site.
 fn farthest(space: &Regions) -> f64 {
     let extents = [0, 1].map(|k| space.window[k].1 - space.window[k].0);
     let circles = space.topology.ranges.map(JointRange::is_circle);
@@ -194,18 +199,18 @@ fn farthest(space: &Regions) -> f64 {
     }
 }
 
-/// Returns a point moved by a number of turns.
+/// Returns a point moved by whole turns.
 fn moved(p: Point, turns: [f64; 2]) -> Point {
     Segment::point(p).turned(turns).ends()[0]
 }
 
-/// Chords of an arc, halved until they are fine enough.
+/// Appends chords of an arc, which is halved until they are fine enough.
 fn chord(site: &Site, other: &Site, arc: &Arc, [from, to]: [f64; 2], chords: &mut Vec<Chord>) {
     let heights = [from, to].map(|t| arc.bisector.height(t));
     if !(heights[0] + heights[1]).is_finite() {
         return;
     }
-    // A narrower passage is not usable: where a corner almost touches a side, heights are dominated by rounding.
+    // Passages narrower than this are not used. Where a corner almost touches a side, rounding dominates heights.
     if arc.bisector.sag(to - from) > MAX_SAG.min(MAX_SAG_SHARE * heights[0].min(heights[1])).max(MIN_CHORD_CLEARANCE) {
         checkpoint();
         let middle = 0.5 * (from + to);
@@ -215,7 +220,7 @@ fn chord(site: &Site, other: &Site, arc: &Arc, [from, to]: [f64; 2], chords: &mu
         }
     }
     let place = |t: f64, height: f64| match site.end(t) {
-        // Corners of free space stay exact, because rounded ones may lie outside.
+        // Corners of free space stay exact, because rounded ones may lie outside free space.
         Some(corner) if height < CONTACT_DISTANCE => corner,
         _ => {
             let (at, direction) = site.ray(t);

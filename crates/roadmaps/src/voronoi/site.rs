@@ -1,32 +1,33 @@
-//! Sites of the Voronoi diagram of free space: open sides of its boundary, and corners.
+//! Sites of the Voronoi diagram of free space: the open sides of its boundary, and its corners.
 
 use cplan_core::planner::mesh::Corner;
 use cplan_core::space::Segment;
 use cplan_geometry::{Point, Vector, cross, perpendicular};
 
-/// Nearer than this is contact: rounding of coordinates, radians or metres.
+/// Two points nearer together than this are in contact, radians or metres. It exceeds the rounding of coordinates.
 pub(super) const CONTACT_DISTANCE: f64 = 1e-12;
 
 /// A side of the boundary without its ends, or a convex corner of an obstacle.
 ///
-/// The points that are nearer to it than to all else lie on its *rays*: those that leave a side at right angles, or a corner
-/// between the normals of its two sides. A parameter tells them apart: the length along the side, or the tangent of half the
-/// angle to the middle one, which makes polynomials of waves.
+/// The points that are nearer to a site than to all others lie on the site's *rays*. The rays of a side leave it at
+/// right angles. Those of a corner lie between the normals of its two sides. A parameter identifies a ray: the
+/// length along the side, or the tangent of half the angle to the corner's middle ray, which turns sines and cosines
+/// into polynomials.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Site {
-    /// The corner, or where the side begins.
+    /// The corner, or the start of the side.
     pub at: Point,
-    /// The corner, or where the side ends; free space lies to the left.
+    /// The corner, or the end of the side. Free space lies to the left of the side.
     pub to: Point,
-    /// Direction of the side, or of the corner's middle ray.
+    /// Unit direction of the side, or of the corner's middle ray.
     pub along: Vector,
-    /// Least and greatest parameter.
+    /// Least and greatest parameter of the rays.
     pub range: [f64; 2],
-    /// True for a side, even if its ends are rounded to the same place.
+    /// True for a side, even if both its ends are rounded to the same point.
     pub is_side: bool,
 }
 
-/// Start and direction of a ray.
+/// A ray, given by its start and its unit direction.
 pub(super) type Ray = (Point, Vector);
 
 impl Site {
@@ -36,7 +37,7 @@ impl Site {
         Self { at, to, along: (to - at) / length, range: [0.0, length], is_side: true }
     }
 
-    /// Creates a corner of free space with an angle of more than half a turn.
+    /// Creates the site of a convex corner of an obstacle.
     pub fn corner(corner: &Corner) -> Self {
         let first = perpendicular((corner.right - corner.at).normalize());
         let last = -perpendicular((corner.left - corner.at).normalize());
@@ -52,13 +53,13 @@ impl Site {
         }
     }
 
-    /// Returns the same site, moved by turns.
+    /// Returns the same site, moved by whole turns.
     pub fn turned(&self, turns: [f64; 2]) -> Self {
         let [at, to] = Segment::new(self.at, self.to).turned(turns).ends();
         Self { at, to, ..*self }
     }
 
-    /// Returns the normal into free space; for a corner, an arbitrary unit vector.
+    /// Returns the normal into free space; for a corner, the unit vector perpendicular to the middle ray.
     pub fn normal(&self) -> Vector {
         perpendicular(self.along)
     }
@@ -73,7 +74,7 @@ impl Site {
         }
     }
 
-    /// Returns the end of a side at which a parameter lies up to rounding.
+    /// Returns the end of a side at which the ray of a parameter starts, up to rounding; `None` if there is none.
     pub fn end(&self, parameter: f64) -> Option<Point> {
         let ends = [(self.range[0], self.at), (self.range[1], self.to)];
         ends.into_iter().find(|(end, _)| self.is_side && (parameter - end).abs() < CONTACT_DISTANCE).map(|(_, p)| p)
@@ -88,7 +89,7 @@ impl Site {
         }
     }
 
-    /// Returns the distance of a segment that does not cross the site.
+    /// Returns the distance from the site to a segment that does not cross it.
     pub fn distance(&self, a: Point, b: Point) -> f64 {
         let displacement = b - a;
         let share = |p: Point| {
@@ -99,8 +100,8 @@ impl Site {
         of_ends.into_iter().chain(of_site).fold(f64::INFINITY, f64::min)
     }
 
-    /// Returns the distance up to which points of a ray are nearer to its start than to this site. It is infinite if
-    /// there is no such limit, or if the ray starts on this site.
+    /// Returns the length up to which points of a ray are nearer to the ray's start than to this site. It is
+    /// infinite if all are, or if the ray starts on this site.
     pub fn limit(&self, (from, direction): Ray) -> f64 {
         if (from - self.nearest(from)).norm() < CONTACT_DISTANCE {
             return f64::INFINITY;

@@ -5,20 +5,20 @@ use crate::model::Pair;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-/// A stuck box in a file: all configurations from `lower` to `upper`, and the shapes that are too near in all of them.
-/// Numbers count from 0.
+/// A collision box in a file: all configurations from `lower` to `upper`, and the two shapes that are too near in
+/// all of them. All numbers count from 0.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ProofBox {
     /// Least value of each joint, radians or metres.
     pub lower: [f64; 2],
-    /// Greatest value of each joint.
+    /// Greatest value of each joint, radians or metres.
     pub upper: [f64; 2],
-    /// 0 for parts that the first joint carries, 1 for those of the second.
+    /// Carrier of the part: 0 for joint 1, 1 for joint 2; 2 for joint 2 if joint 1 carries the obstacle.
     pub link: usize,
     /// Number of the convex part of the link.
     pub part: usize,
-    /// Number of the obstacle in the world file.
+    /// Number of the obstacle. Those of the world file come first.
     pub obstacle: usize,
     /// Number of the convex piece of the obstacle.
     pub piece: usize,
@@ -38,7 +38,7 @@ impl From<ProofBox> for CollisionBox {
     }
 }
 
-/// Why a text holds no proof.
+/// The reason why a text has no proof.
 #[derive(Debug, Error)]
 pub enum ProofFormatError {
     /// The text is not JSON, or does not have the fields of a proof.
@@ -49,10 +49,10 @@ pub enum ProofFormatError {
     Missing,
 }
 
-/// Reads the claim in a result file, its field `proof`. [`Disconnection::checked`] decides if it is true.
+/// Reads the claim in a result file: the value of its key `proof`. [`Disconnection::checked`] decides if it is true.
 ///
 /// # Errors
-/// [`ProofFormatError`].
+/// [`ProofFormatError`] if the text is no result with a proof.
 pub fn read_proof(json: &str) -> Result<Disconnection, ProofFormatError> {
     #[derive(Deserialize)]
     struct Claim {

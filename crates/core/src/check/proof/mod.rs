@@ -1,9 +1,9 @@
 //! Proofs that there is no path: boxes of colliding configurations that separate the start from all goals.
 //!
-//! A [`Disconnection`] is a claim, which any caller can make. A [`CheckedProof`] is a claim that holds, and only
-//! [`Disconnection::checked`] makes it. The check shares no code with the search for claims: depths come from the
-//! Minkowski difference, motions from chords, and a sweep over the rest of the domain decides if the boxes separate
-//! start and goals.
+//! A [`Disconnection`] is a claim, which any caller can make. A [`CheckedProof`] is a claim that holds; only
+//! [`Disconnection::checked`] makes one. The check shares no code with the search for claims. It computes depths
+//! from the Minkowski difference and motions from chords. A sweep over the rest of the domain decides whether the
+//! boxes separate start and goals.
 
 mod json;
 mod separation;
@@ -21,28 +21,29 @@ use serde::{Serialize, Serializer};
 use std::sync::Arc;
 use thiserror::Error;
 
-/// Share of the lengths involved by which a depth must exceed the motion, far above the rounding of either.
+/// Fraction of the lengths in a comparison of a depth with a motion by which the depth must exceed the motion. It is
+/// far above the rounding of both.
 const ROUNDING: f64 = 1e-12;
 
-/// A box of configurations in which the same pair is too near everywhere.
+/// A box of configurations in which one pair of shapes is too near everywhere.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CollisionBox {
-    /// The configurations.
+    /// The box.
     pub cell: Cell,
-    /// The shapes.
+    /// The two shapes.
     pub pair: Pair,
 }
 
 impl CollisionBox {
-    /// Returns true if the pair is too near in the whole box, with room for rounding.
+    /// Returns true if the pair is nearer than `clearance` in the whole box, with room for rounding.
     #[must_use]
     pub fn holds(&self, scene: &Scene, clearance: f64) -> bool {
         is_collision(&scene.inner(), 0, self, clearance).is_ok()
     }
 }
 
-/// The claim that no motion leads from the start to any goal, because the rest of the domain, without the stuck boxes,
-/// does not connect them.
+/// The claim that no motion leads from the start to any goal, because collision boxes separate them. The boxes are
+/// its evidence.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Disconnection {
     stuck: Vec<CollisionBox>,
@@ -70,63 +71,63 @@ impl CheckedProof {
 }
 
 impl Serialize for CheckedProof {
-    /// Writes it as a list of [`ProofBox`].
+    /// Writes the proof as a list of [`ProofBox`].
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.collect_seq(self.stuck.iter().map(ProofBox::from))
     }
 }
 
-/// Why a claimed proof proves nothing.
+/// The reason why a claim proves nothing.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum ProofError {
-    /// The box names shapes that cannot meet, or do not exist.
+    /// The box names shapes that do not exist, or cannot meet.
     #[error("stuck box {0} names a pair of shapes that the scene does not have")]
     UnknownPair(usize),
-    /// The box is empty, or not within the domain.
+    /// The box is empty, or extends beyond the domain.
     #[error("stuck box {0} is no part of the configuration space")]
     NotInDomain(usize),
-    /// The shapes could come apart within the box.
+    /// The shapes may come apart within the box.
     #[error(
         "stuck box {index}: the shapes overlap by {depth:e} m in its middle, but can move by {motion:e} m within it"
     )]
     NotColliding {
-        /// Number of the box.
+        /// Number of the box, from 0.
         index: usize,
         /// Penetration depth in the middle, clearance included, metres.
         depth: f64,
-        /// Greatest distance that points of the link can move from there, metres.
+        /// Greatest distance that points of the part can move from there within the box, metres.
         motion: f64,
     },
-    /// The start and a part of this goal piece are connected outside the boxes.
+    /// The start is connected with this piece of the goals outside the boxes.
     #[error("the stuck boxes do not separate the start from goal {0}")]
     NotSeparated(usize),
 }
 
 impl Disconnection {
-    /// Creates the claim that these boxes prove it.
+    /// Creates the claim that these boxes separate the start from all goals.
     #[must_use]
     pub fn new(stuck: Vec<CollisionBox>) -> Self {
         Self { stuck }
     }
 
-    /// Returns the boxes.
+    /// Returns the boxes of the claim.
     #[must_use]
     pub fn collision_boxes(&self) -> &[CollisionBox] {
         &self.stuck
     }
 
-    /// Returns the same claim for a scene with other pairs, as translated by `pair`.
+    /// Returns the same claim for a scene with other numbers of shapes. `pair` translates each pair.
     pub fn of_pairs(mut self, pair: impl Fn(Pair) -> Pair) -> Self {
         self.stuck.iter_mut().for_each(|stuck| stuck.pair = pair(stuck.pair));
         self
     }
 
-    /// Checks the claim, from any source: in each of the boxes its pair is nearer than `clearance` (or touches), and
-    /// together the boxes separate the start from all goals. `O(n log n)` for `n` boxes, times the number of boxes
-    /// above one another.
+    /// Checks the claim: in each box its pair must be nearer than `clearance` or touch, and together the boxes must
+    /// separate the start from all goals. `O(n log n)` for `n` boxes, times the number of boxes at one value of
+    /// joint 1.
     ///
     /// # Errors
-    /// The first [`ProofError`].
+    /// The first [`ProofError`] found.
     pub fn checked(
         self,
         scene: &Scene,
@@ -138,7 +139,7 @@ impl Disconnection {
         for (index, stuck) in self.stuck.iter().enumerate() {
             is_in_space(scene, &topology, index, stuck)?;
         }
-        // Boxes that do not separate are found in less time than shapes that do not overlap.
+        // It takes less time to find that boxes do not separate than that shapes do not overlap.
         if let Some(goal) = not_separated(&topology, &self.stuck, start, goals) {
             return Err(ProofError::NotSeparated(goal));
         }
@@ -150,7 +151,7 @@ impl Disconnection {
     }
 }
 
-/// Returns true if the box is part of the domain, and its shapes can meet.
+/// Checks that the box is part of the domain, and that its shapes can meet.
 fn is_in_space(scene: &Scene, topology: &Topology, index: usize, stuck: &CollisionBox) -> Result<(), ProofError> {
     let cell = &stuck.cell;
     for k in 0..2 {
@@ -162,11 +163,11 @@ fn is_in_space(scene: &Scene, topology: &Topology, index: usize, stuck: &Collisi
     scene.pairs().binary_search(&stuck.pair).map(|_| ()).map_err(|_| ProofError::UnknownPair(index))
 }
 
-/// Returns true if its shapes are nearer than `clearance` in the whole box.
+/// Checks that the shapes of the box are nearer than `clearance` in the whole box.
 fn is_collision(scene: &Scene, index: usize, stuck: &CollisionBox, clearance: f64) -> Result<(), ProofError> {
     let cell = &stuck.cell;
     let middle = Configuration::from_fn(|k, _| (cell.lower[k] + cell.upper[k]) / 2.0);
-    // The middle is rounded: the farther of the two ends counts.
+    // The middle is rounded, so take the greater distance to the two ends.
     let half = [0, 1].map(|k| (cell.upper[k] - middle[k]).max(middle[k] - cell.lower[k]));
     let part = scene.part(stuck.pair).at(&scene.arm().pose(stuck.pair.link, middle));
     let piece = scene.piece(stuck.pair).grown(clearance);
@@ -176,8 +177,8 @@ fn is_collision(scene: &Scene, index: usize, stuck: &CollisionBox, clearance: f6
     if depth > motion + ROUNDING * scale { Ok(()) } else { Err(ProofError::NotColliding { index, depth, motion }) }
 }
 
-/// Returns the farthest that a corner of the link's part can move from its place at `q` while each joint moves by at
-/// most `half`: a turn by `t` about a point at distance `r` moves it by the chord `2 r sin(t / 2)`.
+/// Returns an upper bound on the motion of the part's corners, metres, while each joint moves by at most `half` from
+/// `q`. A turn by `t` about a point at distance `r` moves a corner by the chord `2 r sin(t / 2)`.
 fn farthest(scene: &Scene, stuck: &CollisionBox, q: Configuration, half: [f64; 2]) -> f64 {
     let arm = scene.arm();
     let chord = |angle: f64| 2.0 * (angle.min(std::f64::consts::PI) / 2.0).sin();
@@ -191,7 +192,8 @@ fn farthest(scene: &Scene, stuck: &CollisionBox, q: Configuration, half: [f64; 2
         }
         (_, JointType::Revolute { .. }, JointType::Prismatic { direction }) => {
             let at = |slide: f64| (arm.offset + direction * (q[1] + slide) + a).norm();
-            // Joint 2 first, then the turn about the base at the farther of the two ends: distance is convex.
+            // Joint 2 moves first, then joint 1 turns. Distance is convex, so its greatest value is at an end of
+            // joint 2's range.
             half[1] + at(half[1]).max(at(-half[1])) * chord(half[0])
         }
         (_, JointType::Prismatic { .. }, JointType::Revolute { .. }) => half[0] + a.norm() * chord(half[1]),

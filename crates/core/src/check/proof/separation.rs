@@ -1,11 +1,12 @@
-//! Decides if boxes separate the start from all goals.
+//! Decides if collision boxes separate the start from all goals.
 
 use super::CollisionBox;
 use crate::space::{Configuration, GoalSet, Segment, Topology};
 use cplan_interrupt::checkpoint;
 use petgraph::unionfind::UnionFind;
 
-/// Returns the first piece of the goals that is connected with the start, in whole or in part, outside the boxes.
+/// Returns the number of the first goal of which some part is connected with the start outside the boxes. It counts
+/// the copies in the domain ([`GoalSet::wrapped`]). `None` if the boxes separate all goals from the start.
 pub(super) fn not_separated(
     topology: &Topology,
     boxes: &[CollisionBox],
@@ -13,21 +14,21 @@ pub(super) fn not_separated(
     goals: &GoalSet,
 ) -> Option<usize> {
     let slabs = Slabs::new(topology, boxes);
-    // A start or goal inside a stuck box is not free, so no path leads there.
+    // A start or goal inside a collision box is not free, so no path leads there.
     let from = slabs.locate(topology.wrap(start))?;
     let groups = slabs.groups(topology);
     let joined = |goals: Segment| slabs.holding(&goals).into_iter().any(|to| groups.equiv(to, from));
     goals.wrapped(topology).position(joined)
 }
 
-/// The part of the domain outside of closed boxes: strips of `q1` between the boxes' sides, and in each strip the open
-/// gaps of `q2`.
+/// The part of the domain outside closed boxes. It consists of strips of `q1` between the boxes' sides, and in each
+/// strip of gaps in `q2`, which are open intervals.
 struct Slabs {
-    /// Ends of the strips, ascending.
+    /// Values of `q1` at the ends of the strips, ascending.
     ends: Vec<f64>,
-    /// Gaps of all strips, strip by strip, ascending.
+    /// The gaps of all strips, strip by strip, each strip's in ascending order.
     gaps: Vec<[f64; 2]>,
-    /// Index in `gaps` of each strip's first gap; one more at the end.
+    /// For each strip, the index of its first gap in `gaps`, followed by the number of gaps.
     first: Vec<usize>,
 }
 
@@ -71,7 +72,7 @@ impl Slabs {
         self.first[index]..self.first[index + 1]
     }
 
-    /// Returns the gap that holds `q`; `None` if a box does.
+    /// Returns a gap that contains `q`, its ends included; `None` if `q` is inside a box.
     fn locate(&self, q: Configuration) -> Option<usize> {
         let beside = |i: &usize| self.ends[*i] <= q[0] && q[0] <= self.ends[*i + 1];
         let strips: Vec<usize> = (0..self.first.len() - 1).filter(beside).collect();
@@ -79,7 +80,7 @@ impl Slabs {
         strips.into_iter().find_map(within)
     }
 
-    /// Returns the gaps that contain a part of a segment, sides included; one of them for a point.
+    /// Returns the gaps that contain a part of a segment, their sides included. For a point it returns only one.
     fn holding(&self, piece: &Segment) -> Vec<usize> {
         let [from, to] = piece.ends();
         if piece.is_point() {
@@ -95,8 +96,8 @@ impl Slabs {
         gaps.filter(meets).map(|(_, gap)| gap).collect()
     }
 
-    /// Joins gaps that are connected: of neighbouring strips (around the circle too) where they overlap, and of one
-    /// strip across the seam of the second axis.
+    /// Joins connected gaps: gaps of neighbouring strips (also around the circle) if they overlap, and gaps of one
+    /// strip at the seam of the second axis.
     fn groups(&self, topology: &Topology) -> UnionFind<usize> {
         let strips = self.first.len() - 1;
         let mut groups = UnionFind::new(self.gaps.len());
@@ -131,7 +132,7 @@ mod tests {
     use crate::space::JointRange;
     use std::f64::consts::PI;
 
-    /// A box along a whole axis leaves two parts, which are one across the seam of the other axis if that is a circle.
+    /// A box along a whole axis leaves two parts. They are connected if the other axis is a circle, across its seam.
     #[test]
     fn a_seam_joins_what_a_band_leaves() {
         let turn = JointRange::Circle;

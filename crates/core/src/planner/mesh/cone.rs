@@ -1,16 +1,16 @@
-//! Cones of sight, edge by edge through the triangles.
+//! Cones of lines of sight, which cross the triangulation from edge to edge.
 
 use super::corners::{Corner, Tangency};
 use super::{Mesh, next, previous};
 use crate::space::Segment;
 use cplan_geometry::{Orientation, Point, orientation};
 
-/// A ray from a root, as a directed line through it.
+/// A ray that bounds a cone, given by the directed line on which it lies.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bound {
-    /// A point of the line, from which it is directed.
+    /// A point of the line.
     pub from: Point,
-    /// Another point, ahead of the first.
+    /// Another point of the line, in its direction.
     pub to: Point,
 }
 
@@ -21,36 +21,37 @@ impl Bound {
         orientation(self.from, self.to, p)
     }
 
-    /// Returns true if it points to a greater abscissa, or straight up.
+    /// Returns true if the direction has a greater abscissa, or is straight up.
     fn is_forward(&self) -> bool {
         (self.to.x, self.to.y) > (self.from.x, self.from.y)
     }
 }
 
-/// All rays from a root between a ray to the `right` and one to the `left`, which are less than half a turn but not
-/// zero apart. The rays leave a triangle through its half-edge `edge`.
+/// All rays from a root between a ray to the `right` and one to the `left`. The angle between the two is positive
+/// and less than half a turn. The rays leave a triangle through the half-edge `edge`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cone {
     /// The half-edge through which the rays leave the triangle.
     pub edge: u32,
-    /// The ray that bounds them clockwise.
+    /// The clockwise bound.
     pub right: Bound,
-    /// The ray that bounds them counter-clockwise.
+    /// The counter-clockwise bound.
     pub left: Bound,
 }
 
 impl Cone {
-    /// Returns true if any ray points to a greater abscissa, or straight up.
+    /// Returns true if the direction of any ray has a greater abscissa, or is straight up.
     fn is_forward(&self) -> bool {
         self.right.is_forward() || self.left.is_forward()
     }
 
-    /// Returns true if `p` lies on one of the rays or on the line of one before the root.
+    /// Returns true if `p` lies on one of the rays, or on the extension of one backwards from the root.
     fn holds(&self, p: Point) -> bool {
         self.right.side(p) != Orientation::Clockwise && self.left.side(p) != Orientation::CounterClockwise
     }
 
-    /// Returns the part of a segment that lies on the rays or on their lines before the root; exact for a point.
+    /// Returns the part of a segment on the rays or their backward extensions; `None` if there is none. Exact for a
+    /// point.
     pub fn part(&self, segment: &Segment) -> Option<Segment> {
         if segment.is_point() {
             return self.holds(segment.ends()[0]).then_some(*segment);
@@ -59,49 +60,49 @@ impl Cone {
     }
 }
 
-/// The crossing of a cone and the triangle behind its edge.
+/// The crossing of a cone and the triangle beyond its edge.
 #[derive(Debug, Clone, Copy)]
 pub struct Crossing {
-    /// The half-edge by which it enters.
+    /// The half-edge, of that triangle, by which the cone enters.
     pub entry: u32,
-    /// The half-edge that begins at the corner ahead, if the root sees that.
+    /// The half-edge that begins at the corner opposite the entry; `None` if the root does not see that corner.
     pub seen: Option<u32>,
-    /// The continuation of the cone.
+    /// The cone or cones that leave the triangle.
     pub beyond: ConeContinuation,
 }
 
-/// The continuation of a cone behind a triangle.
+/// The continuation of a cone beyond a triangle.
 #[derive(Debug, Clone, Copy)]
 pub enum ConeContinuation {
-    /// The whole cone continues through this edge, past the corner ahead.
+    /// The whole cone leaves through this half-edge, to one side of the corner opposite the entry.
     Through(u32),
-    /// The cone continues on one side of the corner, which lies on one of its bounds.
+    /// The corner lies on a bound of the cone, and the cone continues on one side of it.
     One(Cone),
-    /// The cone continues to the right of the corner and to the left of it.
+    /// The corner lies within the cone, which continues to the right and to the left of it.
     Two(Cone, Cone),
 }
 
-/// The view of a triangle from a root at one of its corners, or within it.
+/// The view from a root through one edge of a triangle that has the root as a corner or contains it.
 #[derive(Debug, Clone, Copy)]
 pub struct Successor {
-    /// The cone through an edge that the root does not lie on.
+    /// The cone through the edge.
     pub cone: Cone,
-    /// Half-edges that begin at the right and the left end of that edge, if they are seen.
+    /// For the right and the left end of the edge, the half-edge that begins there; `None` if the end is not seen.
     pub seen: [Option<u32>; 2],
 }
 
-/// Directions to look in from a corner.
+/// The directions in which a search looks from a corner.
 #[derive(Debug, Clone, Copy)]
 pub enum ViewDirections {
     /// All directions of free space.
     Around,
-    /// Directions from a ray to the right to one to the left, less than half a turn apart.
+    /// The directions from a ray to the right to one to the left, less than half a turn apart.
     Between(Bound, Bound),
 }
 
 impl Corner {
-    /// Returns the directions in which a shortest path from `p` may continue that turns at this corner: from straight
-    /// ahead to along the obstacle. `None` if the line from `p` enters the obstacle.
+    /// Returns the directions in which a shortest path from `p` may continue after a turn at this corner: from
+    /// straight ahead to along the obstacle. `None` if the line from `p` enters the obstacle.
     pub fn beyond(&self, p: Point) -> Option<ViewDirections> {
         let ahead = Bound { from: p, to: self.at };
         match self.tangency(p) {
@@ -131,7 +132,7 @@ impl Corner {
 }
 
 impl Mesh {
-    /// Follows a cone from `root` into the next triangle; `None` at a wall. Exact.
+    /// Follows a cone from `root` into the triangle beyond its edge; `None` if the edge is a wall. Exact.
     #[inline]
     pub fn cross(&self, root: Point, cone: &Cone) -> Option<Crossing> {
         let entry = self.twin(cone.edge)?;
@@ -156,8 +157,8 @@ impl Mesh {
         Some(Crossing { entry, seen: Some(back), beyond })
     }
 
-    /// Calls `meet` with each triangle that is seen from a root in a cone, together with the part of the cone there.
-    /// Time in the number of triangles crossed; exact.
+    /// Calls `meet` with each triangle that the root sees in a cone, and with the part of the cone that enters it.
+    /// Exact; linear in the number of triangles crossed.
     pub fn look(&self, root: Point, cone: Cone, mut meet: impl FnMut(&Crossing, &Cone)) {
         let mut stack = vec![cone];
         while let Some(mut cone) = stack.pop() {
@@ -175,8 +176,9 @@ impl Mesh {
         }
     }
 
-    /// Calls `see` with the half-edges that begin at the corners seen from a root in a cone, in no particular order.
-    /// Leaves out corners in cones that lead back. Time in the number of triangles crossed; exact.
+    /// Calls `see` with the half-edges that begin at the corners that the root sees in a cone, in no particular
+    /// order. Drops cones none of whose rays is forward (see `is_forward`). Exact; linear in the number of triangles
+    /// crossed.
     pub fn look_forward(&self, root: Point, cone: Cone, stack: &mut Vec<Cone>, mut see: impl FnMut(u32)) {
         stack.extend(Some(cone).filter(Cone::is_forward));
         while let Some(mut cone) = stack.pop() {
@@ -207,12 +209,13 @@ impl Mesh {
         }
     }
 
-    /// Returns the view from a corner into the triangles around it, from right to left, each end of an edge once.
+    /// Returns the view from a corner through the triangles around it, from right to left. Each end of an edge is
+    /// reported once.
     pub fn successors(&self, corner: &Corner, gaze: ViewDirections) -> impl Iterator<Item = Successor> + '_ {
         let root = corner.at;
         let mut spoke = Some(corner.first);
         let mut last_seen = None;
-        // Between two rays that coincide nothing new is visible.
+        // If the two rays coincide, nothing new is visible between them.
         if let ViewDirections::Between(right, left) = gaze
             && !is_left_of(right, left, root)
         {
@@ -232,7 +235,7 @@ impl Mesh {
         })
     }
 
-    /// Returns the view through an edge opposite to the root, if any of it lies within the gaze.
+    /// Returns the view through an edge opposite the root; `None` if no part of the edge lies in these directions.
     fn successor(&self, root: Point, edge: u32, gaze: ViewDirections) -> Option<Successor> {
         let ends = [edge, next(edge)];
         let [x, y] = ends.map(|h| Bound { from: root, to: self.origin(h) });
@@ -252,7 +255,7 @@ impl Mesh {
         Some(Successor { cone, seen: [begins_within.then_some(ends[0]), ends_within.then_some(ends[1])] })
     }
 
-    /// Returns the view from any point of a triangle, borders included, through its edges.
+    /// Returns the view from a point of a triangle, borders included, through the triangle's edges.
     pub fn successors_within(&self, triangle: u32, p: Point) -> impl Iterator<Item = Successor> + '_ {
         (3 * triangle..3 * triangle + 3).filter_map(move |edge| {
             let ends = [edge, next(edge)];
@@ -265,11 +268,11 @@ impl Mesh {
     }
 }
 
-/// Returns true if the ray `left` from `root` is strictly to the left of the ray `right`. The rays are less than half a
-/// turn apart.
+/// Returns true if the ray `left` from `root` is strictly to the left of the ray `right`. The angle between them
+/// must be less than half a turn.
 fn is_left_of(right: Bound, left: Bound, root: Point) -> bool {
     if left.to == root {
-        // It points away from its origin.
+        // This ray's line goes through the root at its end, so look at its other point, and reverse the sign.
         right.side(left.from) == Orientation::Clockwise
     } else {
         right.side(left.to) == Orientation::CounterClockwise

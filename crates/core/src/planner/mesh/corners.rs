@@ -1,39 +1,39 @@
-//! Convex corners of obstacles, as free space sees them.
+//! Convex corners of obstacles.
 
 use super::{next, previous};
 use crate::planner::NO_ENTRY;
 use cplan_geometry::planar::HalfEdges;
 use cplan_geometry::{Orientation, Point, orientation};
 
-/// A convex corner of an obstacle: a vertex and one sector of free space there of more than half a turn. Where
-/// obstacles touch in a vertex it has several sectors.
+/// A convex corner of an obstacle: a vertex, with a sector of free space of more than half a turn. A vertex where
+/// obstacles touch can have several sectors, and so several corners.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Corner {
-    /// The vertex of the mesh.
+    /// The vertex.
     pub at: Point,
-    /// The end of the side from which free space lies counter-clockwise.
+    /// The other end of the side that bounds the sector clockwise.
     pub right: Point,
-    /// The end of the side up to which free space lies.
+    /// The other end of the side that bounds the sector counter-clockwise.
     pub left: Point,
-    /// The half-edge along the side to the right.
+    /// The half-edge from the vertex along the side to the right.
     pub first: u32,
 }
 
-/// The position of the obstacle at a corner relative to the line from a point to that corner.
+/// The position of the obstacle at a corner relative to the line from another point to that corner.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Tangency {
-    /// It enters the obstacle: no shortest path turns here.
+    /// The line enters the obstacle, so no shortest path turns here.
     None,
-    /// The obstacle is to its left.
+    /// The obstacle is to the left of the line.
     Left,
-    /// The obstacle is to its right.
+    /// The obstacle is to the right of the line.
     Right,
-    /// The line runs along an obstacle without width.
+    /// The obstacle has no width, and the line runs along it.
     Both,
 }
 
 impl Corner {
-    /// Returns the position of the obstacle relative to the line from `p`, another point.
+    /// Returns the position of the obstacle relative to the line from `p`, which must not be the corner itself.
     pub fn tangency(&self, p: Point) -> Tangency {
         let sides = [self.right, self.left].map(|end| orientation(p, self.at, end));
         match (sides.contains(&Orientation::CounterClockwise), sides.contains(&Orientation::Clockwise)) {
@@ -45,11 +45,11 @@ impl Corner {
     }
 }
 
-/// All corners, and the corner at which each half-edge begins.
+/// All convex corners, and for each half-edge the corner at its origin.
 #[derive(Debug, Clone)]
 pub struct Corners {
     pub list: Vec<Corner>,
-    /// The corner of each half-edge; `NO_ENTRY` where the sector is at most half a turn.
+    /// For each half-edge, the number of the corner; `NO_ENTRY` if the sector is at most half a turn.
     pub of_half_edge: Vec<u32>,
 }
 
@@ -59,7 +59,7 @@ impl Corners {
         let at = |h: u32| vertices[edges.origin[h as usize] as usize];
         let mut list = Vec::new();
         let mut of_half_edge = vec![NO_ENTRY; edges.origin.len()];
-        // In the order of the vertices, so that neighbours are close in memory.
+        // Sort by vertices, so that neighbouring corners are close in memory.
         let mut sides: Vec<u32> =
             (0..edges.origin.len() as u32).filter(|&h| edges.twin[h as usize] == NO_ENTRY).collect();
         sides.sort_by_key(|&h| edges.origin[h as usize]);
@@ -86,12 +86,13 @@ impl Corners {
     }
 }
 
-/// Returns true if the sector is more than half a turn.
+/// Returns true if the sector of free space is more than half a turn.
 fn is_convex(corner: &Corner) -> bool {
     match orientation(corner.at, corner.right, corner.left) {
         Orientation::CounterClockwise => false,
         Orientation::Clockwise => true,
-        // A sector has width, so sides in one direction enclose a whole turn: the end of a wall without width.
+        // A sector has positive width. So sides in the same direction enclose a whole turn, at the end of a wall
+        // without width.
         Orientation::Collinear => (corner.right - corner.at).dot(&(corner.left - corner.at)) > 0.0,
     }
 }

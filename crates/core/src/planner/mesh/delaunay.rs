@@ -6,12 +6,12 @@ use cplan_geometry::planar::HalfEdges;
 use cplan_geometry::{Orientation, Point, in_circle, orientation};
 use cplan_interrupt::checkpoint;
 
-/// Greatest number of flips per half-edge. Some two are usual; adversarial point sets could need a number that grows
-/// like the square. With fewer flips the triangulation is slower to walk through, but equally correct.
+/// Greatest number of flips per half-edge. About two are usual; adversarial point sets could need a number that
+/// grows like the square of their size. After fewer flips the triangulation is correct, but slower to walk through.
 const MAX_FLIPS_PER_EDGE: usize = 16;
 
-/// Makes a triangulation the constrained Delaunay triangulation (Lawson 1977): short edges, so that lines of sight cross
-/// few. The boundary stays. Of cocircular corners any triangulation will do.
+/// Makes a triangulation the constrained Delaunay triangulation (Lawson 1977) by flipping edges. Its edges are
+/// short, so lines of sight cross few. The boundary stays. Four corners on a circle keep either diagonal.
 pub fn flip(vertices: &[Point], edges: &mut HalfEdges) {
     let at = |v: u32| vertices[v as usize];
     let mut left = MAX_FLIPS_PER_EDGE * edges.origin.len();
@@ -50,8 +50,8 @@ pub fn flip(vertices: &[Point], edges: &mut HalfEdges) {
     }
 }
 
-/// Returns true if three corners are in counter-clockwise order. Those of a flipped edge always are, except if numbers
-/// are so small that the circle's sign underflows.
+/// Returns true if three corners are in counter-clockwise order. This fails for flipped edges only if coordinates
+/// are so small that the sign of `in_circle` underflows.
 fn is_triangle(a: Point, b: Point, c: Point) -> bool {
     orientation(a, b, c) == Orientation::CounterClockwise
 }

@@ -3,18 +3,18 @@
 use cplan_geometry::planar::HalfEdges;
 use cplan_geometry::{Orientation, Point, orientation};
 
-/// Triangles by vertical strips, as many as the root of their number.
+/// An index of triangles by vertical strips. The number of strips is the square root of the number of triangles.
 #[derive(Debug, Clone)]
 pub struct Columns {
     left: f64,
-    /// Strips per unit of length.
+    /// Number of strips per unit of length.
     density: f64,
     /// The triangles of strip `k` are `triangles[first[k]..first[k + 1]]`.
     first: Vec<u32>,
     triangles: Vec<Entry>,
 }
 
-/// A triangle and its range in y.
+/// A triangle with its range of ordinates.
 #[derive(Debug, Clone, Copy, Default)]
 struct Entry {
     low: f64,
@@ -23,11 +23,12 @@ struct Entry {
 }
 
 impl Columns {
-    /// Builds the index. `O(n)` entries among triangles of even size, `O(n sqrt n)` if all are as wide as free space.
+    /// Builds the index. It has `O(n)` entries for `n` triangles of even size, and `O(n sqrt n)` if every triangle
+    /// is as wide as free space.
     pub fn new(vertices: &[Point], edges: &HalfEdges) -> Self {
         let count = edges.origin.len() / 3;
         let strips = (count as f64).sqrt().ceil().max(1.0);
-        // Vertices are in order of abscissae.
+        // Vertices are sorted by abscissa.
         let (left, right) = (vertices.first().map_or(0.0, |p| p.x), vertices.last().map_or(0.0, |p| p.x));
         let density = if right > left { strips / (right - left) } else { 0.0 };
         let mut columns = Self { left, density, first: vec![0; strips as usize + 1], triangles: Vec::new() };
@@ -55,8 +56,8 @@ impl Columns {
         columns
     }
 
-    /// Returns the strip of an abscissa, the outermost one if it is outside. Monotone, even when rounded, so a point
-    /// within a triangle's range in x is in one of its strips.
+    /// Returns the strip at an abscissa; the outermost one if it is outside. Rounding keeps this function monotone,
+    /// so a point within a triangle's range of abscissae is in one of the triangle's strips.
     fn strip(&self, x: f64) -> usize {
         // A cast from a float saturates: it gives 0 to the left of all strips.
         (((x - self.left) * self.density) as usize).min(self.first.len() - 2)

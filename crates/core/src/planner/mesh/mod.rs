@@ -1,4 +1,4 @@
-//! Free space as triangles, which lines of sight cross one after the other.
+//! Triangulated free space.
 
 mod cone;
 mod corners;
@@ -18,7 +18,8 @@ use location::Columns;
 
 /// The constrained Delaunay triangulation of free space, its convex corners, and an index of its triangles.
 ///
-/// Triangles are neighbours only through free space, so parts that touch only in a corner are separate.
+/// Triangles are neighbours only if they share an edge in free space, so parts that touch only in a corner are
+/// separate.
 #[derive(Debug, Clone)]
 pub struct Mesh {
     vertices: Vec<Point>,
@@ -28,7 +29,7 @@ pub struct Mesh {
 }
 
 impl Mesh {
-    /// Builds the triangulation, `O(n log n)` for `n` vertices.
+    /// Builds the triangulation in `O(n log n)` for `n` vertices.
     pub fn new(boundary: Boundary) -> Self {
         let mut edges = triangulate(&boundary);
         let vertices = boundary.vertices;
@@ -48,13 +49,13 @@ impl Mesh {
         &self.corners.list
     }
 
-    /// Returns the triangles that contain `p`, borders included; none outside of free space. Exact; `O(sqrt n)` among
-    /// triangles of even size.
+    /// Returns the triangles that contain `p`, borders included. There are none if `p` is outside free space. Exact;
+    /// `O(sqrt n)` for triangles of even size.
     pub fn triangles_at(&self, p: Point) -> impl Iterator<Item = u32> + '_ {
         self.columns.triangles_at(&self.vertices, &self.edges, p)
     }
 
-    /// Returns the triangles that hold any of a segment, each with the part in it. Linear, except for a point.
+    /// Returns the triangles that contain a part of a segment, each with that part. Linear, except for a point.
     pub fn parts_of(&self, segment: &Segment) -> Vec<(u32, Segment)> {
         if segment.is_point() {
             let [at, _] = segment.ends();
@@ -67,7 +68,7 @@ impl Mesh {
         (0..self.triangles() as u32).filter_map(part).collect()
     }
 
-    /// Returns all corners of free space, each once, in order of abscissae.
+    /// Returns all vertices of free space, each once, sorted by abscissa.
     pub fn vertices(&self) -> &[Point] {
         &self.vertices
     }
@@ -82,7 +83,8 @@ impl Mesh {
         self.vertices[self.edges.origin[half_edge as usize] as usize]
     }
 
-    /// Returns the corner in the sector of free space at the origin of a half-edge, if that is convex for the obstacle.
+    /// Returns the number of the convex corner at the origin of a half-edge; `None` if the sector there is at most
+    /// half a turn.
     pub fn corner_at(&self, half_edge: u32) -> Option<u32> {
         let corner = self.corners.of_half_edge[half_edge as usize];
         (corner != NO_ENTRY).then_some(corner)
@@ -93,7 +95,7 @@ impl Mesh {
         [self.origin(half_edge), self.origin(next(half_edge))]
     }
 
-    /// Returns the sides of the boundary, free space to the left of each.
+    /// Returns the sides of the boundary. Free space is to the left of each.
     pub fn walls(&self) -> impl Iterator<Item = [Point; 2]> + '_ {
         (0..self.edges.twin.len() as u32).filter(|&half_edge| self.is_wall(half_edge)).map(|wall| self.ends(wall))
     }
@@ -115,7 +117,7 @@ pub fn next(half_edge: u32) -> u32 {
     if half_edge % 3 == 2 { half_edge - 2 } else { half_edge + 1 }
 }
 
-/// Returns the half-edge before in the same triangle.
+/// Returns the half-edge that precedes it in the same triangle.
 pub fn previous(half_edge: u32) -> u32 {
     if half_edge.is_multiple_of(3) { half_edge + 2 } else { half_edge - 1 }
 }
@@ -128,8 +130,8 @@ mod tests {
     use cplan_geometry::{Orientation, in_circle, orientation};
     use proptest::prelude::*;
 
-    /// A window of 7 x 7 squares around a board of 5 x 5, under an integer matrix of determinant 1; each blocked square is
-    /// a hole of its own, so that holes touch along sides and in corners.
+    /// Returns a window of 7 x 7 squares around a board of 5 x 5, transformed by an integer matrix of determinant 1.
+    /// Each blocked square is a separate hole, so holes touch along sides and in corners.
     fn board(blocked: &[bool], [a, b, c, d]: [f64; 4]) -> Regions {
         let square = |x: f64, y: f64, size: f64| {
             [(0.0, 0.0), (size, 0.0), (size, size), (0.0, size)]
@@ -159,8 +161,8 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(256))]
 
-        /// Checks the definitions: triangles are counter-clockwise, joined in pairs, cover free space, and are
-        /// Delaunay; an index finds those that contain a point.
+        /// Checks the definition: triangles are counter-clockwise, joined in pairs, cover free space, and are
+        /// Delaunay. The index finds those that contain a point.
         #[test]
         fn is_the_constrained_delaunay_triangulation(
             blocked in proptest::collection::vec(any::<bool>(), 25), matrix in matrices(),
@@ -181,7 +183,7 @@ mod tests {
                     }
                 }
             }
-            // In integers below 2^53 sums are exact.
+            // Sums of integers below 2^53 are exact.
             prop_assert_eq!(twice_area, 2.0 * (49.0 - blocked.iter().filter(|b| **b).count() as f64));
             for (x, y) in (-3..=13).flat_map(|x| (-3..=13).map(move |y| (f64::from(x) / 2.0, f64::from(y) / 2.0))) {
                 let [a, b, c, d] = matrix;
@@ -197,20 +199,21 @@ mod tests {
             }
         }
 
-        /// Compares with the squares that a segment meets. Segments that pass through no vertex are decided exactly;
-        /// all others are free if they are reported to be.
+        /// Compares with the squares that a segment meets. If the segment passes through no vertex, the two must
+        /// agree. Otherwise a segment that is reported to be clear must meet no square.
         #[test]
         fn straight_motions_are_clear_where_no_square_is_met(
             blocked in proptest::collection::vec(any::<bool>(), 25), matrix in matrices(),
             ends in [[-7i8..47, -7i8..47], [-7i8..47, -7i8..47]],
         ) {
             let mesh = Mesh::new(Boundary::new(&board(&blocked, matrix).contours()));
-            // Eighths with a small offset, so that few lines pass through vertices.
+            // Places are eighths with a small offset, so few lines pass through vertices.
             let place = |[x, y]: [i8; 2], off: f64| [f64::from(x) / 8.0 + off, f64::from(y) / 8.0 - off / 4.0];
             let [p, q] = [place(ends[0], 1.0 / 1024.0), place(ends[1], 1.0 / 4096.0)];
             let [a, b, c, d] = matrix;
             let mapped = |[x, y]: [f64; 2]| Point::new(a * x + b * y, c * x + d * y);
-            // Returns true if the segment meets the square with this lower corner, by the line and by the bounds.
+            // True if the segment meets the square with this lower corner, by the line's sides and the ranges of
+            // both.
             let meets = |x: f64, y: f64| {
                 let sides = [(x, y), (x + 1.0, y), (x + 1.0, y + 1.0), (x, y + 1.0)]
                     .map(|(x, y)| (q[0] - p[0]) * (y - p[1]) - (q[1] - p[1]) * (x - p[0]));

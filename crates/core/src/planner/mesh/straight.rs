@@ -4,14 +4,14 @@ use super::Mesh;
 use cplan_geometry::{Orientation, Point, orientation};
 
 impl Mesh {
-    /// Returns true if the segment from `a` to `b` lies in free space. Exact. A segment that passes through a vertex,
-    /// or along a side into another triangle, counts as not free; this does not happen between random points. Time in
-    /// the number of triangles crossed.
+    /// Returns true if the segment from `a` to `b` lies in free space. Exact; linear in the number of triangles
+    /// crossed. A segment that passes through a vertex, or along an edge into another triangle, counts as not free.
+    /// This does not happen between random points.
     pub fn is_clear(&self, a: Point, b: Point) -> bool {
         self.triangles_at(a).any(|triangle| self.walk(triangle, a, b).is_some())
     }
 
-    /// Returns the portals, as half-edges, through which the segment from `a`, in a triangle, to `b` leaves triangles;
+    /// Returns the half-edges through which the segment from `a` to `b` leaves triangles. It begins in `triangle`.
     /// `None` if the segment counts as not free, see [`Mesh::is_clear`].
     pub fn walk(&self, triangle: u32, a: Point, b: Point) -> Option<Vec<u32>> {
         let mut portals = Vec::new();
@@ -35,7 +35,7 @@ impl Mesh {
         }
     }
 
-    /// Returns the sides of a triangle that it shares with another one.
+    /// Returns the half-edges of a triangle that it shares with another triangle.
     pub fn portals(&self, triangle: u32) -> impl Iterator<Item = u32> + '_ {
         (3 * triangle..3 * triangle + 3).filter(|&side| !self.is_wall(side))
     }

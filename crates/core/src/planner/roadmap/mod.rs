@@ -1,7 +1,7 @@
 //! Roadmaps: graphs whose nodes are configurations and whose edges are straight motions between them.
 //!
-//! A producer makes a [`Roadmap`] of a space once. A query adds its start and its goals as nodes ([`QueryGraph`]), joins
-//! them with the nodes that they can reach, and searches the whole graph.
+//! A planner makes a [`Roadmap`] of a space once. For a query it adds the start and the goals as nodes
+//! ([`QueryGraph`]), joins them with the nodes that they can reach, and searches the whole graph.
 
 mod nearby;
 mod search;
@@ -19,15 +19,15 @@ use petgraph::unionfind::UnionFind;
 use petgraph::visit::EdgeRef;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// A motion between two configurations.
+/// A straight motion between two configurations.
 #[derive(Debug, Clone, Copy)]
 struct RoadmapEdge {
     length: f64,
-    /// Least distance from the boundary of free space; infinite if it is not needed.
+    /// Least distance from the boundary of free space; infinite if the planner does not use widths.
     width: f64,
 }
 
-/// Configurations and straight motions between them, whose lengths follow a measure.
+/// Configurations and straight motions between them. A measure gives the lengths.
 #[derive(Debug, Clone)]
 pub struct Roadmap {
     graph: UnGraph<Point, RoadmapEdge>,
@@ -40,17 +40,18 @@ impl Roadmap {
         Self { graph: UnGraph::new_undirected(), measure }
     }
 
-    /// Adds a node; nodes are numbered in the order of their addition.
+    /// Adds a node. Nodes are numbered in the order in which they are added.
     pub fn add(&mut self, at: Point) -> NodeIndex {
         self.graph.add_node(at)
     }
 
-    /// Joins two nodes by a motion, if they are not joined yet.
+    /// Joins two nodes by a straight motion, unless they are joined already.
     pub fn join(&mut self, a: NodeIndex, b: NodeIndex) {
         self.join_of_width(a, b, f64::INFINITY);
     }
 
-    /// Joins two nodes by a motion at this distance from the boundary of free space, if they are not joined yet.
+    /// Joins two nodes by a straight motion with this least distance from the boundary of free space, unless they
+    /// are joined already.
     pub fn join_of_width(&mut self, a: NodeIndex, b: NodeIndex, width: f64) {
         if self.graph.find_edge(a, b).is_none() {
             let length = self.measure.norm(self.graph[b] - self.graph[a]);
@@ -58,14 +59,14 @@ impl Roadmap {
         }
     }
 
-    /// Adds a query's start.
+    /// Adds the start of a query.
     pub fn query_graph(mut self, start: Point) -> QueryGraph {
         let start = self.add(start);
         QueryGraph { roadmap: self, start, goals: BTreeMap::new(), ends: BTreeSet::new() }
     }
 }
 
-/// Returns the run for a search of a roadmap; without a roadmap if the planner gave up before the search.
+/// Returns the run of a search over a roadmap. `query_graph` is `None` if the planner gave up before the search.
 pub fn run(kind: GraphKind, outcome: Proposal, query_graph: Option<&QueryGraph>, expanded: Vec<Configuration>) -> Run {
     let [nodes, edges] = query_graph.map_or([0; 2], QueryGraph::size);
     let drawn = query_graph.map_or_else(Vec::new, QueryGraph::edges);
@@ -73,20 +74,21 @@ pub fn run(kind: GraphKind, outcome: Proposal, query_graph: Option<&QueryGraph>,
     Run { outcome, trace, size: Size::Graph { nodes, edges }, note: None }
 }
 
-/// A roadmap with the ends of a query.
+/// A roadmap with the start and the goals of a query.
 #[derive(Debug, Clone)]
 pub struct QueryGraph {
     roadmap: Roadmap,
     /// The node of the start.
     pub start: NodeIndex,
-    /// Goals by the bits of their coordinates.
+    /// The goals' nodes, by the bits of their coordinates.
     goals: BTreeMap<[u64; 2], NodeIndex>,
     /// The nodes of the goals.
     ends: BTreeSet<NodeIndex>,
 }
 
 impl QueryGraph {
-    /// Returns the goal's node at a place, a separate node.
+    /// Returns the node of a goal at this point; adds one if there is none. Goals are nodes of their own, even at
+    /// the same point as another node.
     pub fn goal(&mut self, at: Point) -> NodeIndex {
         let roadmap = &mut self.roadmap;
         let goal = *self.goals.entry([at.x.to_bits(), at.y.to_bits()]).or_insert_with(|| roadmap.add(at));
@@ -99,18 +101,20 @@ impl QueryGraph {
         self.roadmap.add(at)
     }
 
-    /// Joins two nodes by a motion, if they are not joined yet.
+    /// Joins two nodes by a straight motion, unless they are joined already.
     pub fn join(&mut self, a: NodeIndex, b: NodeIndex) {
         self.roadmap.join(a, b);
     }
 
-    /// Joins two nodes by a motion at this distance from the boundary of free space, if they are not joined yet.
+    /// Joins two nodes by a straight motion with this least distance from the boundary of free space, unless they
+    /// are joined already.
     pub fn join_of_width(&mut self, a: NodeIndex, b: NodeIndex, width: f64) {
         self.roadmap.join_of_width(a, b, width);
     }
 
-    /// Returns the graph without the motions that are narrower than the widest route from the start to a goal, among
-    /// routes of at least this width. Returns `None` if there is no such route. Sorts the motions.
+    /// Returns the graph with only the motions that are at least as wide as the narrowest motion of the widest route
+    /// from the start to a goal. Returns `None` if there is no route whose motions all have at least the width
+    /// `least`. `O(m log m)` for `m` motions.
     pub fn widest(&self, least: f64) -> Option<Self> {
         let graph = &self.roadmap.graph;
         let mut order: Vec<_> = graph.edge_references().filter(|edge| edge.weight().width >= least).collect();
@@ -132,7 +136,7 @@ impl QueryGraph {
         Some(widest)
     }
 
-    /// Returns the place of a node.
+    /// Returns the configuration of a node.
     pub fn at(&self, node: NodeIndex) -> Point {
         self.roadmap.graph[node]
     }
@@ -142,13 +146,13 @@ impl QueryGraph {
         [self.roadmap.graph.node_count(), self.roadmap.graph.edge_count()]
     }
 
-    /// Returns both ends of each edge.
+    /// Returns both ends of each motion.
     pub fn edges(&self) -> Vec<[Configuration; 2]> {
         let edges = self.roadmap.graph.raw_edges().iter();
         edges.map(|edge| [edge.source(), edge.target()].map(|node| self.at(node))).collect()
     }
 
-    /// Searches the roadmap, and returns the expanded places, in order.
+    /// Searches the graph. Returns the route, if there is one, and the configurations that were expanded, in order.
     pub fn search(&self, how: RoadmapSearch, terminals: &Terminals) -> (Option<Vec<NodeIndex>>, Vec<Configuration>) {
         let Roadmap { graph, measure } = &self.roadmap;
         let question = SearchProblem {

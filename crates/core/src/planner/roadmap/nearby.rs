@@ -1,32 +1,33 @@
-//! The nearest of many points.
+//! An index that finds the points nearest to a place.
 
 use cplan_geometry::{OrderedF64, Point};
 
-/// Points in square buckets, a few in each.
+/// Points sorted into square buckets.
 #[derive(Debug, Clone)]
 pub struct Nearby {
     points: Vec<Point>,
     lower: Point,
     /// Side of a bucket.
     side: f64,
-    /// Buckets along each axis.
+    /// Number of buckets along each axis.
     shape: [usize; 2],
     /// The points of bucket `k` are `order[first[k]..first[k + 1]]`.
     first: Vec<usize>,
     order: Vec<usize>,
 }
 
-/// Number of points per bucket, if they are spread evenly.
+/// Average number of points per bucket: few distances per bucket, and few empty buckets.
 const POINTS_PER_BUCKET: f64 = 2.0;
 
 impl Nearby {
-    /// Builds the buckets. `O(n)`.
+    /// Sorts points into buckets. `O(n)` for `n` points.
     pub fn new(points: Vec<Point>) -> Self {
         let infinite = Point::new(f64::INFINITY, f64::INFINITY);
         let lower = points.iter().fold(infinite, |least, p| least.inf(p));
         let upper = points.iter().fold(-infinite, |most, p| most.sup(p));
         let extent = if points.is_empty() { [0.0; 2] } else { [upper.x - lower.x, upper.y - lower.y] };
-        // There are at most as many buckets as points, however slender the space.
+        // The side is chosen so that there are at most as many buckets as points, even if the points fill a slender
+        // box.
         let share = POINTS_PER_BUCKET / points.len().max(1) as f64;
         let side = (extent[0] * extent[1] * share).sqrt().max(extent[0].max(extent[1]) * share);
         let side = if side > 0.0 { side } else { 1.0 };
@@ -49,24 +50,24 @@ impl Nearby {
         nearby
     }
 
-    /// Returns the points, as they came.
+    /// Returns the points in their original order.
     pub fn points(&self) -> &[Point] {
         &self.points
     }
 
-    /// Returns the bucket that a point is in, or the nearest one.
+    /// Returns the row and column of the bucket that contains a point, or of the nearest bucket.
     fn place(&self, p: Point) -> [usize; 2] {
         // A cast from a float saturates: it gives 0 to the left of all buckets.
         [0, 1].map(|k| (((p[k] - self.lower[k]) / self.side) as usize).min(self.shape[k] - 1))
     }
 
-    /// Returns the `count` points nearest to `p`, nearest first; equals in the order of their addition. About
-    /// `O(count)` where points are spread evenly.
+    /// Returns the `count` points nearest to `p`, nearest first; equally near ones in their original order. About
+    /// `O(count)` if points are spread evenly.
     pub fn nearest(&self, p: Point, count: usize) -> Vec<usize> {
         let mut found: Vec<(OrderedF64, usize)> = Vec::new();
         let home = self.place(p);
-        // Points beyond this many rings of buckets are at least as far away as the rings are wide; from places outside
-        // of all buckets they are even farther.
+        // Points outside the first `n` rings of buckets around the home bucket are at least `n` sides away, and
+        // farther if `p` is outside all buckets.
         for ring in 0..self.shape[0].max(self.shape[1]) {
             for i in home[0].saturating_sub(ring)..=(home[0] + ring).min(self.shape[0] - 1) {
                 for j in home[1].saturating_sub(ring)..=(home[1] + ring).min(self.shape[1] - 1) {
@@ -95,7 +96,8 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(256))]
 
-        /// Compares with all distances, on a small lattice, where many are equal, and in a slender box.
+        /// Compares with a sort of all distances. The points are on a small lattice, where many distances are equal,
+        /// or in a slender box.
         #[test]
         fn are_those_of_all_that_are_nearest(
             places in proptest::collection::vec([0i8..9, 0i8..9], 0..60), from in [-4i8..13, -4i8..13], count in 0usize..12,

@@ -1,8 +1,8 @@
-//! One search for all roadmaps. Searches differ in the next node to expand.
+//! The graph search of all roadmaps. Search orders differ in the node that they expand next.
 //!
-//! The algorithms are petgraph's: its A\* is Dijkstra's algorithm without an estimate, and the greedy search where
-//! moves cost nothing; its walkers go breadth first and depth first, and do not recurse. This module adds the order in
-//! which nodes are expanded, and the predecessors of a walker.
+//! The algorithms are petgraph's. Its A\* is Dijkstra's algorithm if the estimate is 0, and the greedy search if
+//! edges cost nothing. Its walkers search breadth-first and depth-first, without recursion. This module adds the
+//! order in which nodes are expanded, and the predecessors of a walker's nodes.
 
 use cplan_interrupt::checkpoint;
 use petgraph::algo::astar;
@@ -15,22 +15,22 @@ use std::fmt;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum SearchOrder {
-    /// First in, first out: a path with the fewest edges.
+    /// The node that was found first. Finds a path with the fewest edges.
     BreadthFirst,
-    /// Last in, first out: any path, seldom a short one.
+    /// The node that was found last. Finds any path, seldom a short one.
     DepthFirst,
-    /// The node of least cost: a shortest path.
+    /// The node of least cost. Finds a shortest path.
     Dijkstra,
-    /// The node with the least sum of cost and estimated rest, which is the straight distance: a shortest path, usually
-    /// found sooner.
+    /// The node with the least sum of its cost and the straight distance to a goal. Finds a shortest path, usually
+    /// sooner than Dijkstra's algorithm.
     #[default]
     AStar,
-    /// The node with the least estimated rest: a path of any length, found soon.
+    /// The node with the least straight distance to a goal. Finds a path of any length, soon.
     Greedy,
 }
 
 impl SearchOrder {
-    /// All, in the order of the command line's help.
+    /// All orders, as listed in the command line's help.
     pub const ALL: [Self; 5] = [Self::BreadthFirst, Self::DepthFirst, Self::Dijkstra, Self::AStar, Self::Greedy];
 
     /// Returns the name on the command line.
@@ -56,9 +56,9 @@ impl SearchOrder {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RoadmapSearch {
-    /// The rule for the next node.
+    /// The rule for the next node to expand.
     pub order: SearchOrder,
-    /// True for a search from the goals to the start, rather than from the start to a goal.
+    /// True to search from the goals to the start; false to search from the start to a goal.
     pub backward: bool,
 }
 
@@ -79,28 +79,31 @@ impl fmt::Display for RoadmapSearch {
 /// The result of a search.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct SearchResult {
-    /// The route from the start to a goal, in this order for either direction of search; `None` if they are not joined.
+    /// The route from the start to a goal, in this order for either direction of search. `None` if no goal is
+    /// connected with the start.
     pub path: Option<Vec<NodeIndex>>,
-    /// The nodes that were expanded, in that order, the one that ended the search among them.
+    /// The nodes in the order of their expansion. The node that ended the search is the last.
     pub expanded: Vec<NodeIndex>,
 }
 
-/// The input of a search. Estimates never exceed the true cost, and are consistent: straight distances.
+/// The input of a search. Estimates must never exceed the true cost, and must be consistent; straight distances are
+/// both.
 pub struct SearchProblem<G, C, A, B> {
-    /// The node from which the search begins.
+    /// The node at which routes begin.
     pub start: NodeIndex,
     /// Returns true if a node is a goal.
     pub is_goal: G,
-    /// Returns the cost of an edge, not less than 0.
+    /// Returns the cost of an edge, at least 0.
     pub cost: C,
-    /// An estimate of the cost from a node to the nearest goal.
+    /// Returns an estimate of the cost from a node to the nearest goal.
     pub ahead: A,
-    /// An estimate of the cost from the start to a node.
+    /// Returns an estimate of the cost from the start to a node.
     pub behind: B,
 }
 
-/// Searches a graph from the start to any goal, or back. `O(n + m)` for `n` nodes and `m` edges breadth and depth
-/// first, `O((n + m) log n)` otherwise. Both count only the expanded part of the graph, except for tables of all nodes.
+/// Searches a graph from the start to any goal, or back. For `n` nodes and `m` edges it takes `O(n + m)`
+/// breadth-first and depth-first, otherwise `O((n + m) log n)`. Forward, only the expanded part counts, besides
+/// tables of all nodes; backward, the graph is copied first.
 pub fn search<N, E, G, C, A, B>(
     graph: &UnGraph<N, E>,
     how: RoadmapSearch,
@@ -130,7 +133,7 @@ where
     if let Some(path) = &mut searched.path {
         path.retain(|&node| node != hub);
         path.reverse();
-        // If several goals are in a row, the motion ends at the first one.
+        // If several goals follow each other on the route, the motion ends at the first one.
         let end = path.iter().position(|&node| is_goal(node)).map_or(path.len(), |at| at + 1);
         path.truncate(end);
     }
@@ -153,7 +156,7 @@ fn run<N, E>(
     };
     let (mut expanded, mut seen) = (Vec::new(), vec![false; graph.node_count()]);
     let ends_at = |node: NodeIndex| {
-        // A node may come up again although a shorter path has reached it since.
+        // A node may come up again after a shorter path has reached it; it counts once.
         if !std::mem::replace(&mut seen[node.index()], true) {
             expanded.push(node);
         }
@@ -163,13 +166,13 @@ fn run<N, E>(
         checkpoint();
         if priced { cost(edge.weight()) } else { 0.0 }
     };
-    // An end has no remaining cost, whatever rounding gives.
+    // At an end nothing remains, whatever rounding gives.
     let rest = |node: NodeIndex| if guided && !is_end(node) { estimate(node) } else { 0.0 };
     let path = astar(graph, from, ends_at, passing, rest).map(|(_, path)| path);
     SearchResult { path, expanded }
 }
 
-/// Searches breadth or depth first.
+/// Searches breadth-first or depth-first.
 fn walk<N, E>(
     graph: &UnGraph<N, E>,
     from: NodeIndex,
@@ -202,9 +205,9 @@ fn walk<N, E>(
         for neighbor in graph.neighbors(node).filter(|&neighbor| neighbor != from) {
             let parent = &mut parents[neighbor.index()];
             match &walker {
-                // The first predecessor has put it on the queue.
+                // The first predecessor has put the node on the queue.
                 Traversal::Breadth(_) => *parent = parent.or(Some(node)),
-                // The last predecessor has put it on top of the stack.
+                // The last predecessor has put the node on top of the stack.
                 Traversal::Depth(dfs) if !dfs.discovered.is_visited(&neighbor) => *parent = Some(node),
                 Traversal::Depth(_) => {}
             }
@@ -261,7 +264,8 @@ mod tests {
             search(&graph, how, &question)
         }
 
-        /// Returns the least sum of this over the edges of a route, between all pairs: Floyd and Warshall.
+        /// Returns for all pairs of places the least sum of `of` over the edges of a route, by the algorithm of
+        /// Floyd and Warshall.
         fn least(&self, of: impl Fn(usize, usize) -> f64) -> Vec<Vec<f64>> {
             let n = self.places.len();
             let mut least = vec![vec![f64::INFINITY; n]; n];
@@ -284,8 +288,8 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(512))]
 
-        /// A route is found if and only if there is one, along edges, with the length and the number of edges that its
-        /// order promises, both backward and forward. No node is expanded twice.
+        /// A route is found if and only if there is one. It follows edges, and has the length and the number of
+        /// edges that its order promises, both backward and forward. No node is expanded twice.
         #[test]
         fn each_order_finds_what_it_claims_in_both_directions(case in cases()) {
             let to_goal = |all: &[Vec<f64>]| case.goals.iter().map(|&goal| all[0][goal]).fold(f64::INFINITY, f64::min);
@@ -317,7 +321,8 @@ mod tests {
             }
         }
 
-        /// An estimate saves work: neither A\* nor Dijkstra expands a node that is farther off than the goal.
+        /// Neither A\* nor Dijkstra's algorithm expands a node whose cost, plus the estimate for A\*, exceeds the
+        /// cost of the goal.
         #[test]
         fn nothing_beyond_the_goal_is_expanded(case in cases()) {
             let least = case.least(|a, b| case.apart(a, b));
@@ -334,7 +339,7 @@ mod tests {
 
     #[test]
     fn each_order_is_the_textbooks() {
-        // A square with a tail; the goal is the tail's end.
+        // The graph is a square with a tail; the goal is the tail's end.
         //   1 - 2
         //   |   |
         //   0 - 3 - 4
@@ -349,7 +354,7 @@ mod tests {
         assert_eq!(of(SearchOrder::Greedy, false), [0, 3, 4]);
         assert_eq!(of(SearchOrder::AStar, false), [0, 3, 4]);
         assert_eq!(of(SearchOrder::Greedy, true), [4, 3, 0]);
-        // Neighbours of the start before all others.
+        // The neighbours of the start come before all other nodes.
         let mut breadth = of(SearchOrder::BreadthFirst, false);
         breadth[1..3].sort_unstable();
         assert_eq!(breadth[..3], [0, 1, 3]);

@@ -1,4 +1,4 @@
-//! The visibility graph by its definition, with an arc between any two corners that see each other.
+//! The full visibility graph, with an edge between any two corners that see each other.
 
 use super::VisibilityMap;
 use crate::planner::mesh::{Cone, Mesh};
@@ -9,26 +9,27 @@ use cplan_geometry::{Orientation, Point};
 use cplan_interrupt::checkpoint;
 use petgraph::graph::NodeIndex;
 
-/// Greatest number of corners of free space for the whole graph, which may have as many arcs as half its square.
+/// Greatest number of corners of free space for which the full graph is built. With `n` corners it may have
+/// `n^2 / 2` edges.
 const MAX_VERTICES: usize = 1500;
 
 impl VisibilityMap {
-    /// Returns the graph of all corners of free space, including those at joint limits, the start and the goals. Two
-    /// are joined if the segment between them is a side of free space, or lies in free space and touches no corner
-    /// between its ends (Latombe, *Robot Motion Planning*, 1991, section 4.1).
+    /// Returns the graph of the start, the goals and all corners of free space, including corners at joint limits.
+    /// Two nodes are joined if the segment between them is a side of free space, or if it lies in free space and
+    /// touches no corner between its ends (Latombe, *Robot Motion Planning*, 1991, section 4.1).
     ///
-    /// Time in the number of triangles that lines of sight cross; exact.
+    /// Exact; linear in the number of triangles that lines of sight cross.
     ///
     /// # Errors
-    /// More corners than the graph is made for.
+    /// If free space has more than [`MAX_VERTICES`] corners.
     pub(super) fn full(&self, measure: Measure, terminals: &Terminals) -> Result<QueryGraph, String> {
         let mesh = &self.mesh;
         let vertices = mesh.vertices();
         if vertices.len() > MAX_VERTICES {
             let count = vertices.len();
             return Err(format!(
-                "the full visibility graph is made of up to {MAX_VERTICES} corners, and free space has {count}; use --graph reduced, or a \
-                 greater --margin"
+                "the full visibility graph is made of up to {MAX_VERTICES} corners, and free space has {count}; \
+                 use --graph reduced, or a greater --margin"
             ));
         }
         let mut roadmap = Roadmap::new(measure);
@@ -40,7 +41,7 @@ impl VisibilityMap {
             let sight = CornerView { mesh, terminals, root };
             let (mut seen, mut goals) = (Vec::new(), Vec::new());
             sight.look(&mut seen, &mut goals);
-            // Each arc is found from both ends.
+            // Each edge is found from both ends; add it once.
             let joined = seen.into_iter().map(|vertex| nodes[vertex as usize]).filter(|other| other < node);
             joined.for_each(|other| query_graph.join(*node, other));
             for part in goals {
@@ -52,7 +53,7 @@ impl VisibilityMap {
     }
 }
 
-/// The view from a place.
+/// The view from a corner or from the start.
 struct CornerView<'a> {
     mesh: &'a Mesh,
     terminals: &'a Terminals,
@@ -60,7 +61,7 @@ struct CornerView<'a> {
 }
 
 impl CornerView<'_> {
-    /// Adds the numbers of the visible vertices, and the visible parts of goals.
+    /// Appends the numbers of the visible vertices to `seen`, and the visible parts of goals to `goals`.
     fn look(&self, seen: &mut Vec<u32>, goals: &mut Vec<Segment>) {
         let Self { mesh, terminals, root } = *self;
         for triangle in mesh.triangles_at(root) {
@@ -81,13 +82,13 @@ impl CornerView<'_> {
     }
 }
 
-/// Returns true if a place lies strictly between the bounds of a cone. A place on a bound has a corner before it, which
-/// the line of sight touches.
+/// Returns true if a point lies strictly between the bounds of a cone. A point on a bound has a corner in front of
+/// it, which the line of sight touches.
 fn is_within(cone: &Cone, p: Point) -> bool {
     cone.right.side(p) == Orientation::CounterClockwise && cone.left.side(p) == Orientation::Clockwise
 }
 
-/// Returns true if a place is within the cone or is a corner on one of its bounds.
+/// Returns true if a point is strictly within the cone, or is the corner on one of its bounds.
 fn is_seen(cone: &Cone, p: Point) -> bool {
     is_within(cone, p) || [cone.right.to, cone.left.to].contains(&p)
 }
