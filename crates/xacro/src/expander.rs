@@ -136,7 +136,7 @@ impl<'s> Expander<'s> {
         Ok(attributes)
     }
 
-    /// Expands content.
+    /// Expands nodes and appends the result to `out`.
     pub fn nodes(&mut self, nodes: &[Node], scope: usize, out: &mut Vec<Node>) -> Result<(), Error> {
         for node in nodes {
             match node {
@@ -208,7 +208,7 @@ impl<'s> Expander<'s> {
             }
             "element" | "attribute" => {
                 let message = format!("cplan does not read xacro:{name}");
-                Err(self.error(&element.place, Fault::with_hint(message, "write the final element under xacro:if")))
+                Err(self.error(&element.place, Fault::with_hint(message, "write the resulting element itself, inside xacro:if")))
             }
             "call" => {
                 let [called] = self.required(element, ["macro"])?;

@@ -2,8 +2,8 @@
 
 use cplan_check_files::CheckError;
 
-/// Returns its URDF. The base is 0.4 m by 0.3 m and 0.3 m high, and stands at height 0. The quill reaches down to the
-/// height `lowest`.
+/// Returns the URDF of a SCARA. The base is 0.4 m by 0.3 m and 0.3 m high, and stands at height 0. The quill reaches
+/// down to the height `lowest`.
 pub fn scara(lowest: f64) -> String {
     format!(
         r#"<robot name="scara">
