@@ -164,9 +164,9 @@ mod tests {
         for budget in [1e-5, 1e-4, 1e-3, 1e-2] {
             let fewer = drawn_out(&WIDE, &arc, Metric::Euclidean, budget, &[]);
             assert!(length(&fewer) <= length(&arc) + budget + 1e-12, "{budget}: {}", length(&fewer));
-            // Tangents that span `a` radians each are longer than the arc by about a^3 / 12. So the least number n
-            // within the budget satisfies (pi / 2)^3 / (12 n^2) = budget. Merging the cheapest pieces first leaves less
-            // than twice that many.
+            // A tangent that spans `a` radians is longer than its arc by about a^3 / 12. So the least number n of
+            // tangents within the budget satisfies (pi / 2)^3 / (12 n^2) = budget. Removing the cheapest pieces first
+            // leaves fewer than twice as many.
             let least = (FRAC_PI_2.powi(3) / 12.0 / budget).sqrt();
             assert!((fewer.len() as f64) < 2.0 * least + 4.0 && fewer.len() < before, "{budget}: {}", fewer.len());
             before = fewer.len();

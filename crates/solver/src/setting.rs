@@ -27,7 +27,7 @@ pub const ALLOWED_SAMPLES: RangeInclusive<usize> = 1..=100_000;
 /// Allowed numbers of neighbours to which each sample is connected.
 pub const ALLOWED_NEIGHBORS: RangeInclusive<usize> = 1..=1000;
 
-/// Criterion for short paths.
+/// Definition of the length that planners minimise.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Criterion {
@@ -104,7 +104,7 @@ macro_rules! settings {
 }
 
 settings! {
-    /// Criterion for short paths.
+    /// Definition of the length that the planner minimises.
     Criterion, criterion: Criterion = Criterion::Euclidean, "criterion";
     /// Largest gap: the path is refined until it is proven to be at most this share longer than the optimum. A larger
     /// gap permits faster motions. With `None`, `shortest` uses 1e-4, and `visibility` accepts the gap that its first

@@ -208,7 +208,10 @@ impl<'s> Expander<'s> {
             }
             "element" | "attribute" => {
                 let message = format!("cplan does not read xacro:{name}");
-                Err(self.error(&element.place, Fault::with_hint(message, "write the resulting element itself, inside xacro:if")))
+                Err(self.error(
+                    &element.place,
+                    Fault::with_hint(message, "write the resulting element itself, inside xacro:if"),
+                ))
             }
             "call" => {
                 let [called] = self.required(element, ["macro"])?;
