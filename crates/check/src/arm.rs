@@ -25,7 +25,7 @@ pub struct Joint {
     pub motion: Motion,
     /// Set of the joint's values: an interval or a circle.
     pub axis: Axis,
-    /// A range that contains the joint's limits; `None` if the joint has no limits.
+    /// A range of values that certainly lie within the limits; `None` if the joint has no limits.
     pub within: Option<Range>,
 }
 

@@ -110,7 +110,7 @@ struct TaskProof {
 /// If the text is not a certificate, has another format, or is a proof that a task is infeasible.
 pub fn read(text: &str) -> Result<Certificate, CheckError> {
     let text = serde_json::from_str::<EnclosingResult>(text).map_or(text, |result| result.certificate.get());
-    // Such a proof also has other keys that are unknown today.
+    // Old proofs have keys that are unknown today, so check for them first.
     if serde_json::from_str::<TaskProof>(text).is_ok() {
         let message = "it has \"cases\" that prove a task infeasible: the checker does not judge proofs about tasks; \
                        the result of cplan states the reason";
