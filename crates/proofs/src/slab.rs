@@ -194,7 +194,7 @@ impl<'a> SecondLink<'a> {
         let part = &mut self.parts[self.contacts.part_of(index) - self.contacts.second_link_parts().start];
         let piece = &mut self.pieces[index - self.contacts.second_link_pairs().start];
         let of_part = part.depth > piece.depth;
-        // In this case the eroded part is the same for all pieces.
+        // Then the eroded part is the same for all pieces.
         let shared = of_part && lacking(shape) == 0.0;
         let known = if shared { &mut part.eroded } else { &mut piece.eroded };
         if known.len() <= level {

@@ -266,8 +266,8 @@ impl<'a> Strips<'a> {
         self.strips[after].portals.as_deref().unwrap_or(&[])
     }
 
-    /// Returns the free interval that contains a value of joint 2 on a slice. `None` if the value is closed. On a
-    /// continuous joint, the interval reaches at most half a turn to either side.
+    /// Returns the free interval that contains a value of joint 2 on a slice, up to [`PORTAL_TOLERANCE`]. `None` if the
+    /// value is closed. For a continuous joint, the interval is cut at half a turn to either side of the value.
     pub fn free_around(&mut self, slice: i64, q2: f64) -> Option<[f64; 2]> {
         self.nearest_free(slice, q2, |portal| {
             portal.lower - PORTAL_TOLERANCE <= q2 && q2 <= portal.upper + PORTAL_TOLERANCE
@@ -296,8 +296,8 @@ impl<'a> Strips<'a> {
         within.filter(|[lower, upper]| lower <= upper)
     }
 
-    /// Returns the parts of a goal segment that are not closed. The result is exact if joint 1 has one value on the
-    /// segment. Otherwise only closed strips are removed.
+    /// Returns the parts of a goal segment that are not closed, if joint 1 has one value on the segment. Otherwise
+    /// returns the whole segment; closed strips then exclude parts of it in the search.
     pub fn open_goals(&mut self, piece: &Segment) -> Vec<Segment> {
         let [from, to] = piece.ends();
         let axis = self.topology.ranges[1];
