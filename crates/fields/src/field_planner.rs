@@ -135,7 +135,7 @@ impl FieldQuery<'_> {
         let mut field = relax_on(on, domain, equation, relaxation, stopping).map_err(refused)?;
         let (mut path, mut note) = (climb(&field), None);
         if path.is_err() && field.converged() && !stopping.measure.is_relative() && on.is_cpu() {
-            // The measure ignores small values, such as those around a start far from the goal.
+            // The measure hardly notices small values, such as those around a start far from the goal.
             let first = field.sweeps();
             let finely = Stopping { measure: Measure::GreatestRelativeChange, below: RELATIVE_TOLERANCE, ..*stopping };
             field = relax_from(domain, equation, relaxation, &finely, field.values).map_err(refused)?;
@@ -182,7 +182,7 @@ fn what(stuck: &DeadEnd) -> &'static str {
     if stuck.flat { "the field is flat" } else { "the field has a local maximum" }
 }
 
-/// Returns a hint if an equation is not monotone; otherwise an empty text.
+/// Explains that an equation is not monotone, with a hint.
 fn not_monotone(equation: &Equation) -> String {
     match equation {
         Equation::AlteredPreference { .. } => "the equation is not monotone; take a smaller epsilon".into(),

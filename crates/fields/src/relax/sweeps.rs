@@ -42,7 +42,7 @@ impl RelaxedField {
 pub enum RelaxError {
     /// The request is invalid, with the reason.
     Refused(String),
-    /// Values grew without bound, or are numbers no more.
+    /// Values grew without bound, or became NaN.
     Diverged {
         /// Number of sweeps after which this was noticed.
         sweeps: usize,

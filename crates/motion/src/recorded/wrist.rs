@@ -11,7 +11,8 @@ use std::f64::consts::TAU;
 pub struct WristTurn {
     /// The payload's orientation at the beginning, radians.
     pub from: f64,
-    /// Angle at the end: less than one turn from the beginning, in the direction of the turn.
+    /// The payload's orientation at the end, radians. It differs from `from` by less than one turn, with the sign of
+    /// the direction.
     pub to: f64,
     /// Proven lower bound on the distance between payload and obstacles, metres, except its supports; infinite if
     /// nothing can meet.

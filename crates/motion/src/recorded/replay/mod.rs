@@ -62,10 +62,10 @@ pub struct ReplayedStep<'a> {
     pub step: &'a Step,
     /// The recorded step.
     pub recorded: &'a RecordedStep,
-    /// The world during the motion, on a clock that starts with it, with the load. For a last step whose motion is free
-    /// but which leaves the arm in contact, the world at that time.
+    /// The scene during the motion, with the load. If the last step's motion is free but leaves the arm in contact,
+    /// this is the scene after that step.
     pub scene: Scene,
-    /// The trajectories of its moving obstacles, on a clock that begins with the motion.
+    /// The trajectories of the scene's moving obstacles, on a clock that begins with the motion.
     pub courses: Vec<ObstacleTrajectory>,
     /// The object that is picked or placed.
     pub object: Option<usize>,
@@ -80,8 +80,7 @@ pub struct ReplayedStep<'a> {
     pub event: Option<GripperEvent>,
     /// The check of the motion among the obstacles of the scene; moments are those of the whole recording.
     pub collision_check: CollisionCheck,
-    /// Joint limits that the motion violates. These are the joints' own limits, even if the step requires only a share
-    /// of them.
+    /// Violations of joint limits. The joints' own limits count, even if the step states a lower speed.
     pub broken: Vec<LimitViolation>,
     /// The turn of the wrist after the motion. Also `None` if a turn was recorded without a payload, which is a fault.
     pub turn: Option<ReplayedTurn>,
@@ -89,7 +88,7 @@ pub struct ReplayedStep<'a> {
     pub faults: Vec<Fault>,
 }
 
-/// A judge of recorded steps, one after the other. It is an iterator, since each step has its own scene.
+/// An iterator that judges recorded steps, one after the other.
 #[derive(Debug, Clone)]
 pub struct Replay<'a> {
     task: &'a Task,
@@ -106,14 +105,14 @@ pub struct Replay<'a> {
 /// task:
 ///
 /// - Each motion from rest to rest, by [`check_collision`] with the workspace's clearance in the scene of its moment,
-///   and by [`limit_violations`]. Objects are where previous steps have left them, and the load has the pose in which it was
-///   taken. Link 2 may touch the object that it takes and the one that it has just released; payloads may rest on their
-///   supports. The state after the last step is judged, too.
+///   and by [`limit_violations`]. Objects are where previous steps have left them, and the load has the pose in which
+///   it was taken. Link 2 may touch the object that it takes and the one that it has just released; payloads may rest
+///   on their supports. The state after the last step is judged, too.
 /// - Moving obstacles, at their places on the clock of the record, from its first sample. Moving objects must be picked
 ///   within their windows, and the resting arm must stay free between motions.
 /// - The end of each step: the tip is at the grasp, and the object or the arm at its target, within a micrometre. Turns
-///   start at the object's orientation, take as long as the wrist needs, and are free ([`super::judge_given_turn`]). The arm
-///   rests for the dwell, the turn, and the stroke of the tool, which must be free at all its heights.
+///   start at the object's orientation, take as long as the wrist needs, and are free ([`super::judge_given_turn`]).
+///   The arm rests for the dwell, the turn, and the stroke of the tool, which must be free at all its heights.
 ///
 /// `O(n)` for `n` samples, plus the checks of motions.
 #[must_use]

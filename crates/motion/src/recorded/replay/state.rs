@@ -15,7 +15,7 @@ pub(super) struct State {
     /// Objects that are still moving and have no fixed pose.
     moving: Vec<usize>,
     held: Option<Payload>,
-    /// The object just released.
+    /// The object that was released last. Link 2 may touch it during the next motion.
     released: Option<usize>,
 }
 
@@ -110,7 +110,7 @@ impl State {
         task.lowered_scene(payload.object, is_placed, &self.poses, Some(payload), self.released)
     }
 
-    /// Continues after a motion without an event.
+    /// Forgets the released object.
     pub fn moved(&mut self) {
         self.released = None;
     }
