@@ -104,8 +104,8 @@ impl Turning {
     }
 
     fn judge(&self, [from, to]: [f64; 2]) -> Result<WristTurn, TurnContact> {
-        // The turn uses the copy nearest to zero. Contacts are known there, and a shift by turns of a double would move
-        // them by more than the margin.
+        // Shift the turn to the orientations nearest to zero, where contact angles are known. Shifting these instead
+        // would cause more rounding than the margin covers.
         let near = JointRange::Circle.wrap(from);
         match self.judge_near([near, near + (to - from)]) {
             Ok(free) => Ok(WristTurn { from, to, ..free }),

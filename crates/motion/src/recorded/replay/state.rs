@@ -50,12 +50,12 @@ impl State {
         self.held.as_ref().map(|payload| payload.object)
     }
 
-    /// Returns the object just released.
+    /// Returns the object that was released last. `None` after a motion since then.
     pub fn released(&self) -> Option<usize> {
         self.released
     }
 
-    /// Returns the current scene. Link 2 may touch the object just released, and another one.
+    /// Returns the current scene. Link 2 may touch the object that was released last, and the object `touched`.
     pub fn scene(&self, task: &Task, touched: Option<usize>) -> Scene {
         task.scene(&self.poses, &self.moving, self.held.as_ref(), self.released.into_iter().chain(touched))
     }
