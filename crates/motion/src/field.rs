@@ -51,10 +51,10 @@ pub struct FieldReport {
     /// True if both forces pass through tanh.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub saturated: Option<bool>,
-    /// Method for leaving local minima, as on the command line; omitted if they end the search.
+    /// Method of leaving local minima, as on the command line; omitted if local minima end the search.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub escape: Option<String>,
-    /// Number of local minima left; omitted without `escape`.
+    /// Number of local minima that the path left; omitted without `escape`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub escaped: Option<usize>,
     /// Boundary condition at joint limits: `high` or `reflecting`.

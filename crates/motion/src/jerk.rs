@@ -108,7 +108,7 @@ impl Times {
     fn phases(&self, length: f64) -> Vec<Phase> {
         let &Self { grow, hold, cruise } = self;
         let [peak, _, jerk] = self.rates(length);
-        // So rounded, it ends at 0 exactly.
+        // With this rounding, the acceleration ends at exactly 0.
         let acceleration = jerk * grow;
         let (mut from, mut enter) = (0.0, 0.0);
         let ramp = [(grow, 0.0, jerk), (hold, acceleration, 0.0), (grow, acceleration, -jerk)];

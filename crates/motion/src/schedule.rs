@@ -37,10 +37,10 @@ pub(super) struct Line {
     to: Configuration,
     length: f64,
     direction: Configuration,
-    /// The speed that the joints' limits allow along it.
+    /// The greatest speed along the line within the joints' limits.
     speed: f64,
     acceleration: f64,
-    /// The jerk; infinite without a limit.
+    /// The greatest jerk along the line; infinite without a limit.
     jerk: f64,
 }
 

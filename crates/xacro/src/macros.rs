@@ -7,7 +7,7 @@ use crate::scope::{Block, Slot};
 use crate::value::Value;
 use std::rc::Rc;
 
-/// A macro.
+/// The definition of a macro.
 #[derive(Debug)]
 pub(crate) struct Macro {
     parameters: Vec<Parameter>,
@@ -26,7 +26,7 @@ struct Parameter {
 struct Default {
     /// True if the default is the caller's property of the same name, if there is one.
     is_forwarded: bool,
-    /// Text of the default, evaluated in the caller's scope.
+    /// Text of the default, evaluated in the caller's scope. `None` if there is only the caller's property.
     text: Option<String>,
 }
 
