@@ -48,9 +48,9 @@ impl Ellipse {
         [0, 1].map(|k| self.center[k] + self.u[k] * cos + self.v[k] * sin)
     }
 
-    /// Returns an upper bound on the length of the longer half axis.
+    /// Returns the length of the longer half axis.
     fn longest(self) -> f64 {
-        // No direction is stretched by more than both vectors together.
+        // The half axes are the singular values of the matrix with the columns `u` and `v`.
         let square: f64 = [self.u, self.v].iter().flatten().map(|x| x * x).sum();
         let cross = self.u[0] * self.v[1] - self.u[1] * self.v[0];
         (square / 2.0 + ((square * square / 4.0 - cross * cross).max(0.0)).sqrt()).sqrt()

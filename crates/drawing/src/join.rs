@@ -100,7 +100,7 @@ fn chain(
             _ => break,
         };
     }
-    // Two points, there and back, surround no area.
+    // A line there and back surrounds no area.
     if place == begin && at_place[place].len() == 2 && chain.points.len() > 3 {
         let last = chain.points.pop().expect("two points or more");
         chain.gap = chain.gap.max(apart(last, chain.points[0]));

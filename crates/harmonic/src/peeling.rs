@@ -35,7 +35,7 @@ const NEGLIGIBLE_SHARE: f64 = f64::EPSILON / 4.0;
 /// which they are large. It is far above the least double.
 const MIN_VALUE_SHARE: f64 = 1e-200;
 
-/// Greatest room ([`super::component::Room::widest`]) in a maze. Mazes are solved by elimination.
+/// Greatest room (`Room::widest`) in a maze. Mazes are solved by elimination.
 const MAX_MAZE_ROOM: u32 = 3;
 /// Greatest room in a corridor that is solved by elimination. The cost of elimination grows with the square of the
 /// width.

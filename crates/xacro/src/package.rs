@@ -18,8 +18,8 @@ const MAX_MANIFEST_BYTES: u64 = 1 << 20;
 
 /// Returns the folders that may be the package with this name, for a reference in a file, the most likely first.
 ///
-/// A folder is the package if its `package.xml` has the name in `<name>`. The folders above the file come first, up to
-/// the root of a Git repository. Then come folders below these (sibling packages, and others of the same repository),
+/// A folder is the package if its `package.xml` has the name in `<name>`. Folders above the file come first. Then
+/// come folders below these, up to the root of a Git repository (sibling packages, and others of the same repository),
 /// and folders below `ROS_PACKAGE_PATH`. Last come folders that only have the package's name: above the file, and in
 /// `ROS_PACKAGE_PATH` and `AMENT_PREFIX_PATH`.
 pub fn packages(name: &str, file: &Path) -> impl Iterator<Item = PathBuf> + use<> {

@@ -139,7 +139,7 @@ fn bounded<'a>(motions: &MotionQuery<'a>, limit: f64, gap: f64, slices: &[f64]) 
 /// clearance.
 ///
 /// The path is the shortest path of [`least_length`] among obstacles grown by `kept`. Strips are cut where the path
-/// enters the grown obstacles by more than a share of `kept` ([`STRIP_CLEARANCE_SHARE`]), and where the judge refuses
+/// enters the grown obstacles by more than a share of `kept` (0.9, or 0.5 among many pairs), and where the judge refuses
 /// it. Among the finer strips, the path is pulled taut through its portals, which is much faster than a search. If the
 /// judge finds such a path too long, or refuses the same path twice, all later paths are searched.
 #[must_use]
