@@ -202,7 +202,7 @@ impl<'a> Smoothing<'a> {
         Some(smooth)
     }
 
-    /// Appends a run that passes the blends after a waypoint; returns its end.
+    /// Appends a run that passes the blends after a waypoint. Returns the time at which the run ends.
     fn run(&self, run: &[TimedTrack], after: usize, begin: u64, smooth: &mut SmoothMotion) -> u64 {
         let mut spline = Spline::smoothed(run, self.base.acceleration, &self.limits, self.period);
         let delay = spline.delay();

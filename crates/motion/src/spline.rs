@@ -58,7 +58,7 @@ pub(super) struct Spline {
     step: u64,
     /// Number of steps of the smoothing window.
     window: u64,
-    /// Control points: three times the start, ..., three times the goal.
+    /// Control points. The first three are the start, and the last three the goal.
     control: Vec<Configuration>,
 }
 
@@ -196,8 +196,8 @@ impl Spline {
         knots
     }
 
-    /// Appends its samples, except the last one, to a motion that ends at its beginning: where its jerk changes, and at
-    /// the multiples of the period that are not close to those.
+    /// Appends the spline's samples, except the last one, to a motion that ends where the spline begins. There is a
+    /// sample wherever the jerk changes, and at each multiple of the period that is not close to such a sample.
     pub fn sample(&self, begin: u64, period: f64, trajectory: &mut Trajectory) {
         let near = nanoseconds((period / 2.0).clamp(MIN_INTERVAL, MIN_PERIODIC_INTERVAL));
         let mut knots = self.knots();

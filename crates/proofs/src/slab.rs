@@ -70,7 +70,8 @@ impl ErodedShape {
         piece.eroded(-grow).map(|shape| Self::Piece(Features::new(&shape)))
     }
 
-    /// Finds the values of the joint at which the pair's shapes overlap by at least the erosion of one of them.
+    /// Finds the values of the joint at which the eroded shape touches or overlaps the other shape of the pair. There
+    /// the shapes overlap by at least the erosion.
     pub fn hits(
         &self,
         part: &CarriedPart,

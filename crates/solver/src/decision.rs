@@ -10,8 +10,8 @@ use cplan_proofs::{Connectivity, connectivity, slab_connectivity, slimmed};
 /// Largest number of slabs; enough for all but contrived questions. A few thousand slabs take some milliseconds.
 const MAX_SLABS: usize = 10_000;
 
-/// Budgets (slabs, boxes) of a first round that tries both methods. Either may need ten times what the other needs:
-/// slabs along a slanted passage that is narrowly closed, boxes in a narrow passage.
+/// Budgets (slabs, boxes) of a first round that tries both methods. Each may need ten times as much as the other: slabs
+/// along a slanted passage that is narrowly closed, and boxes in a narrow passage.
 const INITIAL_BUDGETS: [usize; 2] = [1000, 4000];
 
 /// Largest number of boxes of a proof by slabs in the first attempt. If slabs need more, subdivision into boxes is

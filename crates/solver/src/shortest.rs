@@ -32,8 +32,8 @@ const MAX_PAIRS_FOR_RETRIES: usize = 1000;
 /// Number of pairs of shapes up to which slices look for a shorter path. With more, a visibility graph does.
 const MAX_PAIRS: usize = 20_000;
 
-/// Fraction of the requested gap within which the lower bound is refined to the path's length. The rest is left for
-/// removing corners.
+/// Fraction of the requested gap within which the lower bound is refined to the path's length. The rest allows
+/// corners to be removed.
 const BOUND_FRACTION: f64 = 0.5;
 
 /// Fraction of the remaining gap that removing corners may cost.

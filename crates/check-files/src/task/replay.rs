@@ -42,7 +42,7 @@ pub(super) struct Replay<'a> {
     motion: &'a Motion,
     chain: Chain,
     tip: Point,
-    /// Shapes of the arm, and whether the stroke lowers them.
+    /// Shapes of the arm. The flag is true if the stroke lowers the shape.
     shapes: Vec<(&'a CollisionShape, Solid, bool)>,
     /// Required distance of the shapes from obstacles; `keeps` describes it in words.
     kept: BigInt,

@@ -100,16 +100,16 @@ pub struct Replay<'a> {
     state: State,
 }
 
-/// Matches the steps of a record with those of the task: fixed steps in order, pairs of a free group in any order;
-/// between them the arm is at rest. Iteration then judges each step, up to the point where the record departs from the
-/// task:
+/// Matches the steps of a record with those of the task. Steps must come in the task's order, except that pairs of a
+/// free group may come in any order. The arm must be at rest between steps. Iteration then judges each step, up to the
+/// point where the record departs from the task. It judges:
 ///
 /// - Each motion from rest to rest, by [`check_collision`] with the workspace's clearance in the scene of its moment,
 ///   and by [`limit_violations`]. Objects are where previous steps have left them, and the load has the pose in which
 ///   it was taken. Link 2 may touch the object that it takes and the one that it has just released; payloads may rest
 ///   on their supports. The state after the last step is judged, too.
-/// - Moving obstacles, at their places on the clock of the record, from its first sample. Moving objects must be picked
-///   within their windows, and the resting arm must stay free between motions.
+/// - Moving obstacles, which move on the clock of the record from its first sample on. Moving objects must be picked
+///   within their windows of time, and the resting arm must stay free between motions.
 /// - The end of each step: the tip is at the grasp, and the object or the arm at its target, within a micrometre. Turns
 ///   start at the object's orientation, take as long as the wrist needs, and are free ([`super::judge_given_turn`]).
 ///   The arm rests for the dwell, the turn, and the stroke of the tool, which must be free at all its heights.
@@ -122,8 +122,8 @@ pub fn replay<'a>(task: &'a Task, recording: &'a Recording, recorded: &'a [Recor
 }
 
 impl Replay<'_> {
-    /// Returns the seconds from the beginning of the record to that of a step's motion, to its end, and to the next
-    /// one's.
+    /// Returns three times in seconds from the beginning of the record: the beginning of a step's motion, its end, and
+    /// the beginning of the next step's motion.
     fn times(&self, index: usize, recorded: &RecordedStep) -> [f64; 3] {
         let times = self.recording.times();
         let since = |sample: usize| times.and_then(|times| Some(times.get(sample)? - times[0])).unwrap_or(0.0);
@@ -232,8 +232,8 @@ impl<'a> Iterator for Replay<'a> {
                 _ => {}
             }
         }
-        // The next step begins in the state after this one. The last step's state remains, with the contacts of its
-        // motion. So does the state before objects are renewed, in which released objects are still present.
+        // The next step begins in the state after this one. Judge the rest in the state of this step if it is the last,
+        // or if objects are renewed next: until then, released objects are still present.
         let next = self.matched.get(self.next);
         let (is_last, is_renewed) = (next.is_none(), next.is_some_and(|next| !next.renewed.is_empty()));
         if (is_last || is_renewed)

@@ -27,7 +27,7 @@ impl State {
 
     pub fn renew(&mut self, task: &Task, objects: &[usize]) {
         objects.iter().for_each(|&object| self.poses[object] = Some(task.objects[object].at));
-        // A new object is not the one that may be touched.
+        // A new object is not the one that was released, so it must not be touched.
         self.released = self.released.filter(|released| !objects.contains(released));
     }
 
