@@ -104,17 +104,18 @@ pub struct Replay<'a> {
 /// free group may come in any order. The arm must be at rest between steps. Iteration then judges each step, up to the
 /// point where the record departs from the task. It judges:
 ///
-/// - Each motion from rest to rest, by [`check_collision`] with the workspace's clearance in the scene of its moment,
-///   and by [`limit_violations`]. Objects are where previous steps have left them, and the load has the pose in which
-///   it was taken. Link 2 may touch the object that it takes and the one that it has just released; payloads may rest
-///   on their supports. The state after the last step is judged, too.
+/// - Each motion from rest to rest, by [`check_collision`] with the workspace's clearance, and by [`limit_violations`].
+///   Objects are where previous steps have left them, and the load has the pose in which it was taken. Link 2 may touch
+///   the object that it takes, and the object that it released last. Payloads may rest on their supports. The state
+///   after the last step is judged as well.
 /// - Moving obstacles, which move on the clock of the record from its first sample on. Moving objects must be picked
 ///   within their windows of time, and the resting arm must stay free between motions.
-/// - The end of each step: the tip is at the grasp, and the object or the arm at its target, within a micrometre. Turns
-///   start at the object's orientation, take as long as the wrist needs, and are free ([`super::judge_given_turn`]).
-///   The arm rests for the dwell, the turn, and the stroke of the tool, which must be free at all its heights.
+/// - The end of each step. The tip must be at the grasp, and the object or the arm at its target, within a micrometre.
+///   A turn must start at the object's orientation, last at least as long as the wrist needs, and be free
+///   ([`super::judge_given_turn`]). The arm must rest for the dwell, the turn, and the stroke of the tool. The stroke
+///   must be free at all its heights.
 ///
-/// `O(n)` for `n` samples, plus the checks of motions.
+/// Takes `O(n)` for `n` samples, plus the checks of motions.
 #[must_use]
 pub fn replay<'a>(task: &'a Task, recording: &'a Recording, recorded: &'a [RecordedStep]) -> Replay<'a> {
     let (matched, departure) = matched(task, recording, recorded);
