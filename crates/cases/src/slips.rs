@@ -2,7 +2,7 @@
 
 use super::dice::Dice;
 
-/// Replacements of numbers.
+/// Texts that replace a number: extreme, invalid or of another type.
 const NUMBER_REPLACEMENTS: [&str; 16] = [
     "0",
     "-0",
@@ -21,11 +21,12 @@ const NUMBER_REPLACEMENTS: [&str; 16] = [
     "0x7f",
     "",
 ];
-/// Characters that are inserted at random places.
-const INSERTED_CHARACTERS: [&str; 18] =
+/// Texts of one or two characters that are inserted at random places.
+const INSERTED_TEXTS: [&str; 18] =
     ["[", "]", "{", "}", "\"", "<", ">", "/", "=", ",", "#", "\n", "\0", "\u{e4}", "[[", "]]", ";", "\t"];
 
-/// Returns the text with one to three mistakes: something deleted, repeated, swapped, changed or inserted.
+/// Returns the text after one to three random edits, some of which may change nothing. An edit replaces a number,
+/// inserts or deletes characters, repeats or deletes a line, swaps two lines or words, or cuts off the rest.
 pub fn slipped(dice: &mut Dice, text: &str) -> String {
     let mut text: Vec<char> = text.chars().collect();
     for _ in 0..1 + dice.below(3) {
@@ -37,16 +38,17 @@ pub fn slipped(dice: &mut Dice, text: &str) -> String {
         match dice.below(9) {
             // Replace a number.
             0 | 1 => {
-                let is_number = |c: &char| c.is_ascii_digit() || matches!(c, '.' | '-');
-                let starts: Vec<usize> =
-                    (0..text.len()).filter(|&i| is_number(&text[i]) && (i == 0 || !is_number(&text[i - 1]))).collect();
+                let is_number_char = |c: &char| c.is_ascii_digit() || matches!(c, '.' | '-');
+                let starts: Vec<usize> = (0..text.len())
+                    .filter(|&i| is_number_char(&text[i]) && (i == 0 || !is_number_char(&text[i - 1])))
+                    .collect();
                 if let Some(&start) = starts.get(dice.below(starts.len().max(1))) {
-                    let end = start + text[start..].iter().take_while(|c| is_number(c)).count();
+                    let end = start + text[start..].iter().take_while(|c| is_number_char(c)).count();
                     let bit = NUMBER_REPLACEMENTS[dice.below(NUMBER_REPLACEMENTS.len())];
                     text.splice(start..end, bit.chars());
                 }
             }
-            2 => insert(&mut text, at, INSERTED_CHARACTERS[dice.below(INSERTED_CHARACTERS.len())]),
+            2 => insert(&mut text, at, INSERTED_TEXTS[dice.below(INSERTED_TEXTS.len())]),
             3 => {
                 let end = (at + 1 + dice.below(8)).min(text.len());
                 text.drain(at..end);
@@ -55,11 +57,9 @@ pub fn slipped(dice: &mut Dice, text: &str) -> String {
             4 | 5 => {
                 let lines: Vec<String> = text.iter().collect::<String>().lines().map(str::to_owned).collect();
                 let k = dice.below(lines.len().max(1));
-                let twice = dice.below(2);
-                let again = lines
-                    .iter()
-                    .enumerate()
-                    .flat_map(|(i, line)| vec![line.clone(); if i == k { 2 * twice } else { 1 }]);
+                let copies = 2 * dice.below(2);
+                let again =
+                    lines.iter().enumerate().flat_map(|(i, line)| vec![line.clone(); if i == k { copies } else { 1 }]);
                 text = again.collect::<Vec<_>>().join("\n").chars().collect();
             }
             // Swap two lines, or two words.
@@ -71,7 +71,7 @@ pub fn slipped(dice: &mut Dice, text: &str) -> String {
     text.into_iter().collect()
 }
 
-/// Swaps two of the pieces between separators.
+/// Swaps two random pieces of the text, which the separator delimits. They may be the same piece.
 fn swapped(dice: &mut Dice, text: &[char], separator: char) -> Vec<char> {
     let mut pieces: Vec<&[char]> = text.split(|c| *c == separator).collect();
     let (a, b) = (dice.below(pieces.len()), dice.below(pieces.len()));

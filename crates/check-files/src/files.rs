@@ -8,11 +8,11 @@ use std::path::PathBuf;
 
 mod named;
 
-/// Locations of the files that the URDF and the world refer to.
+/// Access to the files to which the URDF and the world refer.
 pub struct Files {
     /// Paths of the URDF and the world; `None` if they were given as texts.
     given: [Option<PathBuf>; 2],
-    /// Digests of the other files, if the certificate has them.
+    /// Digests of the other files, in hex; `None` if the certificate does not list them.
     others: Option<Vec<String>>,
 }
 

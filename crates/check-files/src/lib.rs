@@ -1,4 +1,4 @@
-//! An independent checker of cplan's certificates: the files that they are about, tasks and moving obstacles.
+//! An independent checker of cplan's certificates. This crate reads the files, and judges tasks and moving obstacles.
 //!
 //! [`check`] reads a URDF, a world and a certificate, and decides whether the certificate proves its answer, in exact
 //! arithmetic. Decimals are taken exactly as written. Roots, sines and cosines are enclosed between a lower and an
@@ -51,14 +51,14 @@ use world::WorldFile;
 ///
 /// # Errors
 /// [`CheckError::Fails`] names the first part that does not hold. [`CheckError::Input`] reports files that are wrong or
-/// contain something that the checker does not know. It also reports references to other files, which texts cannot
-/// have.
+/// contain something that the checker does not know. It also reports references to other files, because their location
+/// is unknown.
 pub fn check(urdf: &str, world: &str, certificate: &str) -> Result<String, CheckError> {
     judged([urdf, world, certificate], [None, None])
 }
 
-/// Checks a certificate, given the three files. Files that the URDF and the world refer to are looked up relative to
-/// them.
+/// Checks a certificate, given the paths of the three files. Other files to which the URDF and the world refer are
+/// looked up relative to the file that names them.
 ///
 /// # Errors
 /// Same as [`check`], and if a file cannot be read.
@@ -71,8 +71,8 @@ pub fn check_files(urdf: &Path, world: &Path, certificate: &Path) -> Result<Stri
     check_beside(texts.each_ref().map(String::as_str), [urdf, world])
 }
 
-/// Checks a certificate, given three texts. Files that the URDF and the world refer to are looked up relative to the
-/// paths `beside`.
+/// Checks a certificate, given the texts of the three files. `beside` has the paths of the URDF and the world, relative
+/// to which other files are looked up.
 ///
 /// # Errors
 /// Same as [`check`], and if a file cannot be read.
@@ -80,7 +80,7 @@ pub fn check_beside(texts: [&str; 3], beside: [&Path; 2]) -> Result<String, Chec
     judged(texts, beside.map(|path| Some(path.to_owned())))
 }
 
-/// Checks a certificate, given texts and, where known, their paths.
+/// Checks a certificate, given three texts, and the paths of the URDF and the world if they are known.
 fn judged([urdf, world, certificate]: [&str; 3], given: [Option<PathBuf>; 2]) -> Result<String, CheckError> {
     let certificate = certificate::read(certificate)?;
     let files = Files::new(&certificate, [urdf, world], given)?;

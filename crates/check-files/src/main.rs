@@ -1,4 +1,4 @@
-//! `cplan-check URDF WORLD CERTIFICATE`.
+//! The command line program `cplan-check URDF WORLD CERTIFICATE`.
 #![forbid(unsafe_code)]
 
 use cplan_check_files::{CheckError, Input, check_files};
@@ -10,7 +10,7 @@ Usage: cplan-check URDF WORLD CERTIFICATE
 
 Exit codes: 0 it proves its answer, 3 it does not, 1 a file is wrong or says what the checker does not know, 2 wrong usage.";
 
-/// The certificate does not hold.
+/// Exit code if the certificate does not hold.
 const EXIT_INVALID: u8 = 3;
 
 fn main() -> ExitCode {

@@ -1,4 +1,4 @@
-//! The URDF: two movable joints, and shapes in the plane.
+//! Reads the URDF: finds two movable joints, and projects shapes onto their plane.
 
 use crate::files::Files;
 use crate::world::WorldFile;
@@ -47,7 +47,7 @@ impl<'a> Robot<'a> {
     /// Reads the URDF and finds the two joints.
     ///
     /// # Errors
-    /// If it does not describe a robot, or describes one that the checker does not know.
+    /// If the URDF does not describe a robot, or describes a robot of a kind that the checker does not know.
     pub fn read(
         document: &'a Document<'a>,
         world: &WorldFile,
@@ -153,18 +153,18 @@ impl<'a> Robot<'a> {
         Ok(robot)
     }
 
-    /// Returns the last of the two joints that moves a link.
+    /// Returns the last of the two joints that moves a link, 0 or 1. `None` if the link is static.
     fn moved_by(&self, link: &'a str) -> ReadResult<Option<usize>> {
         let above = self.tree.above(link)?;
         let moves = |k: &usize| above.iter().any(|joint| self.tree.joints.get(self.children[*k]) == Some(joint));
         Ok([1, 0].into_iter().find(moves))
     }
 
-    /// Finds the link whose origin is the tip: the one that the world names, or else the deepest link that the second
-    /// joint moves.
+    /// Finds the link whose origin is the tip: the link that the world names, or else the link farthest down the tree
+    /// that the second joint moves.
     ///
     /// # Errors
-    /// If the second joint does not move it.
+    /// If the second joint does not move the named link.
     fn find_tip(&self, named: Option<&str>) -> ReadResult<&'a str> {
         let mut deepest = None;
         for link in self.tree.order.iter().filter(|link| named.is_none_or(|named| named == **link)) {

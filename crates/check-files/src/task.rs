@@ -1,4 +1,4 @@
-//! Certificates of tasks: "found", with steps.
+//! Checks certificates with the answer "found" and steps: a motion executes a task.
 
 mod order;
 mod replay;
@@ -14,7 +14,7 @@ use num_bigint::Sign;
 use order::{Order, stands};
 use replay::Replay;
 
-/// Tolerance of rest times, seconds: `10^-6`. The arm may rest for less than required by this much.
+/// Tolerance of rest times: the arm may rest for `10^-6` s less than required.
 const REST_TOLERANCE_DECIMALS: u32 = 6;
 
 /// Checks that a motion executes all steps of a task.

@@ -27,35 +27,35 @@ pub mod task;
 
 type Value<'a> = Spanned<DeValue<'a>>;
 
-/// A world file.
+/// The content of a world file.
 #[derive(Default)]
 pub struct WorldFile {
     /// Obstacles, start and goal.
     pub world: World,
-    /// Settings that override the URDF.
+    /// Settings for the robot, some of which override the URDF.
     pub robot: RobotTable,
     /// The task, if the file has steps.
     pub task: Option<Task>,
 }
 
-/// The keys of the `[robot]` table that the checker knows. Quantities in degrees are enclosures, others exact numbers.
+/// Values of the `[robot]` table that the checker uses. Quantities in degrees become enclosures; others are exact.
 pub struct RobotTable {
-    /// Position of the robot's root frame. `angle` is its orientation.
+    /// Position of the robot's root frame; `angle` is the orientation of that frame.
     pub at: Corner,
     pub angle: Interval,
     /// Names of the two joints, if given.
     pub joints: Option<Vec<String>>,
-    /// Values of other joints, by name.
+    /// Values at which other joints are held, by name.
     pub fixed: BTreeMap<String, Range>,
-    /// Enclosures of the least and the greatest value of joints, by name.
+    /// Enclosures of the lower and the upper limit of joints, by name.
     pub limits: BTreeMap<String, [Range; 2]>,
     /// Radius of bars that replace links without geometry, if given.
     pub bar: Option<Decimal>,
     /// The link whose origin is the tip, if given.
     pub tip: Option<String>,
-    /// True if links of the robot must not collide with its other links.
+    /// True if links of the robot must not collide with each other.
     pub own_body: bool,
-    /// Pairs of links that may collide.
+    /// Pairs of links that may touch each other.
     pub ignore_contact: Vec<[String; 2]>,
 }
 
@@ -118,7 +118,7 @@ impl Reader<'_> {
         Decimal::read(&text.replace('_', "")).or_else(|why: String| self.error(value, &why))
     }
 
-    /// Reads a number, or encloses a quantity in degrees in radians.
+    /// Reads a number, or a quantity in degrees, and returns an enclosure in radians or metres.
     fn quantity(&self, value: &Value) -> ReadResult<Range> {
         let Some(text) = value.get_ref().as_str() else {
             let number = self.number(value)?;
@@ -306,7 +306,7 @@ impl WorldFile {
                 "clearance" => world.clearance = reader.number(value)?,
                 "obstacle" => reader.obstacles(value, world)?,
                 "name" | "preference" | "sensor" => {}
-                // These depend on everything else, and are read last.
+                // These keys depend on all others, and are read last.
                 "map" | "object" | "pallet" | "step" | "task" => {}
                 other => return reader.error(value, &format!("the checker does not know worlds with {other} yet")),
             }

@@ -410,8 +410,8 @@ impl Claim {
         )
     }
 
-    /// Returns the least margin by which everything is right: distances beyond the clearance, metres. Below 0 something
-    /// is wrong. A missing object, or one that misses its place, gives minus infinity.
+    /// Returns the least distance in excess of the required one, metres. If it is negative, the claim is wrong. It is
+    /// minus infinity if an object is missing or misses its place.
     fn margin(&self) -> f64 {
         let wrong = f64::NEG_INFINITY;
         let mut margin = f64::INFINITY;

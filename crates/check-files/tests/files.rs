@@ -318,7 +318,7 @@ fn numbers_are_those_of_obstacles_then_walls_then_objects() {
     }
 }
 
-/// A carried object can be a picture: it keeps away as its squares do, wherever the arm moves it.
+/// An object given as an image collides exactly where the polygon of its solid squares does.
 #[test]
 fn a_picture_is_carried_as_its_squares_are() {
     let place = Place::new("carried");

@@ -3,10 +3,11 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
-/// Maximum number of lines that an answer about one motion may depend on: as much as can be read in a few days.
+/// Maximum number of lines of code on which an answer about one motion may depend. A person can read them in a few
+/// days.
 const MOST: usize = 3300;
 
-/// Maximum number of lines of the crate that judges.
+/// Maximum number of lines of code of the crate `cplan-check`.
 const MAX_OF_THE_JUDGE: usize = 3000;
 
 /// Counts the lines of code of a file, without comments and tests.
@@ -30,8 +31,8 @@ fn sources(folder: &Path, root: &Path) -> BTreeSet<String> {
     found
 }
 
-/// Returns the numbers of a table, and the lines of all files. The table must name each file of a crate once, and be
-/// off by at most a twentieth.
+/// Returns the numbers of a table, and the number of lines of each file. The table must name each file of a crate once,
+/// and its numbers must be right to within a twentieth.
 fn numbers(section: &str, folder: &str) -> (Vec<usize>, usize) {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(folder).join("src");
     let heading = format!("| subject | files in `crates/{folder}/src` | lines |\n");

@@ -63,7 +63,7 @@ fn turn(dice: &mut Dice, most: f64) -> (Turn, String) {
     };
     (after(&after(&about(2, y), &about(1, p)), &about(0, r)), format!("rpy=\"{r} {p} {y}\""))
 }
-/// A random arm: its tip in the plane's coordinates, its URDF and its world.
+/// A random arm, with its URDF and its world.
 struct Drawn {
     urdf: String,
     world: String,

@@ -1,4 +1,4 @@
-//! A planar arm, as read from a robot's file.
+//! A planar arm of two joints, as a robot's file describes it.
 
 use crate::certificate::Certificate;
 use crate::domain::{Axis, Domain, Range};
@@ -11,9 +11,9 @@ use crate::shapes::{Body, CollisionShape, Outline};
 /// Planar motion that a joint gives to the links beyond it.
 #[derive(Debug, Clone)]
 pub enum Motion {
-    /// Rotation by the joint's value, to the left (1) or to the right (-1).
+    /// Rotation by the joint's value. The sign is 1 if positive values turn to the left, and -1 if to the right.
     Turn(i32),
-    /// Translation along a direction of unit length.
+    /// Translation by the joint's value along a direction of unit length.
     Slide(Point),
 }
 
@@ -23,9 +23,9 @@ pub struct Joint {
     pub name: String,
     /// Motion that the joint gives to the links beyond it.
     pub motion: Motion,
-    /// Set of all values of the joint.
+    /// Set of the joint's values: an interval or a circle.
     pub axis: Axis,
-    /// Enclosure of the limits, if the joint has limits.
+    /// A range of values that certainly lie within the limits; `None` if the joint has no limits.
     pub within: Option<Range>,
 }
 
@@ -37,25 +37,26 @@ pub struct Arm {
     pub base: Point,
     /// Origin of the second joint, in the frame of the first.
     pub offset: Point,
-    /// All values of both joints.
+    /// The configuration space.
     pub domain: Domain,
-    /// Link whose origin is the tip.
+    /// Name of the link whose origin is the tip.
     pub tip_link: String,
     /// The tip as a body without extent.
     pub tip: Body,
     /// All shapes that can collide.
     pub shapes: Vec<CollisionShape>,
-    /// Shapes of the robot that its other links can hit: those of static links, and those that joint 1 carries. The
-    /// latter are placed in the plane as with joint 1 at zero.
+    /// Shapes that other links of the robot can hit: shapes of static links, and shapes that joint 1 carries. The
+    /// latter are in plane coordinates, with joint 1 at zero.
     pub bases: Vec<CollisionShape>,
-    /// Obstacles made from these shapes.
+    /// Obstacles made from [`Self::bases`], in the same order.
     pub own: Vec<Obstacle>,
-    /// Sentences for messages: assumptions that differ from the robot's file.
+    /// Sentences for messages that state assumptions which differ from the robot's file.
     pub notes: String,
 }
 
 impl Arm {
-    /// Ignores contact between the pairs of links that the certificate lists.
+    /// Ignores contact between the pairs of links that the certificate lists. Such links overlap in every
+    /// configuration.
     ///
     /// # Errors
     /// If a pair does not overlap where the motion begins.

@@ -1,9 +1,9 @@
 //! Proof that no motion is shorter than some length.
 //!
 //! Walls are straight segments of configurations. All along a wall, a shape is too near a part of an obstacle. A
-//! shortest path around walls runs straight from corner to corner, where corners are ends of walls. Each corner has a
-//! *potential*: a claimed lower bound on the length of any path from the start to it. The check shows that each
-//! straight leg that no wall crosses is at least as long as the potential grows along it.
+//! shortest path around walls consists of straight legs between *corners*, which are ends of walls. Each corner has a
+//! *potential*: a claimed lower bound on the length of any path from the start to the corner. The check shows for each
+//! leg that no wall crosses: the potential grows along the leg by at most the leg's length.
 
 mod metric;
 mod places;
@@ -20,13 +20,14 @@ use crate::mover::{self, MovingBody};
 use crate::world::World;
 use plane::Plane;
 
-/// Maximum number of overlap tests along a wall.
+/// Maximum number of overlap tests along a wall. After that, the wall is not proven.
 const MAX_OVERLAP_TESTS: usize = 20_000;
 
 /// Maximum number of times that a wall is halved.
 const MAX_WALL_HALVINGS: u32 = 60;
 
-/// Checks that no motion from the start to a configuration, or to the goal, is shorter than a length.
+/// Checks that no motion is shorter than the certificate's length. Motions lead from the start to the goal, or to the
+/// configuration that the certificate states.
 pub fn no_shorter(arm: &Arm, world: &World, certificate: &Certificate) -> Result<String, CheckError> {
     let Some(bound) = &certificate.bound else {
         return Err(CheckError::in_file(Input::Certificate, "it has no bound"));
@@ -65,10 +66,10 @@ pub fn no_shorter(arm: &Arm, world: &World, certificate: &Certificate) -> Result
 }
 
 /// Returns true if a shape and a part provably overlap all along a wall. The wall is halved until the overlap is shown
-/// for each piece, taken as a box, or until there were too many tests.
+/// for a box around each piece, or until there were too many tests.
 ///
-/// If a shape only slides along the wall, the configurations in which it overlaps the part form a convex set. Then the
-/// ends of the wall suffice.
+/// If the joints move a shape along the wall without turning it, the configurations in which the shape overlaps the
+/// part form a convex set. Then tests at the ends of the wall suffice.
 fn closes(arm: &Arm, wall: &Wall, &Pair { body, part, beside }: &Pair) -> bool {
     let [from, to] = [&wall.from, &wall.to].map(|end| end.each_ref().map(Interval::from));
     let along = minus(&to, &from);

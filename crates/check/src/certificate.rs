@@ -36,13 +36,13 @@ pub struct Certificate {
     pub others: Option<Vec<String>>,
     /// The two joints, if the world does not name them.
     pub joints: Option<[String; 2]>,
-    /// The start, if it is not the world's.
+    /// The start, if it differs from the world's.
     pub start: Option<[Decimal; 2]>,
-    /// The goal, if it is not the world's.
+    /// The goal, if it is a configuration that differs from the world's goal.
     pub goal: Option<[Decimal; 2]>,
-    /// The goal as a tip position, if it is not the world's.
+    /// The goal, if it is a tip position that differs from the world's goal.
     pub goal_tip: Option<Corner>,
-    /// The clearance, if it is not the world's.
+    /// The clearance, if it differs from the world's.
     pub clearance: Option<Decimal>,
     /// Evidence for "found": the motion.
     pub motion: Option<Motion>,
@@ -51,15 +51,16 @@ pub struct Certificate {
     /// Pairs of links that overlap in every configuration.
     #[serde(default)]
     pub ignored: Vec<[String; 2]>,
-    /// Shapes that the evidence refers to.
+    /// Shapes to which the evidence refers by their indices.
     #[serde(default)]
     pub shapes: Vec<ShapeName>,
-    /// Parts that the evidence refers to.
+    /// Parts of obstacles to which the evidence refers by their indices.
     #[serde(default)]
     pub parts: Vec<PartName>,
-    /// Evidence that there is no motion. With a bound: configurations excluded from the goal because they are not free.
+    /// Evidence for "infeasible": collision boxes that separate start and goal. With a bound: configurations that are
+    /// excluded from the goal because they are not free.
     pub boxes: Option<Vec<CollisionBox>>,
-    /// Evidence that no motion is shorter.
+    /// Evidence that no motion is shorter than a length.
     pub bound: Option<Bound>,
 }
 
@@ -85,11 +86,11 @@ pub enum Answer {
     Found,
     /// There is no motion.
     Infeasible,
-    /// No motion is shorter.
+    /// No motion is shorter than the length in [`Certificate::bound`].
     NoShorter,
 }
 
-/// The part of a cplan result that matters here.
+/// A result of cplan, of which only the certificate is read.
 #[derive(Deserialize)]
 struct EnclosingResult<'a> {
     #[serde(borrow)]
@@ -109,7 +110,7 @@ struct TaskProof {
 /// If the text is not a certificate, has another format, or is a proof that a task is infeasible.
 pub fn read(text: &str) -> Result<Certificate, CheckError> {
     let text = serde_json::from_str::<EnclosingResult>(text).map_or(text, |result| result.certificate.get());
-    // Such a proof also has other keys that are unknown today.
+    // Old proofs have keys that are unknown today, so check for them first.
     if serde_json::from_str::<TaskProof>(text).is_ok() {
         let message = "it has \"cases\" that prove a task infeasible: the checker does not judge proofs about tasks; \
                        the result of cplan states the reason";

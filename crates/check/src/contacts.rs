@@ -1,4 +1,4 @@
-//! The shapes and the obstacle parts that evidence refers to, and whether they overlap.
+//! The shapes and parts of obstacles to which evidence refers, and tests whether they overlap.
 
 use crate::arm::Arm;
 use crate::certificate::{Certificate, CollisionBox, PartName, ShapeName};
@@ -13,7 +13,7 @@ use crate::world::World;
 
 mod own;
 
-/// A part before growing: its link if it belongs to the robot, its shape and its heights.
+/// A part before it is grown by the clearance: its link if it belongs to the robot, its shape, and its heights.
 type Evident = (Option<Owner>, Shape, Option<Range>);
 
 /// Hint for parts that refer to nothing, or to more than one thing.
@@ -31,8 +31,7 @@ struct Part {
 pub struct Pair<'a> {
     pub body: &'a Body,
     pub part: &'a Shape,
-    /// The link, if the part belongs to the robot. Then the overlap must be tested in the box that [`Cell::beside`]
-    /// returns.
+    /// The link, if the part belongs to the robot. Then overlap is tested in the box that [`Cell::beside`] returns.
     pub beside: Option<&'a Owner>,
 }
 
@@ -65,7 +64,8 @@ impl<'a> Contacts<'a> {
         Ok(Self { shapes, parts })
     }
 
-    /// Checks that all over each box, the box's shape touches its part or is nearer to it than the clearance.
+    /// Checks for each box that its shape touches its part, or is nearer to the part than the clearance, in all
+    /// configurations of the box.
     ///
     /// # Errors
     /// Names the first box for which this is not shown.
@@ -82,7 +82,7 @@ impl<'a> Contacts<'a> {
     /// Finds a shape and a part that can collide. `who` names the box or wall in messages.
     ///
     /// # Errors
-    /// If a number is not in the lists, or if the pair never meets or is allowed to.
+    /// If an index is too large, if the heights of shape and part do not overlap, or if the two may touch.
     pub fn pair(&self, shape: usize, part: usize, who: impl Fn() -> String) -> Result<Pair<'_>, CheckError> {
         let fails = |why: &str| CheckError::fails(format!("{}{why}", who()));
         let (Some(shape), Some(part)) = (self.shapes.get(shape), self.parts.get(part)) else {

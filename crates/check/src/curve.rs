@@ -4,23 +4,23 @@ use crate::decimal::Decimal;
 use crate::interval::{BITS, Interval, Point};
 use num_bigint::BigInt;
 
-/// Joint values are multiples of `2^-FRACTION_BITS` here.
+/// Binary digits after the point of joint values in this module: values are multiples of `2^-FRACTION_BITS`.
 pub const FRACTION_BITS: u32 = 72;
 
-/// Joint values are below `2^INTEGER_BITS`, so that no sum or product overflows.
+/// Binary digits before the point: joint values are below `2^INTEGER_BITS`, so that no sum or product overflows.
 pub const INTEGER_BITS: u32 = 28;
 
-/// Fractions of a chord are multiples of `2^-SHARE_BITS`.
+/// Binary digits of a fraction of a chord: fractions are multiples of `2^-SHARE_BITS`.
 const SHARE_BITS: u32 = 20;
 
 /// Maximum number of times that curves are halved.
 pub const MAX_HALVINGS: u32 = 40;
 
-/// Rounding error of a control point. It is less than two units initially, plus at most one unit per step of a halving
-/// (five in all), plus less than one unit for the computations here.
+/// Bound on the rounding error of a control point, in units of `2^-FRACTION_BITS`: less than two units initially, at
+/// most five for each halving (one for each of its steps), and less than one for the computations of a tube.
 const ROUNDING_UNITS: i128 = 3 + 5 * MAX_HALVINGS as i128;
 
-/// Both joints' values.
+/// Both joints' values, in units of `2^-FRACTION_BITS`.
 pub type Values = [i128; 2];
 
 /// The motion between two knots.
@@ -28,9 +28,9 @@ pub type Values = [i128; 2];
 pub struct Piece {
     /// The knot at which it begins.
     pub knot: usize,
-    /// Control points for each interpolation.
+    /// Control points of a Bezier curve for each interpolation.
     pub curves: Vec<Vec<Values>>,
-    /// Begin and end, seconds after the start of the motion.
+    /// Times at which the piece begins and ends, seconds after the start of the motion.
     pub time: [Decimal; 2],
 }
 
@@ -41,7 +41,7 @@ impl Piece {
         Self { curves: self.curves.iter().map(curve).collect(), ..self.clone() }
     }
 
-    /// Returns both halves of it (de Casteljau).
+    /// Returns both halves of the piece, by de Casteljau's algorithm.
     pub fn halves(&self) -> [Self; 2] {
         let halves: Vec<[Vec<Values>; 2]> = self.curves.iter().map(|curve| halves(curve)).collect();
         let [begin, end] = &self.time;
@@ -69,18 +69,18 @@ fn halves(curve: &[Values]) -> [Vec<Values>; 2] {
     [first, second]
 }
 
-/// All configurations `middle + t half + b`, where `t` is from -1 to 1 and `b` is at most `beside` from 0 in each
+/// All configurations `middle + t half + b`, where `t` is from -1 to 1, and `b` is from `-beside` to `beside` in each
 /// joint.
 pub struct Tube {
-    /// The configuration in its middle.
+    /// The configuration in the middle of the tube.
     pub middle: Point,
     half: Point,
     beside: Point,
 }
 
 impl Tube {
-    /// Makes a tube that contains consecutive pieces: it contains their control points, and so their convex hull. The
-    /// containment is exact. Chord and sideways extent are heuristic and affect only the tightness.
+    /// Makes a tube that contains consecutive pieces. It contains all their control points exactly, and so the convex
+    /// hull of these. Its direction, along the chord from the first point to the last, affects only its width.
     pub fn around(pieces: &[Piece]) -> Self {
         let points = || pieces.iter().flat_map(|piece| piece.curves.iter().flatten());
         let end = |curve: &Vec<Values>| *curve.last().expect("a curve has points");
@@ -108,7 +108,8 @@ impl Tube {
         Self { middle, half: zero(), beside: zero() }
     }
 
-    /// Returns the greatest `abs(g1 d1 + g2 d2)` for deviations `d` from the middle.
+    /// Returns an upper bound on `abs(g1 d1 + g2 d2)` for all deviations `d` of the tube's configurations from its
+    /// middle.
     pub fn greatest(&self, g: &Point) -> Interval {
         let along = &(&g[0] * &self.half[0]) + &(&g[1] * &self.half[1]);
         let beside = &(&g[0].abs() * &self.beside[0]) + &(&g[1].abs() * &self.beside[1]);

@@ -8,14 +8,15 @@ use std::fmt;
 use std::ops::{Add, Mul, Neg, Sub};
 use std::str::FromStr;
 
-/// Maximum number of digits, and maximum exponent, of a number. Both are far beyond those of a double, and small enough
-/// to compute with.
+/// Maximum number of digits of a number, and maximum of its decimal exponent. A double needs fewer, and numbers of this
+/// size are still fast to compute with.
 const MAX_DIGITS: usize = 1100;
 
-/// Numbers of robots and worlds must be below `10^15`. Larger ones have no meaning, and could make computations slow.
+/// Maximum number of digits before the point, for numbers of robots and worlds: they must be below `10^15`. Larger ones
+/// have no meaning, and could make computations slow.
 const MAX_NUMBER_DIGITS: u32 = 15;
 
-/// `mantissa * 10^-scale`: every decimal, and so every dyadic number. Sums and products are exact.
+/// The number `mantissa * 10^-scale`. Every decimal and every dyadic number has this form. Sums and products are exact.
 #[derive(Debug, Clone, Default)]
 pub struct Decimal {
     mantissa: BigInt,
@@ -28,7 +29,7 @@ impl Decimal {
         Self { mantissa: mantissa * BigInt::from(5).pow(bits), scale: bits }
     }
 
-    /// Reads a number of a robot or a world.
+    /// Reads a number from the file of a robot or a world.
     ///
     /// # Errors
     /// If the text is not a number, or if the number is too large.
@@ -62,7 +63,7 @@ impl Decimal {
         self.mantissa.sign()
     }
 
-    /// Returns the greatest multiple of `2^-bits` that is not above the number, in that unit.
+    /// Returns the number rounded down to a multiple of `2^-bits`, in that unit.
     pub fn floor(&self, bits: u32) -> BigInt {
         let (numerator, denominator) = (&self.mantissa << bits, BigInt::from(10).pow(self.scale));
         let quotient = &numerator / &denominator;
@@ -70,7 +71,7 @@ impl Decimal {
         if &quotient * denominator > numerator { quotient - 1 } else { quotient }
     }
 
-    /// Returns both mantissas in the finer of the two units.
+    /// Returns the mantissas of both numbers for the greater of the two scales.
     fn aligned(&self, other: &Self) -> (BigInt, BigInt) {
         let scale = self.scale.max(other.scale);
         let of = |number: &Self| match scale - number.scale {

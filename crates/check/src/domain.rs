@@ -4,21 +4,21 @@ use crate::decimal::Decimal;
 use crate::interval::{BITS, Interval};
 use num_bigint::BigInt;
 
-/// Enclosures of half a turn reach `2^-SEAM_BITS` beyond the known digits of pi.
+/// Negative binary logarithm of the margin, radians, by which enclosures of half a turn exceed the known digits of pi.
 const SEAM_BITS: u32 = 100;
 
-/// All values from the first to the second.
+/// All numbers from the first to the second, ends included.
 pub type Range = [Decimal; 2];
 
-/// All configurations from one corner to another, joint by joint.
+/// A rectangle of configurations: the range of each joint.
 pub type Rectangle = [Range; 2];
 
-/// Returns true if a rectangle is part of another.
+/// Returns true if the rectangle `part` lies within `whole`.
 pub fn within(part: &Rectangle, whole: &Rectangle) -> bool {
     (0..2).all(|k| whole[k][0] <= part[k][0] && part[k][1] <= whole[k][1])
 }
 
-/// The values of a joint.
+/// The set of a joint's values.
 #[derive(Debug, Clone)]
 pub enum Axis {
     /// Values between limits.
@@ -51,8 +51,8 @@ impl Domain {
         }
     }
 
-    /// Returns a value's enclosure within the domain, without whole turns. Returns `None` if the value is outside, or
-    /// too near a seam to decide.
+    /// Shifts a value's enclosure into the domain: by whole turns for a continuous joint, not at all otherwise. Returns
+    /// `None` if the result does not lie within the domain.
     pub fn wrapped(&self, axis: usize, value: &Range) -> Option<Range> {
         let within = |[low, high]: &Range| self.ranges[axis][0] <= *low && *high <= self.ranges[axis][1];
         if within(value) {

@@ -17,7 +17,7 @@ pub struct End {
     what: &'static str,
     /// The configuration, tip position or area.
     pub at: Goal,
-    /// Description for messages, if the certificate replaces the world's end.
+    /// Description for messages if the certificate replaces the world's start or goal; otherwise empty.
     own: String,
 }
 
@@ -52,7 +52,7 @@ impl End {
         Ok(Self { what, at, own: description })
     }
 
-    /// Describes the end in words, as far as it differs from the world's.
+    /// Describes the start or goal in words, with its values if they differ from the world's.
     pub fn named(&self, arm: &Arm) -> String {
         match self.at {
             Goal::Joints(_) => self.own.clone(),

@@ -1,27 +1,27 @@
-//! Why a certificate is not accepted.
+//! Errors: the reasons why a certificate is not accepted.
 
 use thiserror::Error;
 
-/// One of the three files.
+/// One of the three files that the checker reads.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Input {
-    /// The robot.
+    /// The robot's URDF or xacro file.
     Urdf,
-    /// The robot's surroundings and the query.
+    /// The world file, with the robot's surroundings and the query.
     World,
     /// The certificate to check.
     Certificate,
 }
 
-/// Why a certificate is not accepted.
+/// The reason why a certificate is not accepted.
 #[derive(Debug, Clone, Error, PartialEq)]
 pub enum CheckError {
     /// A file cannot be read, or contains something that the checker does not know.
     #[error("{message}")]
     Input {
-        /// The file.
+        /// The file with the error.
         input: Input,
-        /// Line number, from 1, where known.
+        /// Line number, from 1; `None` if unknown.
         line: Option<usize>,
         /// Description of the problem, and what to do about it.
         message: String,

@@ -18,33 +18,33 @@ use std::borrow::Cow;
 use std::cell::OnceCell;
 use std::rc::Rc;
 
-/// Returns the margin by which shapes must exceed the clearance: `2^-96`, in units of [`Interval`].
+/// Returns the margin by which distances must exceed the clearance: `2^-96` m, in units of [`Interval`].
 pub fn guard() -> BigInt {
     BigInt::from(1) << (BITS - 96)
 }
 
-/// Number of binary digits of separating directions: all that a double has. The rounding error matters in proportion to
-/// the size of an obstacle relative to its distance.
+/// Number of binary digits of a separating direction: as many as a double has. A rounded direction separates a little
+/// less, in proportion to the size of an obstacle relative to its distance.
 const DIRECTION_BITS: u32 = 52;
 
 /// Number of tested parts of a motion after which the checker gives up. This takes some minutes.
 const MAX_MOTION_PARTS: usize = 1_000_000;
 
-/// A shape that the arm moves, with an enclosing disc around its core.
+/// A shape that the arm moves, with a disc that encloses its core.
 pub struct Solid {
     on: Attachment,
     shape: Shape,
-    /// Required distance.
+    /// Required distance from sides, in units of [`Interval`].
     kept: BigInt,
     corners: Vec<Terms>,
     center: Terms,
     extent: BigInt,
-    /// Corners of its hull in order, for guesses.
+    /// Indices of the corners of its convex hull, in order, for guesses of directions.
     ring: Vec<usize>,
 }
 
-/// A side of an obstacle, or a whole convex shape with its corners in order, as seen from the plane and from either
-/// link.
+/// A side of an obstacle, or a whole convex obstacle with its corners in order. `seen` has the corners in the frames of
+/// both links.
 #[derive(Clone)]
 pub struct Side {
     shape: Shape,
@@ -53,20 +53,20 @@ pub struct Side {
     extent: BigInt,
 }
 
-/// Something that shapes keep away from: static, or given in its own moving frame.
+/// A side of an obstacle from which shapes must keep away.
 pub enum Edge {
-    /// A static side.
+    /// A side of a static obstacle.
     Still(Side),
-    /// A moving side, in the frame of its obstacle.
+    /// A side of a moving obstacle, in the obstacle's frame, with the obstacle's motion.
     Moving(Shape, Rc<dyn ObstacleTrajectory>),
 }
 
-/// A point in the middle of a tube, and its motion within the tube.
+/// The position of a point in the middle of a tube, and bounds on its motion within the tube.
 struct Moving {
     at: Point,
-    /// Rate of change with each joint.
+    /// Derivatives of the position by each joint's value.
     rates: [Point; 2],
-    /// Upper bound on the remainder of the motion beyond these rates.
+    /// Upper bound on the difference between the motion and its linear part, which the rates describe.
     bend: Interval,
 }
 
@@ -74,11 +74,11 @@ struct Moving {
 struct Posture<'a> {
     chain: &'a Chain,
     tube: Tube,
-    /// Sine and cosine of the turn by the first joint, the second, and both.
+    /// Sine and cosine of three turns: by the first joint, by the second, and by both.
     turns: [[Interval; 2]; 3],
-    /// The greatest deviation of these angles.
+    /// Greatest deviation of each of these three angles within the tube.
     deviations: [Interval; 3],
-    /// Greatest deviations of the joints' values.
+    /// Greatest deviation of each joint's value within the tube.
     each: [Interval; 2],
 }
 
@@ -86,24 +86,24 @@ struct Posture<'a> {
 struct Placed<'a> {
     solid: &'a Solid,
     center: Moving,
-    /// Upper bound on the displacement of the centre.
+    /// Upper bound on the displacement of the centre within the tube.
     motion: BigInt,
     corners: OnceCell<Vec<Moving>>,
 }
 
-/// A stretch of a motion: whole pieces, or a part of a piece with the number of times it was halved.
+/// A stretch of a motion: a range of whole pieces, or a part of a piece with the number of times that it was halved.
 enum Stretch {
     Pieces(usize, usize),
     Part(Piece, u32),
 }
 
-/// A gap in the evidence: the knot where the stretch begins, the shape and the edge.
+/// A stretch of a motion on which a shape is not proven to keep away from an edge.
 pub struct EvidenceGap {
-    /// The knot.
+    /// Number of the knot before the stretch.
     pub knot: usize,
-    /// The number of the shape.
+    /// Number of the shape.
     pub solid: usize,
-    /// The number of the edge.
+    /// Number of the edge.
     pub edge: usize,
 }
 
@@ -133,7 +133,7 @@ impl Solid {
 }
 
 impl Edge {
-    /// Returns an enclosure of the edge over a span of time.
+    /// Returns a static side that contains the edge at all times of a span.
     pub fn during(&self, chain: &Chain, time: [&Decimal; 2]) -> Cow<'_, Side> {
         match self {
             Self::Still(side) => Cow::Borrowed(side),
@@ -143,20 +143,20 @@ impl Edge {
 }
 
 impl Side {
-    /// Computes how a chain's links see a shape.
+    /// Makes a side, and computes its coordinates in the frames of a chain's links.
     pub fn new(chain: &Chain, shape: &Shape) -> Self {
         let (center, extent) = disc(&shape.points);
         let seen = [0, 1].map(|link| shape.points.iter().map(|p| chain.seen(link, p)).collect());
         Self { shape: shape.clone(), seen, center, extent }
     }
 
-    /// Returns one of its points.
+    /// Returns one of the side's points.
     pub fn point(&self) -> &Point {
         &self.shape.points[0]
     }
 }
 
-/// Returns a point in the middle of some points, and an upper bound on their distance from it.
+/// Returns a point in the middle of some points, and an upper bound on the distance of these points from it.
 fn disc(points: &[Point]) -> (Point, BigInt) {
     let middle = |k: usize| {
         let values = || points.iter().map(|p| p[k].middle().0);
@@ -185,7 +185,7 @@ impl<'a> Posture<'a> {
         Self { chain, tube, turns: [first, second, both], deviations, each }
     }
 
-    /// Returns the index of the angle by which a vector turns.
+    /// Returns the index in [`Self::turns`] of the angle by which a vector turns. `None` if no joint turns the vector.
     fn angle(by: [bool; 2]) -> Option<usize> {
         match by {
             [false, false] => None,
@@ -195,8 +195,8 @@ impl<'a> Posture<'a> {
         }
     }
 
-    /// Expands a point by Taylor's formula about the middle. The bound on the remainder is derived in
-    /// `docs/certificate_checks.md`.
+    /// Expands the position of a point by Taylor's formula about the middle of the tube. `docs/certificate_checks.md`
+    /// derives the bound on the remainder.
     fn moving(&self, terms: &[Term]) -> Moving {
         let zero = || [0, 0].map(Interval::whole);
         let mut moving = Moving { at: zero(), rates: [zero(), zero()], bend: Interval::whole(0) };
@@ -241,8 +241,8 @@ impl<'a> Posture<'a> {
         (&length(&across) + &moving.bend).upper
     }
 
-    /// Returns true if a line across `n` separates the moving points from the still ones all over the tube, with more
-    /// than `apart` between the two sets.
+    /// Returns true if lines perpendicular to `n` separate the moving points from the still ones all over the tube,
+    /// with a gap of more than `apart`.
     fn separates(&self, n: &Point, moving: &[Moving], still: &[Point], apart: &BigInt) -> bool {
         let size = length(n);
         let reached = moving.iter().map(|point| {
@@ -260,7 +260,7 @@ impl<'a> Posture<'a> {
         Placed { solid, motion: self.motion(&center), center, corners: OnceCell::new() }
     }
 
-    /// Returns true if a shape provably keeps away from a side all over the tube.
+    /// Returns true if a shape provably keeps its required distance from a side all over the tube.
     fn keeps_off(&self, placed: &Placed, side: &Side) -> bool {
         let solid = placed.solid;
         let apart = &solid.kept + &solid.shape.radius.upper + &side.shape.radius.upper;
@@ -285,7 +285,7 @@ impl<'a> Posture<'a> {
         if self.separates(&exact([x, y]), corners, &side.shape.points, &apart) {
             return true;
         }
-        // Try the same from the link's point of view: there the side moves towards the shape.
+        // Try the same in the frame of the link, where the shape is at rest and the side moves.
         let Attachment::Link(link) = solid.on else { return false };
         let by = [0, 1].map(|k| k <= link && matches!(self.chain.motions[k], Motion::Turn(_)));
         let [sine, cosine] = Self::angle(by).map_or([0.0, 1.0], |which| rough(&self.turns[which]));

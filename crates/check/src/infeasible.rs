@@ -8,7 +8,7 @@ use crate::error::CheckError;
 use crate::sweep::Reached;
 use crate::world::World;
 
-/// Checks that no motion leads from the start to the goal.
+/// Checks that collision boxes separate the start from the goal, so that no motion connects them.
 pub fn infeasible(arm: &Arm, world: &World, certificate: &Certificate) -> Result<String, CheckError> {
     let (start, goal) = (End::start(certificate, world)?, End::goal(certificate, world)?);
     let clearance = certificate.clearance(world)?;

@@ -5,16 +5,16 @@ use num_bigint::{BigInt, Sign};
 use std::ops::{Add, Mul, Neg, Sub};
 use std::sync::OnceLock;
 
-/// Ends are multiples of `2^-BITS`.
+/// Binary digits after the point: the ends of enclosures are multiples of the *unit* `2^-BITS`.
 pub const BITS: u32 = 192;
 
 /// All numbers from `lower` to `upper`, in units of `2^-BITS`. The result of an operation on enclosures encloses the
 /// results of the operation on all numbers in them.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Interval {
-    /// The least.
+    /// The least number of the enclosure.
     pub lower: BigInt,
-    /// The greatest.
+    /// The greatest number of the enclosure.
     pub upper: BigInt,
 }
 
@@ -38,32 +38,33 @@ fn divided_up(a: &BigInt, b: &BigInt) -> BigInt {
 }
 
 impl Interval {
-    /// Makes a whole number.
+    /// Makes the enclosure of a whole number, which is exact.
     pub fn whole(n: i32) -> Self {
         Self::exactly(BigInt::from(n) << BITS)
     }
 
-    /// Makes a multiple of the unit.
+    /// Makes the enclosure of `n` units, which is exact.
     pub fn exactly(n: BigInt) -> Self {
         Self { lower: n.clone(), upper: n }
     }
 
-    /// Encloses all numbers from the first to the second.
+    /// Makes an enclosure of all numbers from `low` to `high`.
     pub fn around([low, high]: &[Decimal; 2]) -> Self {
         Self { lower: low.floor(BITS), upper: Self::from(high).upper }
     }
 
-    /// Returns true if it contains exactly this one number.
+    /// Returns true if the enclosure contains the number `n` and no other.
     pub fn is_whole(&self, n: i32) -> bool {
         *self == Self::whole(n)
     }
 
-    /// Returns the larger end of its absolute value.
+    /// Returns the greatest absolute value in the enclosure, in units.
     pub fn magnitude(&self) -> BigInt {
         (-&self.lower).max(self.upper.clone())
     }
 
-    /// Returns a number in its middle, and the maximum distance of its ends from there.
+    /// Returns a number in the middle of the enclosure, and the greater distance of its two ends from there, both in
+    /// units.
     pub fn middle(&self) -> (BigInt, BigInt) {
         let middle = (&self.lower + &self.upper) >> 1u32;
         let radius = &self.upper - &middle;
@@ -75,17 +76,17 @@ impl Interval {
         [&self.lower, &self.upper].map(|end| Decimal::dyadic(end, BITS))
     }
 
-    /// Returns half of it.
+    /// Returns an enclosure of half the value.
     pub fn half(&self) -> Self {
         self.in_halves(1)
     }
 
-    /// Halves it `times` times.
+    /// Returns an enclosure of the value divided by `2^times`.
     pub fn in_halves(&self, times: u32) -> Self {
         Self { lower: &self.lower >> times, upper: shifted_up(&self.upper, times) }
     }
 
-    /// Returns the absolute value.
+    /// Returns an enclosure of the absolute value.
     pub fn abs(&self) -> Self {
         match (self.lower.sign(), self.upper.sign()) {
             (Sign::Minus, Sign::Plus) => Self { lower: BigInt::ZERO, upper: self.magnitude() },
@@ -94,19 +95,19 @@ impl Interval {
         }
     }
 
-    /// Returns the root; 0 for numbers below 0.
+    /// Returns an enclosure of the square root, which is 0 for negative numbers.
     pub fn sqrt(&self) -> Self {
         let root = |n: &BigInt| if n.sign() == Sign::Plus { (n << BITS).sqrt() } else { BigInt::ZERO };
         Self { lower: root(&self.lower), upper: root(&self.upper) + 1 }
     }
 
-    /// Returns the quotient by a positive whole number.
+    /// Returns an enclosure of the quotient by a positive whole number.
     pub fn over(&self, n: u32) -> Self {
         let n = BigInt::from(n);
         Self { lower: divided_down(&self.lower, &n), upper: divided_up(&self.upper, &n) }
     }
 
-    /// Returns the quotient by a positive enclosure.
+    /// Returns an enclosure of the quotient by a number in a positive enclosure.
     pub fn divided(&self, by: &Self) -> Self {
         assert!(by.lower.sign() == Sign::Plus, "a quotient by a value that may be 0");
         let (lower, upper) = (&self.lower << BITS, &self.upper << BITS);
@@ -120,18 +121,18 @@ impl Interval {
         Self { lower: &self.lower - by, upper: &self.upper + by }
     }
 
-    /// Returns the part of it from -1 to 1.
+    /// Cuts the enclosure to the range from -1 to 1.
     fn within_one(self) -> Self {
         let [least, most] = [-1, 1].map(|n| BigInt::from(n) << BITS);
         Self { lower: self.lower.max(least), upper: self.upper.min(most) }
     }
 
-    /// Computes sine and cosine.
+    /// Computes enclosures of sine and cosine.
     ///
-    /// Both change by at most as much as the angle. So their values at the middle, widened by the radius, enclose all
-    /// values. The angle is halved until it is below 1/16, and inserted into Taylor's series, whose terms alternate and
-    /// decrease. Then the result is doubled again. Numbers are truncated after each step, and `error` counts their
-    /// maximum deviation in units.
+    /// Sine and cosine change by at most as much as the angle. So their values at the middle of the enclosure, widened
+    /// by its radius, enclose all values. The angle at the middle is halved until it is below 1/16. Then Taylor's
+    /// series, whose terms alternate and decrease, gives its sine and cosine. Formulas for double angles undo the
+    /// halvings. Numbers are truncated after each step, and `error` counts their maximum deviation in units.
     pub fn sin_cos(&self) -> [Self; 2] {
         let (middle, radius) = self.middle();
         if middle.sign() == Sign::NoSign {
@@ -142,9 +143,9 @@ impl Interval {
         let halvings = (angle.bits() + 4).saturating_sub(u64::from(BITS)) as u32;
         let x = &angle >> halvings;
         let square = (&x * &x) >> BITS;
-        // Each term is computed from the one before (it is less than a 256th of that) and from a truncated square. It
-        // is truncated twice itself, and so is off by at most about two units. Two extra terms account for the
-        // truncated series and for the angle's own unit.
+        // Each term is the one before times the truncated square, which is less than 1/256, and is truncated twice. So
+        // a term is off by at most about two units. Two extra terms account for the truncated series and for the
+        // rounding of the angle.
         let series = |first: &BigInt, from: u32| {
             let (mut sum, mut term, mut terms) = (first.clone(), first.clone(), 2_u32);
             for n in (from..).step_by(2) {
@@ -164,7 +165,7 @@ impl Interval {
         let ((mut sine, sine_error), (mut cosine, cosine_error)) = (series(&x, 2), series(&one, 1));
         let mut error = BigInt::from(sine_error.max(cosine_error));
         for _ in 0..halvings {
-            // With factors of at most 1, a product is off by at most the sum of both errors, here twice.
+            // Both factors are at most 1, so their product is off by at most the sum of their errors. It is doubled.
             [sine, cosine] = [(&sine * &cosine) >> (BITS - 1), ((&cosine * &cosine) >> (BITS - 1)) - &one]
                 .map(|value| value.clamp(none.clone(), one.clone()));
             error = (error << 2u32) + 1;
@@ -228,7 +229,7 @@ impl Mul for &Interval {
     type Output = Interval;
     fn mul(self, other: Self) -> Interval {
         let is_negative = |n: &BigInt| n.sign() == Sign::Minus;
-        // If neither contains 0, or only as its lower end, the signs determine which ends give the least and the
+        // If neither factor contains 0, or only as its lower end, the signs determine which ends give the least and the
         // greatest product.
         let negative = [self, other].map(|factor| is_negative(&factor.lower));
         if [self, other].map(|factor| is_negative(&factor.upper)) == negative {
@@ -249,7 +250,7 @@ impl Mul for &Interval {
     }
 }
 
-/// Returns twice a number.
+/// Returns an enclosure of twice a number.
 pub fn twice(a: &Interval) -> Interval {
     a + a
 }
@@ -269,12 +270,12 @@ pub fn times(a: &Point, factor: &Interval) -> Point {
     [&a[0] * factor, &a[1] * factor]
 }
 
-/// Turns a vector by an angle, given its sine and cosine.
+/// Turns a vector to the left by an angle, given the angle's sine and cosine.
 pub fn turned([x, y]: &Point, [sine, cosine]: &[Interval; 2]) -> Point {
     [&(x * cosine) - &(y * sine), &(x * sine) + &(y * cosine)]
 }
 
-/// Returns the composition of two turns, given by sine and cosine.
+/// Returns the sine and cosine of the sum of two angles, given the sine and cosine of each.
 pub fn both_turns([s, c]: &[Interval; 2], [t, d]: &[Interval; 2]) -> [Interval; 2] {
     [&(s * d) + &(c * t), &(c * d) - &(s * t)]
 }
@@ -290,9 +291,9 @@ pub fn length([x, y]: &Point) -> Interval {
     (&(&x * &x) + &(&y * &y)).sqrt()
 }
 
-// Guesses in floating point only direct the search. They decide nothing.
+// The following functions guess in floating point. Guesses direct the checks but decide nothing.
 
-/// Binary digits of guesses after the point.
+/// Binary digits after the point that a number keeps when it is converted to floating point.
 const GUESS_BITS: u32 = 44;
 
 /// Converts a number of units to floating point, approximately. Returns NaN if it is too large.

@@ -1,4 +1,4 @@
-//! Certificates of motions: "found".
+//! Checks of certificates with the answer "found": a motion is free.
 
 use crate::arm::Arm;
 use crate::certificate::{Certificate, Interpolation, Motion};
@@ -13,10 +13,11 @@ use crate::scene::{Part, PlacedObstacle, stay_off};
 use crate::shapes::CollisionShape;
 use crate::world::World;
 
-/// Maximum number of times that a piece is halved to check the limits.
+/// Maximum number of times that a piece of a motion is halved to check the joints' limits.
 const MAX_PIECE_HALVINGS: u32 = 40;
 
-/// Factor of control points: it turns them into decimals.
+/// Factor by which control points are multiplied, so that they are exact decimals: a common multiple of the
+/// denominators in all interpolations.
 pub const CONTROL_POINT_FACTOR: i32 = 60;
 
 impl Interpolation {
@@ -29,7 +30,7 @@ impl Interpolation {
         }
     }
 
-    /// Returns how many numbers of a knot it needs.
+    /// Returns how many numbers of a knot this interpolation needs, including the time.
     fn columns(self) -> usize {
         match self {
             Self::Linear => 3,
@@ -38,7 +39,7 @@ impl Interpolation {
         }
     }
 
-    /// Computes the control points of a joint between two knots, times sixty.
+    /// Computes the control points of a joint's curve between two knots, times [`CONTROL_POINT_FACTOR`].
     fn control(self, a: &[Decimal], b: &[Decimal], joint: usize) -> Vec<Decimal> {
         let h = &b[0] - &a[0];
         let value = |knot: &[Decimal]| &knot[1 + joint] * &Decimal::whole(CONTROL_POINT_FACTOR);
@@ -68,7 +69,7 @@ impl Motion {
         format!("{} knots, read as {}", self.knots.len(), read.join(" or "))
     }
 
-    /// Returns true if the arm is at rest from a knot to the next, in each interpolation.
+    /// Returns true if the arm is at rest from the given knot to the next, with each interpolation.
     pub fn stands(&self, knot: usize) -> bool {
         let [from, to] = [knot, knot + 1].map(|knot| &self.knots[knot]);
         let stands = |method: &Interpolation, joint: usize| {
@@ -100,7 +101,7 @@ pub fn found(arm: &Arm, world: &World, certificate: &Certificate) -> Result<Stri
     ))
 }
 
-/// Checks conditions on the knots alone: their number, columns and times.
+/// Checks the number of knots, the columns of each knot, and the order of their times.
 pub fn check_knots(interpolation: &[Interpolation], knots: &[Vec<Decimal>]) -> Result<(), CheckError> {
     let bad = |message: String| Err(CheckError::in_file(Input::Certificate, message));
     let Some(columns) = interpolation.iter().map(|method| method.columns()).max() else {
@@ -118,7 +119,7 @@ pub fn check_knots(interpolation: &[Interpolation], knots: &[Vec<Decimal>]) -> R
     }
 }
 
-/// Returns the motion from a knot to the next. Returns a motion at rest if there is only one knot.
+/// Returns the motion from the given knot to the next. If there is only one knot, returns a motion at rest.
 pub fn piece(
     arm: &Arm,
     interpolation: &[Interpolation],
@@ -151,15 +152,15 @@ pub fn piece(
     Ok(Piece { knot, curves, time })
 }
 
-/// Returns a sixtieth of a number in units of curves, with an error of less than two units. Returns `None` if the
-/// number is too large.
+/// Divides a number by [`CONTROL_POINT_FACTOR`] and converts it to the units of [`Values`], with an error of less than
+/// two units. Returns `None` if the number is too large.
 pub fn fine(sixty: &Decimal) -> Option<i128> {
     let fine = sixty.floor(FRACTION_BITS) / CONTROL_POINT_FACTOR;
     (fine.bits() < u64::from(FRACTION_BITS + INTEGER_BITS)).then(|| i128::try_from(fine).ok()).flatten()
 }
 
-/// Returns true if a curve stays between two numbers, ends included. It tests the control points of the curve or of its
-/// halves.
+/// Returns true if a curve stays between `low` and `high`, ends included. The test uses the control points of the
+/// curve, and if these do not decide, those of its halves, up to `halvings` times.
 fn stays_within(control: &[Decimal], low: &Decimal, high: &Decimal, halvings: u32) -> bool {
     let is_within = |value: &Decimal| low <= value && value <= high;
     if control.iter().all(is_within) {
@@ -183,7 +184,7 @@ fn stays_within(control: &[Decimal], low: &Decimal, high: &Decimal, halvings: u3
     [first, second].iter().all(|half| stays_within(half, low, high, halvings - 1))
 }
 
-/// Checks that all shapes keep away from all obstacles.
+/// Checks that all shapes of the arm keep farther than the clearance from all obstacles, along the whole motion.
 fn stays_off(
     arm: &Arm,
     world: &World,

@@ -9,7 +9,7 @@ use crate::shapes::{Body, Owner};
 use num_bigint::BigInt;
 use std::cell::RefCell;
 
-/// A box of configurations, by its middle and half its sides.
+/// A box of configurations, given by its middle and half the length of each side.
 #[derive(Clone)]
 pub struct Cell {
     middle: [Interval; 2],
@@ -17,8 +17,8 @@ pub struct Cell {
 }
 
 impl Cell {
-    /// Returns the box in which to test contact with a link of the robot. If joint 1 carries the link, joint 1 is set
-    /// to zero.
+    /// Returns the box in which to test contact with a link of the robot: the same box, but with joint 1 at zero if
+    /// joint 1 carries the link. `None` stands for an obstacle of the world.
     pub fn beside(mut self, link: Option<&Owner>) -> Self {
         if link.is_some_and(|link| link.is_carried) {
             (self.middle[0], self.half[0]) = (Interval::whole(0), Interval::whole(0));
@@ -41,14 +41,14 @@ impl From<&Rectangle> for Cell {
     }
 }
 
-/// Returns an upper bound on the displacement of a point at distance 1 that turns by up to an angle: the chord, which
-/// grows up to half a turn.
+/// Returns an upper bound on the displacement of a point at distance 1 from the axis that turns by up to an angle. It
+/// is the length of the chord, which grows with the angle up to half a turn.
 fn chord(angle: &Interval) -> Interval {
     if angle.upper >= Interval::pi().lower {
         return Interval::whole(2);
     }
     if angle.upper < Interval::whole(1).in_halves(4).lower {
-        // The series alternates, so that this partial sum is an upper bound.
+        // The terms of the series alternate in sign, so this partial sum is an upper bound.
         let square = angle * angle;
         let cubed = (&square * angle).over(24);
         return &(angle - &cubed) + &(&cubed * &square).over(80);
@@ -58,7 +58,7 @@ fn chord(angle: &Interval) -> Interval {
 }
 
 impl Arm {
-    /// Returns the displacement by a joint at a value: sine and cosine of its turn, and its slide.
+    /// Returns the motion by a joint at a value: the sine and cosine of the turn, and the translation.
     fn displaced(&self, joint: usize, value: &Interval) -> [Point; 2] {
         let [none, one] = [0, 1].map(Interval::whole);
         match &self.joints[joint].motion {
@@ -72,13 +72,13 @@ impl Arm {
 pub struct MovingBody<'a> {
     arm: &'a Arm,
     body: &'a Body,
-    /// Approximate corners.
+    /// Corners of the body in floating point, for guesses.
     rough: Vec<[f64; 2]>,
-    /// The displacement by the first joint at its latest value, which many boxes share.
+    /// Latest value of joint 1, and the motion by joint 1 at that value. Many consecutive boxes share it.
     first: RefCell<(Interval, [Point; 2])>,
-    /// Distance of the second joint from the first. `reach`: distance of the body's points from the joint that moves
-    /// the body last.
+    /// Distance of the second joint from the first.
     offset: Interval,
+    /// Greatest distance of the body's points from the last joint that moves the body.
     reach: Interval,
 }
 
@@ -117,7 +117,7 @@ impl<'a> MovingBody<'a> {
     /// Returns an upper bound on the displacement of the body's points from their positions in the middle of a box,
     /// while the joints stay within the box.
     ///
-    /// In a convex hull, a corner moves farthest: the position of a point depends on it affinely.
+    /// It suffices to bound the displacement of corners: in a convex hull, no point moves farther than all corners.
     pub fn farthest(&self, cell: &Cell) -> BigInt {
         let Self { arm, body, offset, reach: own, .. } = self;
         let half = &cell.half;
@@ -129,7 +129,8 @@ impl<'a> MovingBody<'a> {
                 &(offset * &chord(&half[0])) + &(own * &chord(&(&half[0] + &half[1])))
             }
             (Motion::Turn(_), Some(Motion::Slide(direction))) => {
-                // Move the second joint first, and then turn at the farther end of the slide: distance is convex.
+                // Move joint 2 first, and then turn by joint 1. The turn moves points the most at one end of the slide,
+                // because distance is convex.
                 let slide = [&cell.middle[1] - &half[1], &cell.middle[1] + &half[1]];
                 let ends = slide.map(|value| sum(&arm.offset, &times(direction, &value)));
                 let points = &body.shape.points;
@@ -174,10 +175,12 @@ impl<'a> MovingBody<'a> {
 }
 
 impl Arm {
-    /// Returns rectangles that contain all configurations that put the tip at a position, except for excluded parts.
-    /// The domain is cut into four repeatedly. Parts are dropped if they are excluded, or if the tip in their middle is
-    /// farther from the position than it can move within them. Cutting stops when it would give more than `most` parts.
-    /// Parts that touch are merged.
+    /// Returns rectangles that contain all configurations which put the tip at a position, except for configurations in
+    /// rectangles that `is_left_out` excludes.
+    ///
+    /// The domain is cut into four rectangles again and again. A rectangle is dropped if it is excluded. It is also
+    /// dropped if the tip, at its middle, is farther from the position than it can move within the rectangle. Cutting
+    /// stops when there would be more than `most` rectangles. Rectangles that touch are merged.
     pub fn places(&self, place: &Point, most: usize, is_left_out: impl Fn(&Rectangle) -> bool) -> Vec<Rectangle> {
         let mover = MovingBody::new(self, &self.tip);
         let is_far = |rectangle: &Rectangle| {
@@ -224,6 +227,6 @@ fn hull(a: &Range, b: &Range) -> Range {
     [(&a[0]).min(&b[0]).clone(), (&a[1]).max(&b[1]).clone()]
 }
 
-/// Maximum number of times that the domain is cut to find configurations for a tip position. This leaves a `10^-12`
-/// part of each range.
+/// Maximum number of times that the domain is cut to find configurations for a tip position. The last rectangles are
+/// `10^-12` of the domain along each joint.
 const MAX_DOMAIN_CUTS: u32 = 40;

@@ -1,4 +1,4 @@
-//! Obstacles: their convex parts, and the sides that shapes must keep away from.
+//! Obstacles: their convex parts, and the sides from which shapes must keep away.
 
 use crate::decimal::Decimal;
 use crate::domain::Range;
@@ -14,11 +14,11 @@ use std::rc::Rc;
 /// An obstacle, as given in the file.
 #[derive(Clone)]
 pub struct Obstacle {
-    /// Its name, if it has one.
+    /// Name of the obstacle, if the world gives one.
     pub name: Option<String>,
-    /// The link, if the obstacle is part of the robot.
+    /// The link that is the obstacle; `None` for an obstacle of the world.
     pub own: Option<Owner>,
-    /// Its outline, in its frame.
+    /// Region that the obstacle covers, in its frame.
     pub outline: Outline,
     /// Origin of its frame, in plane coordinates.
     pub at: Point,
@@ -26,8 +26,7 @@ pub struct Obstacle {
     pub turn: Point,
     /// Extent along the plane's normal; `None` if unlimited.
     pub heights: Option<Range>,
-    /// Motion of its frame, if it moves. Then `at` and `turn` are only the pose that the file states apart from the
-    /// motion.
+    /// Motion of the obstacle's frame; `None` for a static obstacle. The motion replaces `at` and `turn`.
     pub course: Option<Rc<dyn ObstacleTrajectory>>,
 }
 
@@ -42,7 +41,7 @@ pub enum Outline {
     Circle(Corner, Decimal),
     /// Squares of a picture, or the reason why they are not known.
     Squares(Result<Rc<dyn Squares>, CheckError>),
-    /// A link of the robot.
+    /// The shape of a link of the robot.
     Own(Shape),
 }
 
@@ -51,44 +50,45 @@ pub trait ObstacleTrajectory {
     /// Returns the frame's origin at a time, and the sine and cosine of its orientation.
     fn place(&self, time: &Decimal) -> [Point; 2];
 
-    /// Returns an enclosure of a shape of the frame over a span of time.
+    /// Returns a shape, in plane coordinates, that contains a shape of the frame at all times of a span.
     fn during(&self, shape: &Shape, span: [&Decimal; 2]) -> Shape;
 }
 
 /// Squares of a picture, in the frame of its obstacle.
 pub trait Squares {
-    /// Returns the corners of the rectangle of solid squares that are nearest to four points. Returns `None` if there
-    /// is no such rectangle.
+    /// Returns the corners of the rectangle of solid squares whose corners are nearest to the four given points.
+    /// Returns
+    /// `None` if there is no such rectangle.
     fn part(&self, given: &[Point]) -> Option<Vec<Point>>;
 
-    /// Returns the border between solid and free squares, in straight pieces.
+    /// Returns the border between solid and free squares, as straight pieces.
     ///
     /// # Errors
     /// If there are more pieces than the checker can handle.
     fn border(&self) -> Result<Vec<[Point; 2]>, CheckError>;
 
-    /// Returns true if a point is inside something solid. The point must not lie on the border.
+    /// Returns true if a point is in a solid square. The point must not lie on the border.
     fn holds(&self, p: &Point) -> bool;
 }
 
-/// Encloses a corner.
+/// Returns an enclosure of a corner.
 pub fn point(corner: &Corner) -> Point {
     corner.each_ref().map(Interval::from)
 }
 
 impl Obstacle {
-    /// Makes an obstacle of a link.
+    /// Makes an obstacle from a link of the robot.
     pub fn link(name: String, owner: Owner, shape: Shape, heights: Option<Range>) -> Self {
         let [at, turn] = [[0, 0], [0, 1]].map(|of| of.map(Interval::whole));
         Self { name: Some(name), own: Some(owner), outline: Outline::Own(shape), at, turn, heights, course: None }
     }
 
-    /// Returns true if joint 1 carries it.
+    /// Returns true if the obstacle is a link that joint 1 carries.
     pub fn is_carried(&self) -> bool {
         self.own.as_ref().is_some_and(|own| own.is_carried)
     }
 
-    /// Returns its name for messages.
+    /// Returns the obstacle's name for messages; `number` replaces a missing name.
     pub fn called(&self, number: usize) -> String {
         match (&self.own, &self.name) {
             (Some(_), Some(name)) => name.clone(),
@@ -120,12 +120,16 @@ impl Obstacle {
         turned(&minus(p, &self.at), &[-sine, cosine.clone()])
     }
 
-    /// Returns a convex part of the obstacle, in plane coordinates. The part of a circle is the whole disc. The part of
-    /// a polyline is one of its segments. The part of a polygon is a convex polygon within it. The part of a picture is
-    /// a rectangle of solid squares. Its corners are the corners of the obstacle that are nearest to the given points.
+    /// Returns a convex part of the obstacle, in plane coordinates:
+    /// - of a circle, the whole disc,
+    /// - of a polyline, one of its segments,
+    /// - of a polygon, a convex polygon within it,
+    /// - of a picture, a rectangle of solid squares.
+    ///
+    /// The part's corners are the corners of the obstacle that are nearest to the given points.
     ///
     /// # Errors
-    /// If there is no such part, with the reason. [`CheckError::Input`] if the obstacle is not known.
+    /// If there is no such part, with the reason. [`CheckError::Input`] if the obstacle could not be read.
     pub fn part(&self, given: &[Corner]) -> Result<Shape, CheckError> {
         if self.course.is_some() {
             return CheckError::fails("it moves, so it does not always block");
@@ -173,12 +177,13 @@ impl Obstacle {
         }
     }
 
-    /// Returns the segments of its border, its disc, or the link's shape. Those of a static obstacle are in plane
-    /// coordinates, those of a moving obstacle in its own frame. A connected set that does not touch them and is not
-    /// inside the obstacle is off the obstacle.
+    /// Returns the sides from which shapes must keep away: the segments of the obstacle's border, its disc, or the
+    /// link's shape. They are in plane coordinates for a static obstacle, and in its own frame for a moving one. If a
+    /// connected set does not touch the sides, and one of its points is not inside the obstacle, it does not touch the
+    /// obstacle.
     ///
     /// # Errors
-    /// If the checker does not know the obstacle, or if it has too few points.
+    /// If the obstacle could not be read, or if it has too few points.
     pub fn sides(&self) -> Result<Vec<Shape>, CheckError> {
         let placed = |p: &Point| if self.course.is_some() { p.clone() } else { self.placed(p) };
         let side = |points: &[Point], radius: Interval| Shape { points: points.iter().map(placed).collect(), radius };
@@ -202,11 +207,11 @@ impl Obstacle {
         }
     }
 
-    /// Returns true if a point is inside the obstacle. The point must be farther than `farther` from the border.
-    /// Returns `None` if the point is not known precisely enough to decide.
+    /// Returns true if a point is inside the obstacle. The point must be farther than `farther` units from the border.
+    /// Returns `None` if the enclosure of the point is too wide to decide.
     pub fn surrounds(&self, at: &Point, farther: &BigInt) -> Option<bool> {
         let own = self.own(at).map(|c| c.middle());
-        // The midpoint that stands in for the point is nearer to it than any border.
+        // The test uses the middle of the enclosure. No border lies between it and the point.
         let is_near = own.iter().map(|(_, radius)| radius).sum::<BigInt>() < *farther;
         let own = own.map(|(middle, _)| middle);
         is_near.then(|| match &self.outline {
@@ -217,7 +222,7 @@ impl Obstacle {
     }
 }
 
-/// Returns the index of the nearest place, judged by the middles of the enclosures.
+/// Returns the index of the place nearest to `to`, measured between the middles of the enclosures.
 fn nearest(places: &[Point], to: &Point) -> Option<usize> {
     let distance = |place: &Point| {
         let [x, y] = [0, 1].map(|k| (&place[k] - &to[k]).middle().0);

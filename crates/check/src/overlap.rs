@@ -1,4 +1,4 @@
-//! Overlap depth of two convex shapes.
+//! Overlap depth of two convex shapes: how far one must move until they no longer overlap.
 
 use crate::interval::{Interval, Point};
 use num_bigint::BigInt;
@@ -7,23 +7,23 @@ use std::ops::{Add, Mul, Sub};
 /// All points within `radius` of the convex hull of some points.
 #[derive(Debug, Clone)]
 pub struct Shape {
-    /// The points.
+    /// Points whose convex hull is the core of the shape.
     pub points: Vec<Point>,
-    /// The radius.
+    /// Greatest distance of the shape's points from the core, metres.
     pub radius: Interval,
 }
 
-/// A point in units.
+/// A point whose coordinates are numbers of units; see [`Interval`].
 pub type Exact = [BigInt; 2];
 
-/// Numbers with exact differences, products and comparisons: big integers, and machine integers as long as they do not
+/// Integers with exact differences, sums, products and comparisons. Machine integers are exact as long as they do not
 /// overflow.
 pub trait Integer: Clone + Ord + Default {
-    /// The difference.
+    /// Returns the difference.
     fn minus(&self, other: &Self) -> Self;
-    /// The sum.
+    /// Returns the sum.
     fn plus(&self, other: &Self) -> Self;
-    /// The product.
+    /// Returns the product.
     fn times(&self, other: &Self) -> Self;
 }
 
@@ -93,15 +93,15 @@ fn is_near<T: Integer>(p: &[T; 2], q: &[T; 2], distance: &T) -> bool {
     }
 }
 
-/// Returns true if a convex hull, given by its corners turning left, reaches beyond the origin by more than `needed` in
-/// every direction.
+/// Returns true if a convex hull reaches beyond the origin by more than `needed` in every direction. Its corners are
+/// given in order, turning left. `needed` may be negative.
 fn reaches<T: Integer>(ring: &[[T; 2]], needed: &T) -> bool {
     let zero = T::default();
     let edges = || ring.iter().zip(ring.iter().cycle().skip(1));
     if *needed < zero && edges().any(|(p, q)| is_near(p, q, &zero.minus(needed))) {
         return true;
     }
-    // Here the origin must be inside, and farther from each side than needed.
+    // The origin must be inside, and farther than `needed` from each side.
     let is_deep = |(p, q): (&[T; 2], &[T; 2])| {
         let (area, along) = (cross(p, q), minus(q, p));
         let is_beyond = || area.times(&area) > needed.times(needed).times(&dot(&along, &along));
@@ -110,7 +110,7 @@ fn reaches<T: Integer>(ring: &[[T; 2]], needed: &T) -> bool {
     ring.len() > 2 && edges().all(is_deep)
 }
 
-/// Returns points in the middle of the shape's points, and the maximum distance of a point from its middle.
+/// Returns the middles of the enclosures of the shape's points, and the maximum distance of a point from its middle.
 fn middles(shape: &Shape) -> (Vec<Exact>, BigInt) {
     let mut error = BigInt::ZERO;
     let middle = |p: &Point| {
@@ -125,9 +125,10 @@ fn middles(shape: &Shape) -> (Vec<Exact>, BigInt) {
 /// it from `b`.
 ///
 /// Let `M` be the convex hull of all differences of a point of `b` and a point of `a`, and let `r` be the sum of the
-/// radii. Then the condition means: in every direction `M` reaches beyond the origin by more than `depth - r`. The test
-/// uses exact points in the middle of the enclosures, without rounding. It adds `error`, the maximum distance of a
-/// difference from its middle, to the required depth. In most cases the leading digits decide.
+/// radii. Then `a` overlaps `b` by more than `depth` if `M` reaches beyond the origin by more than `depth - r` in every
+/// direction. The test uses the middles of the enclosures of the points, without rounding. To make up for that, it adds
+/// `error`, the maximum distance of a difference from its middle, to the required depth. In most cases the leading
+/// digits decide.
 pub fn overlap_by_more_than(a: &Shape, b: &Shape, depth: &BigInt) -> bool {
     let [(a_middles, a_error), (b_middles, b_error)] = [a, b].map(middles);
     let error = a_error + b_error;
@@ -138,15 +139,15 @@ pub fn overlap_by_more_than(a: &Shape, b: &Shape, depth: &BigInt) -> bool {
     let [a_first, b_first] =
         [&a_middles, &b_middles].map(|points| points.iter().map(|p| p.each_ref().map(first)).collect::<Vec<_>>());
     let (ring, about) = (hull(differences(&b_first, &a_first)), first(&needed));
-    // Each coordinate of a difference is off by less than one.
+    // Each coordinate of a difference of leading digits is off by less than one.
     if reaches(&ring, &(about + 3)) {
         return true;
     }
     reaches(&ring, &(about - 2)) && reaches(&hull(differences(&b_middles, &a_middles)), &needed)
 }
 
-/// Returns true if the convex hulls of some points seem to overlap by more than a depth. It uses their leading digits
-/// only, and returns true if in doubt.
+/// Returns true if the convex hulls of some points seem to overlap by more than a depth. The test uses leading digits
+/// only, and returns true if these do not decide.
 pub fn seem_to_overlap(a: &[[f64; 2]], b: &[[f64; 2]], depth: f64) -> bool {
     let all = || a.iter().chain(b).flatten().chain([&depth]);
     let most = all().fold(0.0_f64, |most, c| most.max(c.abs()));
@@ -155,10 +156,10 @@ pub fn seem_to_overlap(a: &[[f64; 2]], b: &[[f64; 2]], depth: f64) -> bool {
     all().any(|c| !c.is_finite()) || reaches(&hull(differences(&b, &a)), &(first(depth) - 3))
 }
 
-/// Number of leading digits for which squares of products fit in 128 bits.
+/// Number of leading binary digits for which squares of products fit in 128 bits.
 const LEADING_BITS: u64 = 28;
 
-/// Returns all differences of two points.
+/// Returns all differences of a point of `to` and a point of `from`.
 fn differences<T: Integer>(from: &[[T; 2]], to: &[[T; 2]]) -> Vec<[T; 2]> {
     from.iter().flat_map(|p| to.iter().map(move |q| minus(p, q))).collect()
 }
@@ -177,7 +178,7 @@ mod tests {
         Shape { points: numbers.chunks(2).map(|p| [p[0].clone(), p[1].clone()]).collect(), radius: of(radius) }
     }
 
-    /// Asserts that the depth is this number: slightly less is proven, slightly more is not.
+    /// Asserts that the overlap depth is `depth`: slightly less is proven, slightly more is not.
     fn has_depth(a: &Shape, b: &Shape, depth: &str) {
         let little = of("1e-50").upper;
         for (a, b) in [(a, b), (b, a)] {

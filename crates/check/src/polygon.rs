@@ -3,10 +3,10 @@
 use crate::decimal::Decimal;
 use num_bigint::Sign;
 
-/// Coordinates exactly as written.
+/// A corner of a polygon, with its coordinates exactly as written.
 pub type Corner = [Decimal; 2];
 
-/// Returns the side of the line from `a` to `b` on which a point lies: plus on the left.
+/// Returns the side of the line from `a` to `b` on which the point `p` lies: plus for left, minus for right.
 pub fn side(a: &Corner, b: &Corner, p: &Corner) -> Sign {
     let cross = |u: &Corner, v: &Corner| &(&u[0] * &v[1]) - &(&u[1] * &v[0]);
     let from_a = |p: &Corner| [&p[0] - &a[0], &p[1] - &a[1]];
@@ -18,8 +18,8 @@ pub fn edges(ring: &[Corner]) -> impl Iterator<Item = (&Corner, &Corner)> {
     ring.iter().zip(ring.iter().cycle().skip(1))
 }
 
-/// Returns true if each side has all other corners on its left. A repeated corner lies on the line of a side and so
-/// gives false.
+/// Returns true if each side of the polygon has all other corners on its left. Returns false if a corner is repeated,
+/// because it then lies on the line of a side.
 pub fn is_convex(ring: &[Corner]) -> bool {
     let others = |from: usize| (2..ring.len()).map(move |k| &ring[(from + k) % ring.len()]);
     ring.len() > 2 && edges(ring).enumerate().all(|(from, (a, b))| others(from).all(|p| side(a, b, p) == Sign::Plus))
@@ -37,9 +37,9 @@ pub fn surrounds(rings: &[Vec<Corner>], point: &Corner) -> bool {
 
 /// Returns true if `part`, whose corners turn left, is convex and lies within the region that the rings surround.
 ///
-/// No ring enters the interior of the part: for each side of a ring, a line separates it from that interior. That line
-/// runs along a side of the part or along the side of the ring. So the interior belongs to the polygon entirely or not
-/// at all, and one of its points decides which.
+/// The test shows that no ring enters the interior of the part. For each side of a ring, a line must separate that side
+/// from the interior: a line along a side of the part, or along the side of the ring. Then the interior belongs to the
+/// region entirely or not at all, and one of its points decides which.
 pub fn holds(rings: &[Vec<Corner>], part: &[Corner]) -> bool {
     let misses = |u: &Corner, v: &Corner| {
         let outside = |a, b| [u, v].iter().all(|p| side(a, b, p) != Sign::Plus);

@@ -1,4 +1,4 @@
-//! Moving shapes among obstacles.
+//! Checks that moving shapes keep away from obstacles along a motion.
 
 use crate::curve::Piece;
 use crate::error::CheckError;
@@ -12,19 +12,19 @@ use std::rc::Rc;
 pub struct Part<'a> {
     /// Name for messages.
     pub name: String,
-    /// Required distance, in words for messages.
+    /// Required distance from obstacles, in words for messages.
     pub keeps: &'a str,
-    /// Its shape.
+    /// Shape of the part.
     pub solid: &'a Solid,
-    /// For each obstacle, whether the two can collide.
+    /// For each obstacle, true if the part can collide with it.
     pub meets: Vec<bool>,
 }
 
-/// An obstacle at its place, or on its trajectory.
+/// An obstacle with its edges, prepared for checks.
 pub struct PlacedObstacle {
     /// The obstacle.
     pub obstacle: Obstacle,
-    /// The edges that shapes must keep away from to avoid the obstacle.
+    /// Edges from which shapes must keep away.
     pub edges: Vec<Edge>,
 }
 
@@ -43,8 +43,8 @@ impl PlacedObstacle {
     }
 }
 
-/// Checks that all parts keep away from all obstacles that they can collide with, along consecutive pieces. `from` is
-/// the first configuration. Absent obstacles keep their numbers.
+/// Checks along consecutive pieces of a motion that all parts keep away from all obstacles with which they can collide.
+/// `from` is the first configuration. An obstacle that is `None` is absent during these pieces.
 ///
 /// # Errors
 /// Names the first stretch, part and obstacle for which this is not shown.
@@ -71,7 +71,7 @@ pub fn stay_off(
         None => format!("obstacle {number}"),
     };
     let solids: Vec<&Solid> = parts.iter().map(|part| part.solid).collect();
-    // Relative to what joint 2 carries, the position of what joint 1 carries depends on joint 2 alone.
+    // Parts that joint 2 carries move relative to obstacles that joint 1 carries. That motion depends on joint 2 alone.
     let is_carried = |number: usize| obstacles[number].as_ref().is_some_and(|present| present.obstacle.is_carried());
     let (turning, standing) = pairs.into_iter().partition(|[_, edge]| is_carried(owners[*edge]));
     let of_second: Vec<Piece> = pieces.iter().map(Piece::of_second).collect();
@@ -84,7 +84,7 @@ pub fn stay_off(
             called(owners[edge])
         ))
     })?;
-    // A part that never touches a border is inside an obstacle only if it is inside initially.
+    // A part that never touches the border of an obstacle is inside the obstacle only if it is inside initially.
     let time = &pieces[0].time[0];
     for part in parts {
         let corner = part.solid.corner_at(chain, from);

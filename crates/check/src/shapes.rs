@@ -9,13 +9,14 @@ use crate::overlap::Shape;
 use std::collections::BTreeSet;
 use std::fmt;
 
-/// Least overlap of the heights of two links that can collide, metres: `10^-9`. Links often rest on one another.
+/// Least overlap of the heights of two links that can collide: `10^-9` m. Links often rest on one another, and rounded
+/// heights then overlap slightly.
 const MIN_OVERLAP_DECIMALS: u32 = 9;
 
-/// The approximation of a projection.
+/// Approximation of a link's shape, projected into the plane.
 #[derive(Clone, Copy, PartialEq)]
 pub enum Outline {
-    /// Part of the projection.
+    /// A subset of the projection.
     Within,
     /// A superset of the projection.
     Around,
@@ -33,23 +34,24 @@ pub struct Body {
 }
 
 impl Body {
-    /// Returns its heights and others. Returns `None` if one of them is unlimited.
+    /// Returns this body's heights and the given heights as enclosures. `None` if one of them is unlimited.
     fn beside(&self, heights: Option<&Range>) -> Option<(&[Interval; 2], [Interval; 2])> {
         Some((self.heights.as_ref()?, heights?.each_ref().map(Interval::from)))
     }
 
-    /// Returns true if its heights and these certainly overlap.
+    /// Returns true if this body's heights and the given heights certainly overlap.
     pub fn is_at(&self, heights: Option<&Range>) -> bool {
         self.beside(heights).is_none_or(|(own, [low, high])| own[0].upper <= high.lower && low.upper <= own[1].lower)
     }
 
-    /// Returns true if its heights and these certainly do not overlap.
+    /// Returns true if this body's heights and the given heights certainly do not overlap.
     pub fn passes(&self, heights: Option<&Range>) -> bool {
         self.beside(heights).is_some_and(|(own, [low, high])| own[1].upper < low.lower || high.upper < own[0].lower)
     }
 
-    /// Returns the heights at which other links can collide with a link that is an obstacle for them.
-    /// [`Outline::Around`] gives a superset of these heights, [`Outline::Within`] a subset.
+    /// Returns this body's heights less the minimum overlap at both ends: other links can collide with it there.
+    /// [`Outline::Around`] gives a superset of these heights, [`Outline::Within`] a subset. `None` if the heights are
+    /// unlimited.
     pub fn kept(&self, outline: Outline) -> Option<Range> {
         let by = Interval::from(&Decimal::power_of_ten(MIN_OVERLAP_DECIMALS));
         let [low, high] = self.heights.as_ref()?;
@@ -63,19 +65,19 @@ impl Body {
 pub struct CollisionShape {
     /// Name of the link that it belongs to.
     pub link: String,
-    /// `collision`, `visual` or `bar`.
+    /// Kind of the shape: `collision`, `visual`, or `bar` for a bar that the world defines.
     pub kind: &'static str,
     /// Number among the link's shapes of that kind, not counting those without size.
     pub number: usize,
-    /// The last of the two joints that moves it; `None` if it is static.
+    /// The last joint that moves the shape, 0 or 1; `None` if the shape is static.
     pub last: Option<usize>,
-    /// Number of the layer, counted from the lowest, if the shape is cut.
+    /// Number of the layer, counted from the lowest. `None` if the shape is not cut into layers.
     pub layer: Option<usize>,
     /// A superset of the covered region.
     pub around: Body,
     /// A subset of the covered region.
     pub within: Body,
-    /// Links that it is allowed to touch.
+    /// Names of the links that the shape may touch.
     pub ignored: BTreeSet<String>,
 }
 
@@ -96,7 +98,8 @@ impl CollisionShape {
         Owner { link: self.link.clone(), is_carried: self.last.is_some() }
     }
 
-    /// Returns true if a body must keep away from an obstacle. The body is this shape, or its sweep by the tool.
+    /// Returns true if `body` must keep away from an obstacle: the obstacle is at its height, and is no link that this
+    /// shape may touch. `body` is this shape, or the region that the shape sweeps as the tool turns.
     pub fn meets(&self, body: &Body, obstacle: &Obstacle) -> bool {
         let is_free = obstacle.own.as_ref().is_some_and(|own| self.ignored.contains(&own.link));
         !is_free && !body.passes(obstacle.heights.as_ref())
@@ -106,14 +109,14 @@ impl CollisionShape {
 /// A link of the robot that is an obstacle for others.
 #[derive(Clone)]
 pub struct Owner {
-    /// Its name.
+    /// Name of the link.
     pub link: String,
-    /// True if joint 1 carries it. Then its position is given with joint 1 at zero, and so is that of anything that can
-    /// collide with it.
+    /// True if joint 1 carries the link. Then positions of the link, and of shapes that can collide with it, are given
+    /// with joint 1 at zero.
     pub is_carried: bool,
 }
 
-/// Finds a shape by its link, kind and number. If the shape is cut, finds the layer that contains a height.
+/// Finds a shape by its link, kind and number. If the shape is cut into layers, finds the layer that contains `height`.
 ///
 /// # Errors
 /// If there is no such shape, or if it has several layers and no height is given.

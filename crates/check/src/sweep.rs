@@ -1,28 +1,28 @@
-//! Checks whether boxes separate configurations from one another.
+//! Checks whether collision boxes separate a start from a goal.
 
 use crate::decimal::Decimal;
 use crate::domain::{Domain, Range, Rectangle};
 use std::collections::BTreeSet;
 
-/// Maximum number of gaps. This many take some hundred megabytes.
+/// Maximum number of gaps between boxes. This many need some hundred megabytes of memory.
 const MAX_GAPS: usize = 1 << 22;
 
 /// Maximum number of strips within a seam's enclosure. Each of them is compared with each strip at the other end.
 const MAX_SEAM_STRIPS: usize = 100;
 
-/// The domain without the closed boxes: strips of the first joint between the boxes' sides, and in each strip the open
-/// gaps of the second joint.
+/// The domain without the boxes. It is cut into strips at each value of joint 1 where a box begins or ends. In each
+/// strip, the *gaps* are the intervals of joint 2 that no box covers.
 struct Gaps {
-    /// The strips, one between each value of the first joint and the next.
+    /// The strips, one between each value of joint 1 and the next, ascending.
     strips: Vec<Strip>,
-    /// For each gap, the representative of its group of connected gaps. While groups are being joined: a gap nearer to
-    /// the representative.
+    /// For each gap, a gap that represents its group of connected gaps. While groups are being joined, this may be a
+    /// gap on the way to the representative (union-find).
     group: Vec<usize>,
-    /// Values at which boxes or the domain end, ascending.
+    /// For each joint, the values at which boxes or the domain begin or end, ascending.
     values: [Vec<Decimal>; 2],
 }
 
-/// The gaps within one strip: the ranks of their ends, and the number of the first gap.
+/// The gaps within one strip: the indices of their ends in the values of joint 2, and the number of the first gap.
 struct Strip {
     first: usize,
     gaps: Vec<[usize; 2]>,
@@ -72,8 +72,8 @@ impl Gaps {
         Some(gaps)
     }
 
-    /// Joins gaps between which a free motion may lead: overlapping gaps of neighbouring strips, and gaps that reach
-    /// the enclosures of a seam on both sides.
+    /// Joins gaps that a free motion may connect: overlapping gaps of neighbouring strips, and gaps on both sides of a
+    /// seam that reach the seam's enclosures.
     fn join(&mut self, domain: &Domain) {
         for right in 1..self.strips.len() {
             self.join_strips(right - 1, right);
@@ -116,7 +116,7 @@ impl Gaps {
         }
     }
 
-    /// Returns the strips whose closure meets a range.
+    /// Returns the indices of the strips that meet a range of joint 1, borders included.
     fn strips_that_meet(&self, [low, high]: &Range) -> std::ops::Range<usize> {
         let values = &self.values[0];
         let from = values.partition_point(|v| v < low).saturating_sub(1);
@@ -155,14 +155,14 @@ fn clipped(stuck: &Rectangle, domain: &[Range; 2]) -> Option<Rectangle> {
     part.iter().all(|[low, high]| low < high).then_some(part)
 }
 
-/// The gaps that a motion from the start may reach.
+/// All gaps that a free motion from the start may reach.
 pub struct Reached {
     gaps: Gaps,
     groups: BTreeSet<usize>,
 }
 
 impl Reached {
-    /// Computes the gaps reachable from a start in the domain. Returns `None` if the boxes leave more gaps than the
+    /// Computes the gaps that free motions from `start` may reach. Returns `None` if the boxes leave more gaps than the
     /// checker can handle.
     pub fn new(domain: &Domain, boxes: &[Rectangle], start: &Rectangle) -> Option<Self> {
         let gaps = Gaps::new(domain, boxes)?;
@@ -170,7 +170,7 @@ impl Reached {
         Some(Self { gaps, groups })
     }
 
-    /// Returns true if some reachable gap meets a rectangle of the domain, borders included.
+    /// Returns true if a reachable gap meets a rectangle of the domain, borders included.
     pub fn meets(&self, rectangle: &Rectangle) -> bool {
         self.gaps.groups_that_meet(rectangle).any(|group| self.groups.contains(&group))
     }
@@ -217,7 +217,7 @@ mod tests {
         // Adjacent boxes close the gap, even if their common end is written differently.
         assert!(separates([line(), line()], &[["0", "0.10", "-5", "0.3"], ["1e-1", "0.2", "0.3", "9"]]));
         assert!(!separates([line(), line()], &[["0", "0.1", "-5", "0.3"], ["0.1000000001", "0.2", "0.3", "9"]]));
-        // A wall that stops just before the limit is not enough, nor is one without thickness or with swapped ends.
+        // A wall does not separate if it stops just before the limit, has no thickness, or has swapped ends.
         assert!(!separates([line(), line()], &[["0", "0.1", "-2", "2.0999999999999999999"]]));
         assert!(!separates([line(), line()], &[["0", "0", "-2", "2.1"]]));
         assert!(!separates([line(), line()], &[["0.1", "0", "-2", "2.1"]]));
@@ -239,7 +239,7 @@ mod tests {
             assert!(!separates([Axis::Circle, second.clone()], &[wall]));
             assert!(separates([Axis::Circle, second], &[wall, other]));
         }
-        // Across the second joint's seam: a lid alone does not confine a joint that turns endlessly.
+        // Joint 2 is continuous, so a free motion can go around a lid across its seam.
         let roofed = [["-9", "9", "0.7", "0.8"], ["0", "0.1", "-4", "0.75"]];
         assert!(separates([line(), line()], &roofed));
         let short = [["-9", "9", "0.7", "0.8"], ["0", "0.1", "-3.1", "0.75"]];

@@ -14,8 +14,8 @@ pub struct World {
     pub goal: Option<Goal>,
     /// Required distance between the arm and obstacles, metres.
     pub clearance: Decimal,
-    /// Static obstacles: those of the file, then the map's walls, then the objects at their initial poses. Objects may
-    /// also move.
+    /// Obstacles without a motion of their own: those of the file, then the map's walls, then the objects at their
+    /// initial poses.
     pub obstacles: Vec<Obstacle>,
     /// Moving obstacles of the file.
     pub movers: Vec<Obstacle>,
@@ -26,7 +26,7 @@ pub struct World {
 pub enum Goal {
     /// Joint values.
     Joints([Range; 2]),
-    /// A tip position, in any configuration.
+    /// A tip position; every configuration with the tip there satisfies the goal.
     Tip(Corner),
     /// Rectangles for the tip, given by opposite corners; any of them satisfies the goal.
     Areas(Vec<[Corner; 2]>),

@@ -1,4 +1,4 @@
-//! Judges an arm and a world that are built as data, without files.
+//! Tests the judge with an arm and a world that are built in memory, without files.
 
 use cplan_check::arm::{Arm, Joint, Motion};
 use cplan_check::decimal::Decimal;
@@ -19,7 +19,7 @@ fn point(x: i32, y: i32) -> Point {
     [x, y].map(Interval::whole)
 }
 
-/// Makes an arm of two bars, 1 m long and 0.1 m wide. The second joint turns by at most 1 rad.
+/// Makes an arm of two bars, each 1 m long and 0.1 m wide. The second joint turns by at most 1 rad.
 fn arm() -> Arm {
     let joint = |name: &str, far: &str| {
         let range = [&format!("-{far}"), far].map(number);

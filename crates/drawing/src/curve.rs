@@ -1,4 +1,5 @@
-//! Curves as chords: corners on the curve, no point of it farther from its chord than a tolerance.
+//! Approximates curves by chords. Corners lie on the curve, and no point of the curve is farther from its chord than a
+//! tolerance.
 //!
 //! A curve whose second derivative by its parameter stays within `bend` is at most `bend / 8` times the square of the
 //! parameter's step away from its chord.
@@ -7,10 +8,10 @@ use crate::Point;
 use crate::map::Map;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-/// Greatest number of chords of a curve; a finer tolerance would be a mistake.
+/// Greatest number of chords of a curve. A tolerance that needs more must be a mistake.
 const MAX_CHORDS: f64 = 1e5;
 
-/// A curve that would need too many chords.
+/// The error that a curve would need too many chords.
 #[derive(Debug)]
 pub(crate) struct TooFineCurve;
 
@@ -47,9 +48,9 @@ impl Ellipse {
         [0, 1].map(|k| self.center[k] + self.u[k] * cos + self.v[k] * sin)
     }
 
-    /// Returns the length of its long half axis.
+    /// Returns the length of the longer half axis.
     fn longest(self) -> f64 {
-        // No direction is stretched by more than both vectors together.
+        // The half axes are the singular values of the matrix with the columns `u` and `v`.
         let square: f64 = [self.u, self.v].iter().flatten().map(|x| x * x).sum();
         let cross = self.u[0] * self.v[1] - self.u[1] * self.v[0];
         (square / 2.0 + ((square * square / 4.0 - cross * cross).max(0.0)).sqrt()).sqrt()
@@ -73,7 +74,7 @@ pub(crate) struct CircularArc {
     pub center: Point,
     pub radius: f64,
     pub from: f64,
-    /// Turning angle, positive to the left.
+    /// Angle by which the arc turns, radians, positive to the left.
     pub by: f64,
 }
 
@@ -95,8 +96,9 @@ impl CircularArc {
         })
     }
 
-    /// Returns the curve at a distance outside the arc that changes linearly from `first` to `last`. A negative
-    /// distance may reach the centre at most. The chords are fine enough after `map`.
+    /// Returns the curve beside the arc, at a distance outwards that changes linearly from `first` to `last`. A
+    /// negative distance is inwards, and at most the radius. The chords are within the tolerance after `map` is
+    /// applied.
     pub fn spiral(self, first: f64, last: f64, map: &Map, tolerance: f64) -> Result<Vec<Point>, TooFineCurve> {
         let Self { center, radius, from, by } = self;
         let bend = radius + first.abs().max(last.abs()) + 2.0 * (last - first).abs() / by.abs();
@@ -160,7 +162,7 @@ impl Spline {
             && weights.iter().all(|&w| w > 0.0)
     }
 
-    /// Returns its points. Spans are halved until the middles of all chords lie within half of the tolerance.
+    /// Returns points of the spline. Spans are halved until the middle of each chord is within half of the tolerance.
     pub fn points(&self, tolerance: f64) -> Result<Vec<Point>, TooFineCurve> {
         let (first, last) = (self.degree, self.control.len());
         let mut points = vec![self.at(first, self.knots[first])];
@@ -174,7 +176,7 @@ impl Spline {
                     distance(m, a, b) <= tolerance / 2.0
                 })
             };
-            // With fewer than four, a curve that is symmetric about its middle would look straight.
+            // With fewer than four chords, a curve that is symmetric about its middle could look straight.
             let count = (2..MAX_HALVINGS).map(|k| 1_usize << k).find(fits).ok_or(TooFineCurve)?;
             points.extend(along(count, at));
         }

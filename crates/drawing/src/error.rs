@@ -6,9 +6,9 @@
 pub struct Error {
     /// Line number from 1, in formats that have lines.
     pub line: Option<usize>,
-    /// The defect.
+    /// Description of the defect.
     pub message: String,
-    /// A hint.
+    /// Hint that says what to do.
     pub cure: String,
 }
 

@@ -6,17 +6,17 @@ use i_overlay::core::overlay_rule::OverlayRule;
 use i_overlay::core::solver::Solver;
 use i_overlay::float::overlay::{FloatOverlay, OverlayOptions};
 
-/// The rule that says which points are inside rings that cross or surround each other.
+/// The rule that determines which points are inside rings that cross or surround each other.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FillRule {
-    /// Points with a nonzero winding number.
+    /// Points with a nonzero winding number are inside.
     NonZero,
-    /// Points with an odd winding number.
+    /// Points with an odd winding number are inside.
     EvenOdd,
 }
 
-/// Returns the region that rings surround, as polygons that do not cross themselves or each other: an outer ring and
-/// holes each. Corners are rounded to a grid of about 1e-17 of the rings' extent.
+/// Returns the region that rings surround, as polygons that do not cross themselves or each other. Each polygon has an
+/// outer ring and holes. Corners are rounded to a grid of about 1e-17 of the rings' extent.
 #[must_use]
 pub fn filled(rings: &[Ring], rule: FillRule) -> Vec<(Ring, Vec<Ring>)> {
     let rule = match rule {

@@ -1,4 +1,4 @@
-//! GeoJSON (RFC 7946): features with a name and a height.
+//! Reads GeoJSON (RFC 7946): features with a name and a height.
 
 use crate::map::Map;
 use crate::sheet::{Origin, Sheet};
@@ -34,7 +34,7 @@ const LIST_HINT: &str = "write features, geometries, rings and positions as list
 const NUMBER_HINT: &str = "write both coordinates as numbers, without quotes";
 const HEIGHT_HINT: &str = "write heights as numbers, without quotes, or leave the height out";
 
-/// Greatest height, metres: far beyond any arm.
+/// Greatest height, metres. It is far beyond the reach of any arm.
 const MAX_HEIGHT: f64 = 1e6;
 
 struct Reader {
@@ -154,7 +154,8 @@ impl Reader {
     }
 }
 
-/// Reads the properties of a feature. `height` is its height, or its lower and upper end; `unit` is in metres, scaled.
+/// Reads the properties of a feature. The property `height` is a height, or a lower and an upper end. `unit` is the
+/// scaled unit of heights, metres.
 fn feature(value: &Value, at: &str, unit: f64) -> Result<Origin, Error> {
     let property = |key: &str| value.get("properties").and_then(|properties| properties.get(key));
     let text = |value: &Value| match value {

@@ -1,19 +1,19 @@
-//! Interpolating splines for curves that a file gives only by their fit points, as in CAD programs: cubic, parametrised
-//! by chord length, with continuous curvature.
+//! Interpolating splines for curves that a file gives only by their fit points. As in CAD programs, they are cubic,
+//! parametrised by chord length, and have continuous curvature.
 
 use crate::Point;
 
 /// End conditions of the curve.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum EndConditions {
-    /// Open, with these directions at the ends. An end without a direction has zero curvature.
+    /// The curve is open, with these directions at its ends. An end without a direction has zero curvature.
     Open([Option<Point>; 2]),
-    /// The last point is followed by the first.
+    /// The curve is closed: the first point follows the last.
     Closed,
 }
 
-/// Number of points repeated on each side of a closed curve. Each of them at least halves the influence of the
-/// artificial end.
+/// Number of points that are repeated on each side of a closed curve, which is computed as an open one. Each of these
+/// points at least halves the influence of the artificial end.
 const REPEATED_POINTS: usize = 64;
 
 /// Returns the curve as connected cubic Bézier curves. Consecutive points must differ.

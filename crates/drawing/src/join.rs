@@ -8,10 +8,10 @@ use std::collections::HashMap;
 pub(crate) struct Chain {
     /// Indices of the curves, in order along the chain.
     pub curves: Vec<usize>,
-    /// Points of the chain; without the last one if it equals the first.
+    /// Points of the chain. The last point is omitted if it equals the first.
     pub points: Vec<Point>,
     pub is_closed: bool,
-    /// Greatest gap between the ends of joined neighbours.
+    /// Greatest gap between the ends of two joined curves.
     pub gap: f64,
 }
 
@@ -44,8 +44,8 @@ fn apart(a: Point, b: Point) -> f64 {
     (a[0] - b[0]).hypot(a[1] - b[1])
 }
 
-/// Joins curves at places where exactly two of them end; where three end, the partners are ambiguous. Each curve has
-/// two points or more.
+/// Joins curves at places where exactly two of them end. Where three or more end, it is ambiguous which belong
+/// together. Each curve has at least two points.
 pub(crate) fn joined(curves: &[Vec<Point>], reach: f64) -> Vec<Chain> {
     let mut places = Places { reach, cells: HashMap::new(), at: Vec::new() };
     let ends: Vec<[usize; 2]> =
@@ -56,7 +56,7 @@ pub(crate) fn joined(curves: &[Vec<Point>], reach: f64) -> Vec<Chain> {
     }
     let mut is_used = vec![false; curves.len()];
     let mut chains = Vec::new();
-    // Chains with two ends come first, from either end. The remaining curves form closed loops.
+    // Follow chains with two ends first, from one of the ends. The remaining curves form closed loops.
     let is_end = |curve: usize| ends[curve].iter().position(|&place| at_place[place].len() != 2);
     let starts = (0..curves.len()).filter_map(|curve| Some((curve, is_end(curve)?)));
     for (first, side) in starts.chain((0..curves.len()).map(|curve| (curve, 0))) {
@@ -100,7 +100,7 @@ fn chain(
             _ => break,
         };
     }
-    // Two points, there and back, surround no area.
+    // A line there and back surrounds no area.
     if place == begin && at_place[place].len() == 2 && chain.points.len() > 3 {
         let last = chain.points.pop().expect("two points or more");
         chain.gap = chain.gap.max(apart(last, chain.points[0]));

@@ -1,4 +1,4 @@
-//! Plane drawings as plain shapes: DXF, SVG and GeoJSON to polygons, polylines and circles, with their names and layers.
+//! Reads plane drawings (DXF, SVG and GeoJSON) as polygons, polylines and circles, with their names and layers.
 //!
 //! ```
 //! use cplan_drawing::{Format, Geometry, Settings, read};
@@ -86,7 +86,7 @@ impl Format {
 /// Reads a drawing.
 ///
 /// # Errors
-/// A file that is broken, or not of that format.
+/// If the file is broken, or does not have that format.
 pub fn read(bytes: &[u8], format: Format, settings: &Settings) -> Result<Drawing, Error> {
     let settings = &Settings { tolerance: settings.tolerance.max(MIN_TOLERANCE), ..*settings };
     match format {

@@ -42,8 +42,8 @@ impl Map {
         Map { u: self.vector(inner.u), v: self.vector(inner.v), o: self.point(inner.o) }
     }
 
-    /// Returns the image of the origin and the rotation of a similarity. The rotation is that of the y axis, because x
-    /// is mirrored in entities seen from below.
+    /// Returns the image of the origin, and the rotation of a map that does not distort shapes. The rotation is that of
+    /// the y axis, because x may be mirrored.
     pub fn frame(&self) -> Frame {
         Frame { at: self.o, angle: (-self.v[0]).atan2(self.v[1]) }
     }
@@ -56,7 +56,7 @@ impl Map {
         ((u - v).abs() <= EQUALITY_TOLERANCE * u && across.abs() <= EQUALITY_TOLERANCE * u * v).then_some(u)
     }
 
-    /// Returns true if the map keeps areas from collapsing to points or lines.
+    /// Returns true if the map does not collapse areas to lines or points.
     pub fn is_regular(&self) -> bool {
         let area = self.u[0] * self.v[1] - self.u[1] * self.v[0];
         area != 0.0 && area.is_finite() && self.o.iter().all(|x| x.is_finite())

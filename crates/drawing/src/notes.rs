@@ -1,9 +1,9 @@
-//! Notes about a drawing, counted by kind, so that a thousand texts give one line.
+//! Notes about a drawing. Equal notes are counted, so that a thousand ignored texts give one note.
 
 use std::collections::HashMap;
 use std::fmt;
 
-/// A remark about an element that was left out or changed.
+/// A remark about elements that were omitted or changed.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Note {
     /// Kind of the note, such as `TEXT: left out`.
@@ -26,14 +26,14 @@ impl fmt::Display for Note {
     }
 }
 
-/// Greatest number of kinds; all further ones are counted as one, because nobody would read them.
+/// Greatest number of different notes. All further ones are counted together, because nobody would read them.
 const MAX_KINDS: usize = 48;
 
-/// Notes with their owners, counted by both.
+/// Notes with the elements that they are about, counted by both.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Notes {
     counted: Vec<(Vec<String>, Note)>,
-    /// Index of each note, by owner and message.
+    /// Index of each note, by the words that select its element and by its message.
     places: HashMap<(Vec<String>, String), usize>,
 }
 

@@ -5,11 +5,12 @@ use crate::Unit;
 /// Settings for reading a file.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
-    /// Greatest distance between a curve and its chords, and between ends that are joined, metres; at least [`MIN_TOLERANCE`].
+    /// Greatest distance between a curve and its chords, and between ends that are joined, metres. At least
+    /// [`MIN_TOLERANCE`].
     pub tolerance: f64,
-    /// The unit of the file's numbers; by default the one that the file states.
+    /// Unit of the file's numbers. With `None`, it is the unit that the file states.
     pub unit: Option<Unit>,
-    /// An additional scale of everything about the drawing's origin; above 0.
+    /// Factor by which everything is scaled in addition, about the drawing's origin. Positive.
     pub scale: f64,
 }
 

@@ -2,10 +2,10 @@
 
 use crate::Notes;
 
-/// Coordinates, metres.
+/// A point in the plane: its coordinates, metres.
 pub type Point = [f64; 2];
 
-/// Corners in order, each once: a side joins the last corner to the first.
+/// Corners of a ring in order. The first corner is not repeated; a side joins the last corner to the first.
 pub type Ring = Vec<Point>;
 
 /// The content of a file.
@@ -13,33 +13,34 @@ pub type Ring = Vec<Point>;
 pub struct Drawing {
     /// Shapes in the order of the file; joined shapes have the position of their first piece.
     pub shapes: Vec<Shape>,
-    /// Content that was left out or changed.
+    /// Notes about content that was omitted or changed.
     pub notes: Notes,
 }
 
 /// A shape of the drawing.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Shape {
-    /// The feature's name, the id of the element or of a group around it, or the name of the block that contains it.
+    /// Name of the shape: the name of a GeoJSON feature, the id of an SVG element or of a group around it, or the name
+    /// of the DXF block that contains it.
     pub name: Option<String>,
     /// The layer of the shape.
     pub layer: Option<String>,
     /// The geometry.
     pub geometry: Geometry,
-    /// Extent across the plane, metres.
+    /// Lower and upper end along the plane's normal, metres; `None` if not stated.
     pub height: Option<[f64; 2]>,
-    /// The layer that hides it: its own, if that is off or frozen, or a frozen one of an insertion.
+    /// The layer that hides the shape: its own layer if it is off or frozen, or the frozen layer of an insertion.
     pub hidden_by: Option<String>,
-    /// The kind of shape, in the file's own words.
+    /// Kind of the shape, in the words of the file's format.
     pub kind: String,
-    /// The line of its beginning, in formats that have lines.
+    /// Line number at which the shape begins, in formats that have lines.
     pub line: Option<usize>,
-    /// The frame of its block, if it is part of one.
+    /// Frame of the outermost block that contains the shape; `None` if there is none.
     pub frame: Option<Frame>,
 }
 
 impl Shape {
-    /// Returns all names by which a user may select it: its layer, its name, and the layer or group that hides it.
+    /// Returns all names by which a user may select the shape: its layer, its name, and the layer that hides it.
     #[must_use]
     pub fn called(&self) -> Vec<String> {
         [&self.layer, &self.name, &self.hidden_by].into_iter().flatten().cloned().collect()
@@ -56,14 +57,14 @@ pub struct Frame {
 }
 
 impl Frame {
-    /// Returns the drawing's coordinates of a point in the frame.
+    /// Converts a point from the frame's coordinates to those of the drawing.
     #[must_use]
     pub fn placed(&self, [x, y]: Point) -> Point {
         let (sin, cos) = self.angle.sin_cos();
         [cos * x - sin * y + self.at[0], sin * x + cos * y + self.at[1]]
     }
 
-    /// Returns a point as seen from the frame.
+    /// Converts a point from the drawing's coordinates to those of the frame.
     #[must_use]
     pub fn local(&self, p: Point) -> Point {
         let (sin, cos) = self.angle.sin_cos();
@@ -75,20 +76,20 @@ impl Frame {
 /// The geometry of a shape.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Geometry {
-    /// The region inside the outer ring and outside the holes; directions do not matter.
+    /// The region inside the outer ring and outside the holes. The directions of the rings do not matter.
     Polygon {
-        /// The ring as drawn; it may cross itself.
+        /// The outer ring as drawn. It may cross itself.
         outer: Ring,
         /// Rings around free space.
         holes: Vec<Ring>,
     },
-    /// A line without area: at least two points, neighbours in different places.
+    /// A line without area, with at least two points. Consecutive points differ.
     Polyline(Vec<Point>),
     /// A disc.
     Circle {
         /// The centre.
         center: Point,
-        /// The radius; above 0.
+        /// The radius, metres, positive.
         radius: f64,
     },
 }

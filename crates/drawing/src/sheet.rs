@@ -8,13 +8,13 @@ use crate::notes::Notes;
 use crate::{Drawing, Error, Frame, Geometry, Point, Ring, Settings, Shape};
 use std::collections::BTreeMap;
 
-/// Greatest number of points of a drawing; more would be of no use to a planner or a person.
+/// Greatest number of points of a drawing. A drawing with more points would be useless for planning.
 pub const MAX_POINTS: usize = 1 << 21;
 
-/// Greatest coordinate, metres: beyond it, numbers are coarser than tolerances.
+/// Greatest coordinate, metres. Beyond it, the rounding of doubles exceeds tolerances.
 const MAX_COORDINATE: f64 = 1e12;
 
-/// Ends that are nearer than this meet, metres: rotations and scales are rounded.
+/// Greatest distance of ends that meet up to the rounding of rotations and scales, metres.
 const ROUNDING: f64 = 1e-9;
 
 /// The origin of a shape in the file.
@@ -30,7 +30,7 @@ pub(crate) struct Origin {
 }
 
 impl Origin {
-    /// Returns the words that select it.
+    /// Returns the words by which a user may select the element.
     pub fn called(&self) -> Vec<String> {
         [&self.layer, &self.name, &self.hidden_by].into_iter().flatten().cloned().collect()
     }
@@ -59,7 +59,7 @@ impl Sheet {
         self.notes.add_of(origin.called(), message, origin.line);
     }
 
-    /// Notes that an element is left out.
+    /// Adds a note that an element is omitted.
     pub fn leave_out(&mut self, what: &str, origin: &Origin) {
         self.note(format!("{what}: left out"), origin);
     }

@@ -1,4 +1,4 @@
-//! The area covered by a line with a width: butt ends, mitred corners.
+//! The area that a line with a width covers, with butt ends and mitred corners.
 
 use crate::curve::{CircularArc, TooFineCurve};
 use crate::map::Map;
@@ -12,14 +12,14 @@ pub(crate) struct Piece {
     pub widths: [f64; 2],
 }
 
-/// A mitre longer than this many half widths is cut off, as in SVG and PostScript.
+/// Greatest length of a mitre, in half widths. A longer mitre is cut off, as in SVG and PostScript.
 const MAX_MITRE: f64 = 4.0;
 
-/// Edges closer than this fraction of the width continue smoothly, up to rounding.
+/// Greatest gap between the edges of consecutive pieces that counts as smooth, as a fraction of the width.
 const SMOOTH_TOLERANCE: f64 = 1e-9;
 
 impl Piece {
-    /// Returns its left and its right edge.
+    /// Returns the left and the right edge of the piece.
     fn edges(&self, map: &Map, tolerance: f64) -> Result<[Vec<Point>; 2], TooFineCurve> {
         let [a, b] = self.ends;
         if let Some(bow) = CircularArc::new(a, b, self.bulge) {
@@ -33,7 +33,7 @@ impl Piece {
         Ok([edge(1.0), edge(-1.0)])
     }
 
-    /// Returns the directions of its middle line at both ends.
+    /// Returns the directions of the piece's middle line at both ends.
     fn directions(&self) -> [Point; 2] {
         let [a, b] = self.ends;
         let [dx, dy] = [b[0] - a[0], b[1] - a[1]];
@@ -42,7 +42,7 @@ impl Piece {
         if CircularArc::new(a, b, self.bulge).is_none() {
             return [along; 2];
         }
-        // An arc leaves its chord by half of the angle that it turns by.
+        // At each end, the angle between an arc and its chord is half of the angle by which the arc turns.
         [-1.0, 1.0].map(|side| {
             let (sin, cos) = (side * 2.0 * self.bulge.atan()).sin_cos();
             [cos * along[0] - sin * along[1], sin * along[0] + cos * along[1]]
@@ -110,7 +110,7 @@ fn corner([before, after]: [&Piece; 2], [edges, next_edges]: [&[Vec<Point>; 2]; 
     let [width, next_width] = [before.widths[1], after.widths[0]];
     let at = after.ends[0];
     let mut ring = vec![at, from];
-    // A mitre is longer than half of the width by one over the cosine of half of the turn.
+    // The length of a mitre is half of the width divided by the cosine of half of the turn.
     let half_turn = ((1.0 + cos) / 2.0).max(0.0).sqrt();
     if width == next_width && half_turn * MAX_MITRE >= 1.0 {
         let toward = [0, 1].map(|k| (from[k] - at[k] + to[k] - at[k]) / (2.0 * half_turn * half_turn));

@@ -10,7 +10,7 @@ pub struct Unit {
     metres: f64,
 }
 
-/// The error for a word that is no unit.
+/// The error that a word is not the name of a unit.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("\"{0}\" is not a known unit; the units are {names}", names = NAMED_UNITS.map(|unit| unit.name).join(", "))]
 pub struct UnknownUnit(String);
@@ -19,7 +19,7 @@ const fn unit(name: &'static str, metres: f64) -> Unit {
     Unit { name, metres }
 }
 
-/// The units that have names here.
+/// All units that a user can name.
 const NAMED_UNITS: [Unit; 11] = [
     Unit::MILLIMETER,
     unit("cm", 1e-2),
@@ -37,14 +37,14 @@ const NAMED_UNITS: [Unit; 11] = [
 const INCH: f64 = 0.0254;
 
 impl Unit {
-    /// 1 mm.
+    /// The millimetre.
     pub const MILLIMETER: Unit = unit("mm", 1e-3);
-    /// 1 m.
+    /// The metre.
     pub const METER: Unit = unit("m", 1.0);
     /// The pixel of style sheets, 96 per inch.
     pub const PIXEL: Unit = unit("px", INCH / 96.0);
 
-    /// Returns its length in metres.
+    /// Returns the length of the unit in metres.
     #[must_use]
     pub fn metres(self) -> f64 {
         self.metres

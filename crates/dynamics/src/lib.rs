@@ -15,29 +15,30 @@ use cplan_core::model::{Arm, Body, Dynamics, JointType, Scene};
 use cplan_core::space::Configuration;
 use cplan_geometry::{Convex, Point, Vector, perpendicular};
 
-/// Greatest magnitudes of a curve's derivatives by its parameter over a part of the curve, for each joint.
+/// Greatest magnitudes of each joint's derivatives by the parameter of a curve, over a part of the curve.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rates {
-    /// Of the first derivative.
+    /// Greatest magnitude of the first derivative, for each joint.
     pub first: [f64; 2],
-    /// Of the second derivative.
+    /// Greatest magnitude of the second derivative, for each joint.
     pub second: [f64; 2],
-    /// Of the third derivative.
+    /// Greatest magnitude of the third derivative, for each joint.
     pub third: [f64; 2],
 }
 
-/// Upper bounds on the second derivatives of the parts of a torque by the parameter of a curve, for each joint.
+/// Each joint's torque along a curve is a sum of three parts. These are upper bounds on the second derivatives of the
+/// parts by the parameter of the curve.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Curvature {
-    /// For the torque of an acceleration equal to the curve's first derivative.
+    /// Bound for the torque of an acceleration equal to the curve's first derivative.
     pub inertial: [f64; 2],
-    /// For the torque of the curve's second derivative and the square of its first.
+    /// Bound for the torque of the curve's second derivative and the square of its first.
     pub bent: [f64; 2],
-    /// For the torque that holds the arm at rest.
+    /// Bound for the torque that holds the arm at rest.
     pub holding: [f64; 2],
 }
 
-/// Joins two bodies rigidly, given in the same frame.
+/// Returns the body that two bodies form if they are joined rigidly. All are in the same frame.
 #[must_use]
 pub fn joined(a: &Body, b: &Body) -> Body {
     let mass = a.mass + b.mass;
@@ -49,7 +50,8 @@ pub fn joined(a: &Body, b: &Body) -> Body {
     Body { mass, center, inertia: about(a) + about(b) }
 }
 
-/// Spreads a mass evenly over pieces that do not overlap. Rounded pieces count as their cores, except for discs.
+/// Returns a body whose mass, in kg, is spread evenly over pieces that do not overlap. A rounded piece counts as its
+/// core, without the radius, unless it is a disc.
 #[must_use]
 pub fn spread(mass: f64, pieces: &[Convex]) -> Body {
     let sheets = pieces.iter().map(sheet).fold(Body::NONE, |sum, piece| joined(&sum, &piece));
@@ -78,8 +80,8 @@ fn sheet(piece: &Convex) -> Body {
     triangles.fold(Body::NONE, |sum, triangle| joined(&sum, &triangle))
 }
 
-/// Makes motions respect the joints' efforts, which replace unspecified accelerations. Changes nothing if masses and
-/// efforts are unknown.
+/// Makes motions of an arm respect the joints' efforts. These also replace limits of acceleration that are not
+/// specified. Changes nothing if masses or efforts are unknown.
 pub fn keep_efforts(arm: &mut Arm) {
     let Some(mut dynamics) = arm.dynamics else { return };
     dynamics.limits = true;
@@ -92,12 +94,12 @@ pub fn keep_efforts(arm: &mut Arm) {
     arm.dynamics = Some(dynamics);
 }
 
-/// An arm with everything its joints move, to compute the torques of its motions.
+/// Computes the torques of an arm's motions from the arm and the masses that its joints move.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Torques<'a> {
     /// The arm.
     pub arm: &'a Arm,
-    /// Masses of the arm and what it carries, and the efforts.
+    /// Masses of the arm and of its load, and the efforts of the joints.
     pub dynamics: Dynamics,
 }
 
@@ -117,7 +119,7 @@ impl<'a> Torques<'a> {
         here.inertial(acceleration) + here.centrifugal(velocity) + here.holding()
     }
 
-    /// Computes everything that all torques in a configuration depend on.
+    /// Prepares the computation of torques in a configuration.
     #[must_use]
     pub fn at(&self, q: Configuration) -> TorquesAt<'_> {
         let columns = [0, 1].map(|link| self.arm.jacobian(link, self.dynamics.bodies[link].center, q));
@@ -149,7 +151,7 @@ impl<'a> Torques<'a> {
         for (link, body) in self.dynamics.bodies.iter().enumerate() {
             let Bounds { column, motion } = bounds(self.arm, link, body.center, middle, reach, rates);
             for (k, column) in column.iter().enumerate() {
-                // The second derivative of the product of a column and a derivative of the curve.
+                // Bound on the second derivative of the product of a column and a derivative of the curve.
                 let of = |n: usize| column[2] * motion[n] + 2.0 * column[1] * motion[n + 1] + column[0] * motion[n + 2];
                 curvature.inertial[k] += body.mass * of(0);
                 curvature.bent[k] += body.mass * of(1);
@@ -206,7 +208,7 @@ impl<'a> Torques<'a> {
     }
 }
 
-/// Torques in a configuration.
+/// Computes torques in one configuration.
 #[derive(Debug, Clone, Copy)]
 pub struct TorquesAt<'a> {
     torques: &'a Torques<'a>,
@@ -296,7 +298,7 @@ struct Bounds {
     motion: [f64; 4],
 }
 
-/// Returns such bounds for all configurations, at constant speeds up to the top speeds.
+/// Returns bounds that hold in all configurations, at constant speeds up to the joints' top speeds.
 fn everywhere(arm: &Arm, link: usize, point: Point) -> Bounds {
     let velocity = arm.joints.each_ref().map(|joint| joint.velocity);
     let domains = arm.joints.each_ref().map(|joint| joint.range.domain());

@@ -1,4 +1,4 @@
-//! The settings of the planner for fields.
+//! Settings of the field planner: the field, its equation, and how it is solved.
 
 use crate::{Device, Difference, Direction, Equation, Escape, Khatib, Limits, Measure, Relaxation, Stencil};
 use cplan_core::cspace::ZonedGrid;
@@ -6,36 +6,37 @@ use cplan_core::planner::PathKind;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// An equation before the grid exists. Zones of the workspace become arrays over the cells later.
+/// An equation as the user chooses it, before there is a grid. On a grid, the zones of the workspace become arrays with
+/// one entry per cell.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum EquationChoice {
     /// Laplace's equation.
     Harmonic,
-    /// One drift in all cells.
+    /// The same drift in all cells.
     Oriented {
         /// Direction of the drift, in joint space.
         direction: Direction,
-        /// Its strength, per cell.
+        /// Strength of the drift, per cell.
         epsilon: f64,
         /// Discretisation of slopes.
         difference: Difference,
     },
-    /// The drift of each zone within it, none elsewhere.
+    /// In each zone the drift of that zone, and no drift elsewhere.
     LocallyOriented {
-        /// For zones that have no direction of their own.
+        /// Direction of the drift in zones that have no direction of their own.
         direction: Option<Direction>,
         /// Discretisation of slopes.
         difference: Difference,
     },
-    /// Preferences: the drift climbs the harmonic field.
+    /// Preferences: the drift is along the slope of the harmonic field.
     Preference {
         /// Strength outside all zones.
         elsewhere: f64,
         /// Discretisation of slopes.
         difference: Difference,
     },
-    /// Altered preferences: the drift climbs the field itself.
+    /// Altered preferences: the drift is along the slope of the field itself.
     AlteredPreference {
         /// Strength outside all zones.
         elsewhere: f64,
@@ -46,20 +47,20 @@ pub enum EquationChoice {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum FieldChoice {
-    /// An equation that is relaxed.
+    /// The solution of an equation, computed by relaxation.
     Relaxed {
         /// The equation that is solved.
         equation: EquationChoice,
         /// The relaxation that solves it.
         relaxation: Relaxation,
-        /// Measure of a sweep's changes, which must fall below the tolerance. Only the relative measure notices small
-        /// values. With another one, the path may get stuck where values are small; relaxation then continues by the
-        /// relative measure.
+        /// Measure of a sweep's changes, which must fall below the tolerance. Only the relative measure notices changes
+        /// of small values. With another measure, the path may get stuck where values are small. Then relaxation
+        /// continues with the relative measure.
         #[serde(default, skip_serializing_if = "Measure::is_relative")]
         measure: Measure,
-        /// The field is relaxed until the measure falls below this.
+        /// Value below which the measure must fall. Then relaxation ends.
         tolerance: f64,
-        /// Largest number of sweeps of each stage.
+        /// Largest number of sweeps in each stage.
         max_sweeps: usize,
         /// The device that relaxes the field.
         #[serde(default, skip_serializing_if = "Device::is_cpu")]
@@ -68,16 +69,17 @@ pub enum FieldChoice {
         #[serde(default, skip_serializing_if = "Stencil::is_square")]
         stencil: Stencil,
     },
-    /// Attraction and repulsion.
+    /// Attraction by the goal and repulsion by obstacles.
     Khatib(Khatib),
 }
 
-/// Computes a field with the goals' cells as its goals and follows it from the start. Values are those of
-/// [`Levels::PROBABILITY`](crate::Levels::PROBABILITY), relaxed in relative precision, as far as doubles (on a GPU single precision) go.
+/// A planner that computes a field on the cells of a grid and follows it from the start to a goal. Levels are
+/// [`Levels::PROBABILITY`](crate::Levels::PROBABILITY), and small values have the same relative precision as large
+/// ones.
 ///
-/// A path is found only where the field leads to a goal. Where it does not (a local minimum, a difference of values that
-/// doubles cannot tell, a relaxation that diverged) the planner gives up and says where and why. Only
-/// [`Proposal::NoPath`](cplan_core::planner::Proposal::NoPath) says that the cells hold none.
+/// The field may not lead to a goal: there may be a local minimum, values may differ by less than the precision of
+/// doubles (on a GPU, of single precision), or relaxation may diverge. Then the planner gives up and says where and
+/// why. Only [`Proposal::NoPath`](cplan_core::planner::Proposal::NoPath) means that no path leads through free cells.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FieldPlanner {
@@ -88,18 +90,18 @@ pub struct FieldPlanner {
     /// Method for leaving local minima of attraction and repulsion. `None` to give up there.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub escape: Option<Escape>,
-    /// [`PathKind::Own`] is the curve along the gradient, or the force.
+    /// Kind of the path. [`PathKind::Own`] is the curve along the gradient or the force.
     pub path: PathKind,
 }
 
 impl EquationChoice {
-    /// Returns the equation on a grid. `O(cells)`.
+    /// Returns the equation on a grid. Takes `O(cells)`.
     ///
     /// # Errors
-    /// The reason, if a zone lacks a direction that the equation needs.
+    /// Returns the reason, in words, if a zone lacks a direction that the equation needs.
     pub fn on(self, space: &ZonedGrid, stencil: Stencil) -> Result<Equation, String> {
         let cells = 0..space.grid.blocked.len();
-        // A direction of joint space, in cells that count as square, or in lengths.
+        // Convert a direction of joint space to units of cells if cells count as square. Otherwise keep it.
         let step = if stencil.is_square() { space.grid.step() } else { [1.0; 2] };
         let in_cells = |direction: Direction| {
             let [a, b] = direction.components();

@@ -1,4 +1,4 @@
-//! The planner for any field of the family.
+//! The planner that follows any of the fields.
 
 use crate::field_choice::{FieldChoice, FieldPlanner};
 use crate::{
@@ -11,13 +11,13 @@ use cplan_core::planner::{Note, PathKind, Planner, Proposal, Query, Run, Size, T
 use cplan_core::space::{Configuration, Path};
 use cplan_harmonic::Place;
 
-/// Relative change in a sweep below which a field counts as finely relaxed. Directions of ascent are then final, except
-/// in cells where two are almost equal.
+/// Default tolerance of relaxation: relative change of values in a sweep. Directions of ascent are then final, except
+/// in cells where two directions are almost equal.
 pub const RELATIVE_TOLERANCE: f64 = 1e-6;
 
 /// The result of following a field.
 struct FollowResult {
-    /// The path, or the reason for its absence.
+    /// The path, or the reason, in words, why there is none.
     path: Result<Path, String>,
     trace: Trace,
     sweeps: usize,
@@ -29,7 +29,7 @@ impl Planner for FieldPlanner {
     type Space = ZonedGrid;
     type Map = ();
 
-    /// Builds nothing, because a field depends on the goals.
+    /// Builds nothing before the query, because a field depends on the goals.
     fn build(&self, _: &ZonedGrid) {}
 
     fn query(&self, space: &ZonedGrid, (): &(), query: &Query) -> Run {
@@ -45,7 +45,7 @@ impl Planner for FieldPlanner {
         let domain = Domain::of_grid(grid, &goals, self.limits, Levels::PROBABILITY);
         let reached = |&cell: &usize| domain.kinds()[cell] != Cell::Obstacle;
         let cells = domain.kinds().iter().filter(|&&kind| kind != Cell::Obstacle).count();
-        // The nearest cell of the start that is connected with a goal.
+        // Begin in the nearest cell of the start that is connected with a goal.
         let Some(start) = joined.start.cells.iter().copied().find(reached) else {
             return ended(Proposal::NoPath, cells);
         };
@@ -71,10 +71,11 @@ impl Planner for FieldPlanner {
     }
 }
 
-/// Returns the domain of a field for a query: the kind of each cell, with the levels of [`FieldPlanner`]. `O(cells)`.
+/// Returns the domain of a field for a query: the kind of each cell, with the levels of [`FieldPlanner`]. Takes
+/// `O(cells)`.
 ///
 /// # Errors
-/// The reason, if the start or a goal cannot be joined to the grid.
+/// Returns the reason, in words, if the start or a goal has no free cell near it.
 pub fn field_domain(grid: &Grid, query: &Query, limits: Limits) -> Result<Domain, String> {
     let goals = JoinedQuery::new(grid, query)?.sources();
     Ok(Domain::of_grid(grid, &goals, limits, Levels::PROBABILITY))
@@ -85,7 +86,7 @@ struct FieldQuery<'a> {
     space: &'a ZonedGrid,
     query: &'a Query,
     joined: &'a JoinedQuery,
-    /// The cell of the start, or the one that it is joined to.
+    /// Index of the start's cell, or of the free cell near the start to which it is joined.
     start: usize,
     kind: PathKind,
 }
@@ -116,7 +117,7 @@ impl FieldQuery<'_> {
         FollowResult { path, trace, sweeps: 0, note }
     }
 
-    /// Relaxes and climbs; the reason if there is no field.
+    /// Relaxes an equation and climbs the field. Returns the reason, in words, if there is no field.
     fn follow_relaxed(
         &self,
         domain: &Domain,
@@ -134,7 +135,7 @@ impl FieldQuery<'_> {
         let mut field = relax_on(on, domain, equation, relaxation, stopping).map_err(refused)?;
         let (mut path, mut note) = (climb(&field), None);
         if path.is_err() && field.converged() && !stopping.measure.is_relative() && on.is_cpu() {
-            // The measure ignores small values, such as those around a start far from the goal.
+            // The measure hardly notices small values, such as those around a start far from the goal.
             let first = field.sweeps();
             let finely = Stopping { measure: Measure::GreatestRelativeChange, below: RELATIVE_TOLERANCE, ..*stopping };
             field = relax_from(domain, equation, relaxation, &finely, field.values).map_err(refused)?;
@@ -142,20 +143,20 @@ impl FieldQuery<'_> {
         }
         let logarithm = |(value, kind): (&f64, &Cell)| match kind {
             Cell::Obstacle => f64::NEG_INFINITY,
-            // A value of a non-monotone equation may fall below the obstacles' zero.
+            // If the equation is not monotone, a value may fall below 0, the level of obstacles.
             _ => value.max(0.0).ln(),
         };
         let potential = field.values.iter().zip(domain.kinds()).map(logarithm).collect();
         let (sweeps, change) = (field.sweeps(), field.change());
         if !field.converged() {
-            // On a GPU what ends before the limit has come to the end of its precision.
+            // On a GPU, a stage that ends before the limit cannot improve in single precision.
             note = Some(match field.stages.iter().all(|stage| stage.sweeps < stopping.max_sweeps) {
                 true => Note::Floor { sweeps, change },
                 false => Note::Unconverged { sweeps, change },
             });
         }
         let path = match (path, note) {
-            // A path through it says nothing of the field that was asked for.
+            // A path through an unfinished field would not be a path of the requested field.
             (_, Some(Note::Unconverged { .. })) => Err(unfinished(domain, equation, sweeps)),
             (path, _) => path.map_err(|stuck| {
                 format!("{} at {}: {}", what(&stuck), shown(grid, stuck.cell), why(&stuck, domain, equation, on))
@@ -167,7 +168,7 @@ impl FieldQuery<'_> {
     }
 }
 
-/// Describes the failed attempt to leave a local minimum.
+/// Describes, as an addition to a message, that the attempt to leave a local minimum failed.
 fn stayed(escape: Option<Escape>) -> &'static str {
     match escape {
         None => "",
@@ -181,7 +182,7 @@ fn what(stuck: &DeadEnd) -> &'static str {
     if stuck.flat { "the field is flat" } else { "the field has a local maximum" }
 }
 
-/// Returns advice for an equation that is not monotone.
+/// Explains that an equation is not monotone, with a hint.
 fn not_monotone(equation: &Equation) -> String {
     match equation {
         Equation::AlteredPreference { .. } => "the equation is not monotone; take a smaller epsilon".into(),
@@ -189,7 +190,7 @@ fn not_monotone(equation: &Equation) -> String {
     }
 }
 
-/// Describes a relaxation that reached its limit, with advice.
+/// Describes a relaxation that reached its largest number of sweeps, with a hint.
 fn unfinished(domain: &Domain, equation: &Equation, sweeps: usize) -> String {
     let help = match equation.is_monotone_on(domain) {
         true => "allow more sweeps, a larger tolerance, or relax by sor".into(),

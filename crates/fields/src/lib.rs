@@ -1,13 +1,15 @@
-//! Potential fields on a grid, and the path down (or up) them.
+//! Potential fields on a grid, and the paths that descend or ascend them.
 //!
-//! - [`relax()`]: the family of field equations and relaxations as values that combine; [`trace()`]: how one converges, sweep by
-//!   sweep; [`relax_on`]: the same on a GPU; [`eliminated`]: the solution that it converges to; [`by_multigrid`]: the same
-//!   solution in a few steps.
-//! - [`Khatib`]: attraction and repulsion, with their local minima.
-//! - [`MovingField`]: a field among moving obstacles, which robots share, from frame to frame.
-//! - [`FieldPlanner`]: the planner that follows any of them.
+//! - [`relax()`] solves field equations by relaxation. Any [`Equation`] combines with any [`Relaxation`].
+//!   - [`relax_on`] does the same on a GPU.
+//!   - [`trace()`] measures convergence sweep by sweep.
+//!   - [`eliminated`] computes the solution by elimination, and [`by_multigrid`] in a few steps of multigrid.
+//! - [`Khatib`]: attraction and repulsion, which have local minima.
+//! - [`MovingField`]: a field among moving obstacles, which several robots share. It is updated at each moment.
+//! - [`FieldPlanner`]: the planner that follows any of these fields.
 //!
-//! The harmonic potential and the curve along a gradient are the crate [`cplan_harmonic`], the solver is [`cplan_multigrid`].
+//! The harmonic potential and the curve along a gradient are in the crate [`cplan_harmonic`], the solver of linear
+//! equations in [`cplan_multigrid`].
 
 mod field_choice;
 mod field_planner;

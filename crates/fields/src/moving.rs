@@ -1,4 +1,4 @@
-//! A field among obstacles that move, which robots share.
+//! A field among moving obstacles, which several robots share.
 
 use super::relax::{Memory, by_multigrid_in};
 use super::{
@@ -8,22 +8,23 @@ use super::{
 use cplan_harmonic::{LatticePoint, Place, Streamline, advance, direction, follow};
 use std::f64::consts::FRAC_1_SQRT_2;
 
-/// Cells are squares.
+/// Side lengths of cells, which are squares.
 const SQUARE_SIDES: [f64; 2] = [1.0; 2];
 
-/// A disc of cells: those whose centres are closer to its centre than its radius, in cells. It does not wrap around
-/// circles.
+/// A disc of cells: the cells whose centres are closer to the disc's centre than its radius. It does not extend across
+/// the seams of continuous joints.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Disc {
-    /// Centre, as (fractional) row and column. Integers are centres of cells.
+    /// Centre as row and column, which may be fractions. Whole numbers are the centres of cells.
     pub center: LatticePoint,
     /// Radius, in cells.
     pub radius: f64,
 }
 
 impl Disc {
-    /// Returns the disc that the centre of a disc of radius `own` must avoid in order not to touch this one. It is
-    /// grown by `own`, and by half a cell's diagonal, because a centre may be anywhere in a free cell.
+    /// Returns the disc that the centre of another disc, of radius `own`, must avoid so that the two do not touch. It
+    /// is this disc, grown by `own` and by half a cell's diagonal, because the other centre may be anywhere in a free
+    /// cell.
     #[must_use]
     pub fn grown_for(self, own: f64) -> Self {
         Self { radius: self.radius + own + FRAC_1_SQRT_2, ..self }
@@ -47,35 +48,37 @@ impl Disc {
 /// The obstacles, goals and robots at one moment.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Moment {
-    /// Obstacles that move: of several robots the others. They are as large as one says ([`Disc::grown_for`]).
+    /// Moving obstacles, such as other robots. They block the cells of these discs, which the caller must grow by the
+    /// size of the robot ([`Disc::grown_for`]).
     pub obstacles: Vec<Disc>,
-    /// Goal discs: their cells, except obstacles. A disc whose cells are all covered is not a goal at this moment.
+    /// Goal discs. Their cells are goals, except those that obstacles cover.
     pub goals: Vec<Disc>,
-    /// The robots that follow the field, each with a disc in which its own drift holds; of several the nearest robot's. With an
-    /// infinite radius and one robot the drift holds everywhere; without robots the field is harmonic.
+    /// The robots that follow the field, each with a disc and a drift. A cell has the drift of the nearest robot if it
+    /// lies in that robot's disc, and no drift otherwise. With one robot and an infinite radius, the drift holds
+    /// everywhere. Without robots, the field is harmonic.
     pub robots: Vec<Influence>,
 }
 
-/// Method for computing a field from that of the previous moment.
+/// Method for computing a field from the field of the previous moment.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Solver {
-    /// Sweep by sweep, as the literature does.
+    /// Relaxation, sweep by sweep, as in the literature.
     Relaxation(Relaxation),
     /// Multigrid, by [`by_multigrid`](super::by_multigrid).
     Multigrid,
 }
 
-/// A field among moving obstacles, computed at each moment from that of the previous one.
+/// A field among moving obstacles. The field of each moment is computed from the field of the moment before.
 ///
-/// It is the locally oriented field that robots share: `lap p + <b, grad p> = 0` with the drift `b = epsilon v` of the
-/// nearest robot within its disc, and 0 elsewhere. With one robot it is an oriented field, without robots a harmonic
-/// one (Faria 2006; Oliveira da Silva 2011, section 3.4). Obstacles have the value 1, goals 0. Robots that follow the
-/// field are not obstacles in it, because they could not leave their own cells.
+/// It is the locally oriented field that robots share: `lap p + <b, grad p> = 0`. The drift `b = epsilon v` of a cell
+/// is that of the nearest robot if the cell is in the robot's disc, and 0 otherwise. With one robot this is an oriented
+/// field, and without robots a harmonic one (Faria 2006; Oliveira da Silva 2011, section 3.4). Obstacles have the value
+/// 1, goals 0. Robots that follow the field are not obstacles in it, because they could not leave their own cells.
 ///
 /// A moment costs one pass over the cells around each disc, a few nanoseconds per cell for the weights, and the cost of
-/// its [`Solver`]. If the equation is monotone and the stopping rule strict, every free cell from which a goal is
-/// reachable leads to one. With a loose rule, such as the `1e-6` of the literature, values far from a change may be out
-/// of date.
+/// the [`Solver`]. If the equation is monotone and the stopping rule strict, the field leads from every free cell that
+/// is connected with a goal to a goal. With a loose rule, such as the `1e-6` of the literature, values far from a
+/// change may be out of date.
 ///
 /// ```
 /// use cplan_fields::*;
@@ -109,8 +112,8 @@ pub struct MovingField {
 }
 
 impl MovingField {
-    /// Creates a field on rows and columns of cells. `walls`, row by row, are permanent, and so is the boundary
-    /// condition. Before the first moment all values are those of goals, as in the literature.
+    /// Creates a field on rows and columns of cells. `walls` has one flag per cell, row by row, for permanent
+    /// obstacles. Before the first moment all cells have the value of goals, as in the literature.
     ///
     /// # Errors
     /// If there is not one flag per cell, or there are `2^32` cells or more.
@@ -130,12 +133,11 @@ impl MovingField {
         Ok(Self { walls, difference, values: domain.start(), domain, memory: Memory::default() })
     }
 
-    /// Computes the field of the next moment, by sweeps or steps until the sum of their squared changes is less than
-    /// `below`, or their number reaches `most`. [`Convergence`] has the number.
+    /// Computes the field of the next moment. Sweeps or steps of the solver end when the sum of squared changes is less
+    /// than `below`, or when their number is `most`. Their number is in the result.
     ///
-    /// # Errors
-    /// The errors of [`relax_from`] and [`by_multigrid`](super::by_multigrid), and NaN in the moment. The field is then
-    /// unchanged.
+    /// # Errors Same as [`relax_from`] and [`by_multigrid`](super::by_multigrid), and if the moment contains NaN. The
+    /// field is then unchanged.
     pub fn next(
         &mut self,
         moment: &Moment,
@@ -206,14 +208,14 @@ impl MovingField {
         direction(&self.guide(), SQUARE_SIDES, at)
     }
 
-    /// Returns the end of this many steps of [`STEP_LENGTH`](cplan_harmonic::STEP_LENGTH) from a point: see [`advance()`]. All lie in
-    /// free cells and goals.
+    /// Follows the field from a point for this many steps of length [`STEP_LENGTH`](cplan_harmonic::STEP_LENGTH), and
+    /// returns the last point; see [`advance()`]. All points lie in free cells and goals.
     #[must_use]
     pub fn advance(&self, from: LatticePoint, steps: usize) -> LatticePoint {
         advance(&self.guide(), SQUARE_SIDES, from, steps)
     }
 
-    /// Returns the curve to the goal in the field of the last moment: see [`follow()`].
+    /// Returns the curve from a point to a goal in the field of the last moment; see [`follow()`].
     ///
     /// # Errors
     /// [`DeadEnd`] if no goal is reachable, or the field has not converged.

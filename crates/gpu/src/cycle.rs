@@ -1,14 +1,14 @@
-//! Multigrid's cycles, as lists of dispatches.
+//! Cycles of multigrid, as lists of dispatches.
 
 use super::buffers::blocks;
 use super::levels::Level;
 use super::relax::turns;
 use super::{Edge, Gpu, GpuError, GridEquations};
 
-/// Sweeps before and after each correction.
+/// Number of sweeps before and after each correction.
 const SMOOTHING_SWEEPS: usize = 2;
 
-/// Sweeps on the coarsest grid, which has 8 x 8 cells at the most.
+/// Number of sweeps on the coarsest grid, which has at most 8 x 8 cells.
 const COARSEST_SWEEPS: usize = 32;
 
 /// Parameters of a level for the kernels, in the order of `Level` in `kernels/levels.wgsl`.
@@ -30,7 +30,7 @@ struct Stage {
     /// One bind group per turn.
     smooth: Vec<wgpu::BindGroup>,
     smooth_blocks: [u32; 2],
-    /// Down to the next level and up again, if there is one.
+    /// Transfers to the next coarser level and back. `None` for the coarsest level.
     next: Option<Next>,
 }
 
@@ -44,7 +44,7 @@ struct Next {
 /// All levels on the GPU, with their variables.
 pub(super) struct Cycle {
     stages: Vec<Stage>,
-    /// The finest level's correction, sought, and its right-hand side.
+    /// Correction on the finest level, which a cycle computes. The next field is its right-hand side.
     pub x: wgpu::Buffer,
     pub right: wgpu::Buffer,
 }

@@ -24,13 +24,13 @@ pub enum GpuError {
         /// Largest buffer of the adapter, in bytes.
         most: u64,
     },
-    /// Out of memory, or the device was lost, with the driver's message.
+    /// The GPU ran out of memory, or the device was lost. Contains the driver's message.
     #[error("the GPU failed: {0}\n  hint: fewer cells, or solve on the CPU")]
     Failed(String),
-    /// Values grew without bound, or are not numbers.
+    /// Values grew without bound, or became NaN.
     #[error("the relaxation diverged: after {sweeps} sweeps cell ({}, {}) has the value {value:e}", cell[0], cell[1])]
     Diverged {
-        /// Number of sweeps until it was noticed.
+        /// Number of sweeps after which this was noticed.
         sweeps: u32,
         /// The first cell with such a value, as row and column.
         cell: [usize; 2],
@@ -67,7 +67,7 @@ impl Gpu {
     pub fn open() -> Result<Self, GpuError> {
         let instance = wgpu::Instance::new(wgpu::InstanceDescriptor {
             backends: wgpu::Backends::VULKAN | wgpu::Backends::METAL | wgpu::Backends::DX12,
-            // Neither validation layers nor debuggers.
+            // Use neither validation layers nor debuggers.
             flags: wgpu::InstanceFlags::empty(),
             ..wgpu::InstanceDescriptor::new_without_display_handle()
         });

@@ -1,26 +1,28 @@
-//! The problem to solve.
+//! The problem to solve: a grid of cells with an equation at each.
 
 use super::GpuError;
 
 /// Boundary condition at the first and the last cell of an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Edge {
-    /// The cells of the other end.
+    /// The axis is a circle: beyond its end lie the cells of the other end.
     Circle,
-    /// `GridEquations::outside`.
+    /// Beyond the end lies a wall with the value `outside`.
     Wall,
-    /// The cell itself.
+    /// The end reflects: a cell at the end is its own neighbour.
     Mirror,
 }
 
 /// The equation at a cell. Neighbours are in the order previous row, next row, previous column, next column.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Stencil {
-    /// Their mean.
+    /// The value is the mean of the four neighbours.
     Mean,
-    /// A weighted mean with four weights per cell, which add up to 1. With negative weights the relaxation may diverge.
+    /// The value is a weighted mean of the neighbours. The four weights of each cell add up to 1. With negative
+    /// weights, relaxation may diverge.
     Weights(Vec<[f64; 4]>),
-    /// The mean plus, per cell, a fraction of `(|difference of rows| + |difference of columns|) / 2`.
+    /// The value is the mean of the neighbours plus a multiple of `(|difference of rows| + |difference of columns|) /
+    /// 2`. Each cell has its own factor.
     Altered(Vec<f64>),
 }
 
@@ -39,8 +41,9 @@ pub struct GridEquations {
 const MAX_CELLS: usize = 1 << 29;
 
 impl GridEquations {
-    /// Of `cells[0]` rows and `cells[1]` columns, row by row. `edges[0]` is beyond the first and the last row, `outside` the value
-    /// beyond walls; `values` are kept where `unknown` is false, and the start where it is true. `O(cells)`.
+    /// Creates a grid of `cells[0]` rows and `cells[1]` columns. `edges[0]` applies beyond the first and the last row.
+    /// `outside` is the value beyond walls. Lists have one entry per cell, row by row. Where `unknown` is false,
+    /// `values` are fixed; where it is true, they are the initial values. Takes `O(cells)`.
     ///
     /// # Errors
     /// [`GpuError::Refused`] if a list does not have one entry per cell, a number is not finite, or there are more than
@@ -74,7 +77,7 @@ impl GridEquations {
     /// Replaces the values, one per cell.
     ///
     /// # Errors
-    /// As [`GridEquations::new`].
+    /// Same as [`GridEquations::new`].
     pub fn from(self, values: Vec<f64>) -> Result<Self, GpuError> {
         Self::new(self.cells, self.edges, self.outside, values, self.unknown, self.stencil)
     }

@@ -14,7 +14,7 @@ impl Half {
         Self { rows, columns, half: columns.div_ceil(2) }
     }
 
-    /// Returns the number of places of both colours. With an odd number of columns some hold no cell.
+    /// Returns the number of places of both colours. If the number of columns is odd, some places have no cell.
     pub fn places(self) -> usize {
         2 * self.rows * self.half
     }
@@ -67,7 +67,8 @@ mod tests {
 
     #[test]
     fn a_colour_has_its_cells_in_the_order_of_their_rows() {
-        // The formulas of the source: place j of row i is column 2 j + (i mod 2) of one colour, 2 j + 1 - (i mod 2) of the other.
+        // The formulas of the source: place j of row i is column 2 j + (i mod 2) of one colour, 2 j + 1 - (i mod 2) of
+        // the other.
         let half = Half::new([3, 6]);
         for i in 0..3 {
             for j in 0..3 {

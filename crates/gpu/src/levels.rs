@@ -25,7 +25,8 @@ pub(super) struct Level {
 const OPPOSITE_SIDE: [usize; 4] = [1, 0, 3, 2];
 
 impl Level {
-    /// The finest: the problem's weights, `1 - weight` for sides at which the cell meets itself.
+    /// Returns the finest level, with the problem's weights. If a cell is its own neighbour on a side, the weight of
+    /// that side is subtracted from the cell's diagonal coefficient.
     pub fn finest(problem: &GridEquations, weights: impl Fn(usize) -> [f64; 4]) -> Self {
         let count = problem.values.len();
         let mut level =
@@ -67,8 +68,8 @@ impl Level {
     }
 
     /// Returns the level of blocks of 2 x 2 cells. Its couplings are the flows through common sides, with diffusion
-    /// divided by [`DIFFUSION_REDUCTION`]. Drift that exceeds diffusion is taken upwind, so that coefficients keep their signs on
-    /// every level. `O(cells)`.
+    /// divided by [`DIFFUSION_REDUCTION`]. Drift that exceeds diffusion is taken upwind, so that coefficients keep
+    /// their signs on every level. `O(cells)`.
     fn coarser(&self) -> Self {
         let cells = self.cells.map(|n| n.div_ceil(2));
         let count = cells[0] * cells[1];

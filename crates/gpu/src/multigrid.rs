@@ -1,4 +1,4 @@
-//! Multigrid: cycles on the GPU, residuals in double precision on the CPU.
+//! Solves linear problems by multigrid, with cycles on the GPU, and residuals in double precision on the CPU.
 
 use super::buffers::watched;
 use super::cycle::Cycle;
@@ -31,14 +31,15 @@ pub struct Solution {
     /// Largest residual: the greatest difference between a value and the one that its neighbours imply, as a fraction
     /// of the greatest value.
     pub residual: f64,
-    /// True if the requested residual was reached. Otherwise further cycles did not help, or the limit was reached.
+    /// True if the requested residual was reached. If false, further cycles did not help, or their largest number was
+    /// reached.
     pub converged: bool,
 }
 
 /// Number of cycles between residuals in double precision.
 const CYCLES_PER_ROUND: u32 = 2;
 
-/// A round that leaves more than this fraction of the residual counts as no progress.
+/// Largest fraction of the residual that a round with progress leaves.
 const MAX_RESIDUAL_RATIO: f64 = 0.5;
 
 /// Number of consecutive rounds without progress after which the solver stops.
@@ -52,10 +53,10 @@ impl Gpu {
     /// The residual bounds the error: for Laplace's equation in a corridor of `n` cells, by a factor of at most `n^2 /
     /// 2`.
     ///
-    /// # Errors
-    /// [`GpuError::Refused`] for [`Stencil::Altered`], which is not linear; [`GpuError::TooLarge`], [`GpuError::Failed`]. That it does
-    /// not converge (drifts by central differences of 2 and more a cell, unknowns that no given value reaches) is no error:
-    /// [`Solution::converged`] says so.
+    /// # Errors [`GpuError::Refused`] for [`Stencil::Altered`], which is not linear. [`GpuError::TooLarge`] and
+    /// [`GpuError::Failed`] if the GPU cannot solve the problem. A lack of convergence is not an error;
+    /// [`Solution::converged`] reports it. It occurs with drifts of 2 or more per cell by central differences, and if
+    /// no given value reaches some unknowns.
     pub fn solve(&self, problem: &GridEquations, settings: &Multigrid) -> Result<Solution, GpuError> {
         let weights = |cell: usize| match &problem.stencil {
             Stencil::Weights(weights) => weights[cell],
@@ -102,7 +103,7 @@ impl Gpu {
 
     /// Returns the values after this many cycles for the residual `left`.
     fn corrected(&self, cycle: &Cycle, cycles: u32, values: &[f64], left: &[f64]) -> Result<Vec<f64>, GpuError> {
-        // Scaled, so that corrections stay above the least number of single precision.
+        // Scale the residual, so that corrections stay above the least number of single precision.
         let scale = left.iter().fold(0.0, |greatest: f64, value| greatest.max(value.abs()));
         let right: Vec<f32> = left.iter().map(|value| (value / scale) as f32).collect();
         self.queue.write_buffer(&cycle.right, 0, bytemuck::cast_slice(&right));

@@ -1,4 +1,4 @@
-//! Relaxing, sweep by sweep.
+//! Relaxation on the GPU, sweep by sweep.
 
 use super::buffers::{blocks, watched};
 use super::half::Half;
@@ -13,23 +13,24 @@ pub struct RelaxedField {
     pub values: Vec<f64>,
     /// Number of sweeps.
     pub sweeps: u32,
-    /// The measure in the last sweep; infinite before the first.
+    /// The measure in the last sweep; infinite if there was none.
     pub change: f64,
     /// Reason why the relaxation ended.
     pub ending: Ending,
 }
 
-/// Largest number of sweeps submitted at once. Even, so that Jacobi's two buffers return to their places.
+/// Largest number of sweeps that are submitted at once. It is even, so that Jacobi's two buffers have their original
+/// roles afterwards.
 const MAX_SWEEPS_PER_SUBMISSION: usize = 64;
 
 /// Largest number of cell updates submitted at once. They take a fraction of a second on any GPU, so that no driver
 /// assumes a hang.
 const MAX_UPDATES_PER_SUBMISSION: usize = 1 << 28;
 
-/// Factor by which a value may exceed the initial ones. Larger values will not recover.
+/// Ratio of a value to the greatest initial value above which a relaxation counts as diverged.
 const DIVERGENCE_FACTOR: f32 = 1e30;
 
-/// Least number of sweeps without progress that counts as a floor.
+/// Least number of sweeps without progress after which a relaxation ends with [`Ending::Floor`].
 const MIN_IDLE_SWEEPS: usize = 64;
 
 /// The cells that a dispatch updates, in the order of `Turn` in `kernels/sweep.wgsl`.
@@ -37,9 +38,10 @@ const MIN_IDLE_SWEEPS: usize = 64;
 #[derive(Debug, Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
 pub(super) struct Turn {
     pub colour: u32,
-    /// 0 for most cells; on circles of odd length 1 for the last row, 2 for the last column, 3 for the cell that is in both.
+    /// Region of the cells: 0 for most cells. On circles of odd length, 1 is the last row, 2 the last column, and 3 the
+    /// cell that is in both.
     pub region: u32,
-    /// Index of its first partial sum.
+    /// Index of the first partial sum of this turn.
     pub slot: u32,
     pub unused: u32,
 }
@@ -52,11 +54,12 @@ pub(super) fn turns(odd: u32, blocks: u32) -> Vec<Turn> {
 }
 
 impl Gpu {
-    /// Relaxes from the problem's values until the rule is met. `O(cells)` a sweep, 12 to 28 bytes a cell on the GPU.
+    /// Relaxes the problem from its initial values until the stopping rule is satisfied. Takes `O(cells)` per sweep,
+    /// and 12 to 28 bytes per cell on the GPU.
     ///
-    /// # Errors
-    /// [`GpuError::Refused`] for settings that make no sense, [`GpuError::Diverged`], [`GpuError::TooLarge`], [`GpuError::Failed`].
-    /// A relaxation that does not converge is no error: its [`Ending`] says so.
+    /// # Errors [`GpuError::Refused`] if settings are invalid. [`GpuError::Diverged`] if values grow without bound.
+    /// [`GpuError::TooLarge`] and [`GpuError::Failed`] if the GPU cannot solve the problem. A lack of convergence is
+    /// not an error; the [`Ending`] reports it.
     pub fn relax(&self, problem: &GridEquations, settings: &Settings) -> Result<RelaxedField, GpuError> {
         if let Some(refusal) = settings.refusal() {
             return Err(refusal);
@@ -156,7 +159,7 @@ fn greatest(values: &[f64]) -> f32 {
     values.iter().fold(0.0, |greatest: f64, value| greatest.max(value.abs())) as f32
 }
 
-/// Above this, values are lost.
+/// Returns the absolute value above which a relaxation counts as diverged.
 fn beyond(problem: &GridEquations) -> f32 {
     let greatest = greatest(&problem.values).max(problem.outside.abs() as f32);
     if greatest > 0.0 { (DIVERGENCE_FACTOR * greatest).min(f32::MAX / 2.0) } else { DIVERGENCE_FACTOR }
@@ -200,7 +203,7 @@ fn rule(problem: &GridEquations, settings: &Settings, half: Half, odd: u32, bloc
     }
 }
 
-/// Returns one number per place, or four, place by place.
+/// Returns the coefficients of a stencil in the order of places: none, one or four per place.
 fn coefficients(stencil: &Stencil, half: Half) -> Vec<f32> {
     match stencil {
         Stencil::Mean => Vec::new(),

@@ -14,7 +14,7 @@ pub enum Sweep {
     RedBlack,
 }
 
-/// The quantity measured in a sweep. `change` is the difference of a value before and after it.
+/// The quantity that is measured in a sweep. `change` is the difference of a cell's value before and after the sweep.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Measure {
     /// Sum of `|change|`.
@@ -35,20 +35,22 @@ pub enum Measure {
 pub struct Settings {
     /// The order of updates.
     pub sweep: Sweep,
-    /// Relaxation factor: the multiple of the update that a cell makes.
+    /// Relaxation factor: a cell's value changes by this multiple of its difference from the implied value.
     pub factor: f64,
-    /// Range to which new values are clamped, if any.
+    /// Range to which new values are clamped; `None` for no limits.
     pub clamp: Option<[f64; 2]>,
     /// The measured quantity.
     pub measure: Measure,
-    /// The relaxation has converged when the measure falls below this, or a sweep changes nothing.
+    /// Bound on the measure. The relaxation has converged when the measure falls below it, or when a sweep changes
+    /// nothing.
     pub below: f64,
     /// Largest number of sweeps.
     pub max_sweeps: u32,
 }
 
 impl Default for Settings {
-    /// Gauss-Seidel relaxation until the squared changes of a sweep add up to less than 10^-6, as in Silva 2011.
+    /// Returns the settings of Silva 2011: Gauss-Seidel relaxation until the squared changes of a sweep add up to less
+    /// than 10^-6.
     fn default() -> Self {
         Self {
             sweep: Sweep::RedBlack,
@@ -61,14 +63,14 @@ impl Default for Settings {
     }
 }
 
-/// Reasons why a relaxation ends.
+/// Reason why a relaxation ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Ending {
     /// The measure fell below its bound, or nothing changed.
     Converged,
-    /// Single precision allows no further progress. In 64 sweeps, or as many as the grid has rows or columns if these
-    /// are more, the measure did not decrease and changes were within rounding: eight units in the last place, or more
-    /// with over-relaxation.
+    /// Single precision allows no further progress: the measure did not decrease, and changes were within rounding, for
+    /// 64 sweeps, or for as many as there are rows or columns if these are more. Rounding is eight units in the last
+    /// place, or more with over-relaxation.
     Floor,
     /// The limit on the number of sweeps was reached.
     Unconverged,
@@ -95,9 +97,9 @@ pub(super) struct Rule {
     pub high: f32,
     pub below: f32,
     pub beyond: f32,
-    /// Relative changes up to this may be pure rounding.
+    /// Greatest relative change that may be only rounding.
     pub rounding: f32,
-    /// Number of sweeps with pure rounding that makes a floor.
+    /// Number of sweeps with only rounding after which the relaxation ends with [`Ending::Floor`].
     pub patience: u32,
     pub unused: [u32; 2],
 }
@@ -106,7 +108,7 @@ pub(super) struct Rule {
 #[repr(C)]
 #[derive(Debug, Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
 pub(super) struct State {
-    /// 0 while running, then the code of the ending.
+    /// 0 while the relaxation runs, then the code of the ending.
     pub done: u32,
     pub sweeps: u32,
     pub lost: u32,
@@ -124,7 +126,7 @@ impl Settings {
             _ if !(self.factor.is_finite() && self.factor > 0.0) => {
                 format!("a relaxation factor must be positive, this one is {}", self.factor)
             }
-            // Written so that NaN is refused, too.
+            // This comparison also refuses NaN.
             Self { clamp: Some([low, high]), .. } if !matches!(low.partial_cmp(high), Some(o) if o.is_le()) => {
                 format!("values cannot be brought into the empty range {low}..{high}")
             }

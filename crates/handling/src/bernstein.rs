@@ -5,12 +5,12 @@ use std::ops::{Add, Mul, Sub};
 /// Number of halvings after which a zero is as precise as doubles allow.
 const MAX_HALVINGS: usize = 60;
 
-/// A polynomial of degree 5 at most. With `u` from 0 to 1 and `n` its degree, it is
-/// `sum binomial(n, i) u^i (1 - u)^(n - i) c_i`. The terms are weighted by shares, so nothing cancels, and the
-/// polynomial lies between its least and its greatest coefficient.
+/// A polynomial of degree `n`, at most 5. Its value at `u`, from 0 to 1, is
+/// `sum binomial(n, i) u^i (1 - u)^(n - i) c_i`. The weights of the coefficients `c_i` are positive and add up to 1. So
+/// nothing cancels, and all values lie between the least and the greatest coefficient.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Polynomial<T> {
-    /// The first `count` entries are the coefficients.
+    /// Coefficients in the first `count` entries; the others are not used.
     coefficients: [T; 6],
     count: usize,
 }
@@ -34,12 +34,12 @@ where
         self.count - 1
     }
 
-    /// Evaluates it at `u` by repeated interpolation (de Casteljau); exact at both ends.
+    /// Returns the value at `u`, by repeated interpolation (de Casteljau). It is exact at both ends.
     pub fn at(&self, u: f64) -> T {
         self.polar(|_| u)
     }
 
-    /// Evaluates the polar form: like [`Polynomial::at`], with a separate share for each step.
+    /// Evaluates the polar form: the computation of [`Polynomial::at`], with a separate value of `u` for each step.
     fn polar(&self, share: impl Fn(usize) -> f64) -> T {
         let mut rest = self.coefficients;
         for step in 0..self.degree() {
@@ -52,7 +52,7 @@ where
         rest[0]
     }
 
-    /// Returns the derivative of this order by `u`, without the factor `n (n - 1) ...`; `None` beyond the degree.
+    /// Returns the derivative of this order by `u`, divided by `n (n - 1) ...`. `None` if the order exceeds the degree.
     pub fn differences(&self, order: usize) -> Option<Self> {
         let mut next = *self;
         for _ in 0..order {
@@ -71,7 +71,7 @@ where
 }
 
 impl Polynomial<f64> {
-    /// Returns the same polynomial over the shares from `from` to `to`.
+    /// Returns the part of the polynomial from `u = from` to `u = to`, as a polynomial over 0 to 1.
     pub fn restricted(&self, from: f64, to: f64) -> Self {
         let mut part = *self;
         for ends in 0..self.count {
@@ -114,7 +114,8 @@ impl Polynomial<f64> {
     }
 }
 
-/// Returns the real roots of `a u^2 + b u + c` without cancellation, ascending; NaN or infinite for missing ones.
+/// Returns the real roots of `a u^2 + b u + c`, ascending, computed without cancellation. Missing roots are NaN or
+/// infinite.
 fn roots(a: f64, b: f64, c: f64) -> [f64; 2] {
     let discriminant = b * b - 4.0 * a * c;
     if discriminant < 0.0 {

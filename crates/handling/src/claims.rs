@@ -1,9 +1,9 @@
-//! Claims of a record about a motion or a task, beyond its samples.
+//! Claims: statements of a file about its motion or task, in addition to the samples.
 
 use cplan_core::space::{Configuration, Metric};
 use std::ops::RangeInclusive;
 
-/// A turn of the wrist while the arm is at rest, as recorded.
+/// A recorded turn of the wrist while the arm is at rest.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RecordedTurn {
     /// The object's orientation at the beginning, radians.
@@ -14,12 +14,12 @@ pub struct RecordedTurn {
     pub seconds: f64,
 }
 
-/// A step of a task, as recorded. Its action is found in the task.
+/// A recorded step of a task. The task has its action.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RecordedStep {
-    /// Its number in the world file, from 1.
+    /// Number of the step in the world file, from 1.
     pub number: usize,
-    /// Number of its repetition, from 1.
+    /// Number of the step's repetition, from 1.
     pub cycle: usize,
     /// Range of the motion's samples within the whole recording.
     pub samples: RangeInclusive<usize>,
@@ -27,10 +27,10 @@ pub struct RecordedStep {
     pub turn: Option<RecordedTurn>,
 }
 
-/// Claims of a result about its motion, beyond the samples. A missing claim is `None`.
+/// Claims of a result about its motion, in addition to the samples. A claim that the file does not make is `None`.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Claims {
-    /// `found`, if there is a motion.
+    /// Outcome in one word: `found` if there is a motion.
     pub status: Option<String>,
     /// True if the motion was certified to be free.
     pub certified: Option<bool>,
@@ -40,7 +40,7 @@ pub struct Claims {
     pub path: Option<Vec<Configuration>>,
     /// Length of the path in joint space.
     pub length: Option<f64>,
-    /// Distance kept from obstacles, metres; the inner `None` if no obstacle is within reach.
+    /// Distance kept from obstacles, metres. The inner value is `None` if no obstacle is within reach.
     pub clearance: Option<Option<f64>>,
     /// The corners that the motion rounds off.
     pub blends: Option<BlendsClaim>,
@@ -59,22 +59,22 @@ pub struct Claims {
 pub struct BlendsClaim {
     /// Number of rounded corners.
     pub count: usize,
-    /// Greatest distance of a blend's ends from its corner.
+    /// Greatest distance of the ends of a rounded piece from its corner, in joint space.
     pub largest_radius: f64,
 }
 
 /// Claims about the optimality of a path.
 #[derive(Debug, Clone, PartialEq)]
 pub struct OptimumClaim {
-    /// `euclidean`, `weighted` or `time`.
+    /// Name of the metric: `euclidean`, `weighted` or `time`.
     pub metric: String,
-    /// Weights of the joints.
+    /// Weights of the joints, for the metric `weighted`.
     pub weights: Option<[f64; 2]>,
     /// Length of the path in the metric.
     pub length: f64,
     /// Lower bound on the length of all motions.
     pub lower_bound: f64,
-    /// `length / lower_bound - 1`; `None` if the bound is 0.
+    /// Gap: `length / lower_bound - 1`; `None` if the bound is 0.
     pub gap: Option<f64>,
 }
 
@@ -96,7 +96,7 @@ impl OptimumClaim {
 pub struct TaskClaims {
     /// Lower bound on the duration of the task, seconds.
     pub lower_bound: Option<f64>,
-    /// `duration / lower_bound - 1`.
+    /// Gap: `duration / lower_bound - 1`.
     pub gap: Option<f64>,
     /// For each sample, the number of the step (from 0) that contains the interval beginning there.
     pub step_of_sample: Option<Vec<usize>>,
@@ -109,11 +109,11 @@ pub struct TaskClaims {
 /// Claims about a step.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct StepClaims {
-    /// `pick`, `place` or `move`.
+    /// Kind of action: `pick`, `place` or `move`.
     pub action: Option<String>,
-    /// The object that is picked or placed; the inner `None` if the step has no object.
+    /// Name of the object that is picked or placed. The inner value is `None` if the step has no object.
     pub object: Option<Option<String>>,
-    /// The object that is carried during the motion; the inner `None` if the gripper is empty.
+    /// Name of the object that is carried during the motion. The inner value is `None` if the gripper is empty.
     pub carried: Option<Option<String>>,
     /// Seconds from the beginning of the task to the beginning of the motion.
     pub begin: Option<f64>,
@@ -148,6 +148,6 @@ pub struct EventClaim {
     pub cycle: usize,
     /// Position of the tip, metres.
     pub tip: [f64; 2],
-    /// Pose of the object from then on: its origin, metres, and its orientation, radians.
+    /// Pose of the object from this event on: its origin, metres, and its orientation, radians.
     pub pose: Option<([f64; 2], f64)>,
 }

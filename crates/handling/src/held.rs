@@ -1,24 +1,24 @@
-//! Joints other than the two planned ones, and recorded motions of them.
+//! Joints that the planner holds still, and recorded motions of such joints.
 
 use super::Recording;
 use cplan_geometry::Point;
 use serde::{Deserialize, Serialize};
 
-/// The effect that a motion of a held joint would have on the arm.
+/// The effect on the arm if a held joint moved.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum HeldEffect {
-    /// Lifts everything it carries along the plane's normal.
+    /// The joint lifts everything that it carries along the plane's normal.
     Lifts {
-        /// 1 if greater values are along the normal, else -1.
+        /// 1 if greater values of the joint lift along the normal, and -1 if against it.
         sign: f64,
     },
-    /// Turns everything it carries, which is all of link 2, about an axis along the plane's normal.
+    /// The joint turns everything that it carries, which is all of link 2, about an axis along the plane's normal.
     Turns {
         /// Position of the axis, in the frame of link 2.
         axis: Point,
     },
-    /// Something that is not judged.
+    /// Another effect, which cplan cannot judge.
     Unjudged {
         /// The reason: a clause whose subject is the joint.
         why: String,
@@ -35,15 +35,15 @@ pub struct HeldJoint {
     pub value: f64,
     /// Effect of its motion.
     pub effect: HeldEffect,
-    /// The URDF links that it moves.
+    /// Names of the URDF links that the joint moves.
     pub bodies: Vec<String>,
 }
 
 /// A motion of a joint that the planner holds still.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HeldMotion {
-    /// The joint.
+    /// The joint that moves.
     pub joint: HeldJoint,
-    /// Its values as the first coordinate, at the samples of the arm's motion.
+    /// Values of the joint at the samples of the arm's motion, as the first coordinate of each sample.
     pub values: Recording,
 }

@@ -1,6 +1,6 @@
 //! Interpolation of a motion between its samples.
 
-/// Interpolation between samples, as the consumer of a format applies it.
+/// Interpolation that the consumer of a file applies between samples.
 ///
 /// | format | consumer | between samples |
 /// |---|---|---|
@@ -10,7 +10,8 @@
 /// | CSV | no convention; the usual one for positions with velocities | with velocities cubic, else linear |
 /// | a path without times | straight segments between waypoints | linear |
 ///
-/// Other stated values (such as accelerations in a CSV) do not change the motion, but must also keep the limits.
+/// Values that the consumer does not use (such as accelerations in a CSV) do not change the motion. They must still be
+/// within the limits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Interpolation {
     /// Straight lines in joint space, at constant velocity.
@@ -18,13 +19,14 @@ pub enum Interpolation {
     /// Cubic polynomials with the positions and velocities of both ends (Hermite).
     Cubic,
     /// Polynomials of degree 4 with position, velocity and acceleration at the beginning, and position and velocity at
-    /// the end. The given acceleration belongs to the interval that begins there, and may jump.
+    /// the end. The acceleration at a sample is that of the interval that begins there. It may jump from one interval
+    /// to the next.
     Quartic,
     /// Polynomials of degree 5 with the positions, velocities and accelerations of both ends.
     Quintic,
 }
 
-/// Builds the description. Its argument describes straight pieces.
+/// Makes the description of an interpolation. The argument describes its straight pieces.
 macro_rules! interpolation {
     ($straight:literal) => {
         concat!(
@@ -41,5 +43,6 @@ macro_rules! interpolation {
 pub const INTERPOLATION: &str =
     interpolation!("c = d = 0 on straight pieces of the path, where the acceleration is constant");
 
-/// Description for limited jerk: [`Interpolation::Cubic`], with the given accelerations.
+/// Description of the interpolation of cplan's JSON with limited jerk: [`Interpolation::Cubic`]. The file also states
+/// accelerations.
 pub const SMOOTH_INTERPOLATION: &str = interpolation!("d = 0, because the jerk is constant");

@@ -1,4 +1,4 @@
-//! Obstacles that move while the arm does.
+//! Moving obstacles, and their trajectories.
 
 use cplan_core::check::Drift;
 use cplan_core::model::{LooseObstacle, Obstacle, are_small};
@@ -6,35 +6,36 @@ use cplan_geometry::{Interval, Point, Pose, Vector, merge_in_place};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-/// Greatest time in a course, seconds: as long as the longest motion that is timed. A larger time is a mistake.
+/// Greatest time of a stop, seconds, equal to the duration of the longest motion that cplan times. A larger time must
+/// be a mistake.
 pub const MAX_STOP_TIME: f64 = 1e6;
 
-/// The pose of a mover's frame at a time.
+/// The pose of a moving obstacle's frame at a time.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Stop {
-    /// Seconds since the arm's motion begins.
+    /// Time, seconds after the arm's motion begins.
     pub time: f64,
-    /// The origin of its own frame, plane coordinates.
+    /// Origin of the obstacle's own frame, in plane coordinates, metres.
     pub at: Point,
-    /// Angle of the frame in the plane, radians. From one stop to the next it turns by their difference, whole turns
-    /// included.
+    /// Angle of the frame in the plane, radians. From one stop to the next, the frame turns by the difference of their
+    /// angles, which may be more than a whole turn.
     pub angle: f64,
 }
 
-/// The motion of an obstacle: straight and uniform from stop to stop. It waits at the first stop until its time. It
-/// stays at the last stop, or leaves it at a constant velocity for ever, like an object on a conveyor.
+/// The motion of an obstacle: straight and uniform from stop to stop. The obstacle waits at the first stop until that
+/// stop's time. It stays at the last stop, or leaves it for ever at a constant velocity, like an object on a conveyor.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "ObstacleTrajectoryRecord", into = "ObstacleTrajectoryRecord")]
 pub struct ObstacleTrajectory {
     stops: Vec<Stop>,
-    /// Velocity from the last stop on, metres a second.
+    /// Velocity from the last stop on, metres per second.
     velocity: Vector,
-    /// The legs that follow from both.
+    /// Legs that follow from the stops and the velocity.
     legs: Vec<Leg>,
 }
 
-/// The data of a [`ObstacleTrajectory`].
+/// Serialized form of an [`ObstacleTrajectory`].
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct ObstacleTrajectoryRecord {
@@ -58,13 +59,13 @@ impl TryFrom<ObstacleTrajectoryRecord> for ObstacleTrajectory {
     }
 }
 
-/// A defect of a course's stops.
+/// A defect in the stops of a trajectory.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum ObstacleTrajectoryError {
     /// There are no stops.
     #[error("a moving obstacle needs at least one stop")]
     Empty,
-    /// A time that is not later than the previous one, or negative, or beyond [`MAX_STOP_TIME`].
+    /// A time is not later than the previous one, or is negative, or exceeds [`MAX_STOP_TIME`].
     #[error("stop {} is at {time} s; times begin at 0 or later, increase, and end before {MAX_STOP_TIME:e}", stop + 1)]
     Time {
         /// Number of the stop, from 0.
@@ -72,7 +73,7 @@ pub enum ObstacleTrajectoryError {
         /// The stop's time.
         time: f64,
     },
-    /// A place, angle or velocity that is not finite, or too large.
+    /// A place, angle or velocity is not finite, or is too large.
     #[error("stop {} has a position or a velocity that is not finite or too large", stop + 1)]
     Place {
         /// Number of the stop, from 0.
@@ -80,18 +81,18 @@ pub enum ObstacleTrajectoryError {
     },
 }
 
-/// A stretch of a course in which neither velocity changes.
+/// A stretch of a trajectory with constant velocity and angular velocity.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Leg {
-    /// Time of the beginning, seconds.
+    /// Time at which the leg begins, seconds.
     pub from: f64,
-    /// Time of the end; infinite for the last leg.
+    /// Time at which the leg ends, seconds; infinite for the last leg.
     pub to: f64,
-    /// Pose at its beginning.
+    /// Pose at the beginning of the leg.
     pub start: Stop,
-    /// Velocity of the frame's origin, metres a second.
+    /// Velocity of the frame's origin, metres per second.
     pub velocity: Vector,
-    /// Angular velocity, radians a second.
+    /// Angular velocity of the frame, radians per second.
     pub turn: f64,
 }
 
@@ -103,13 +104,13 @@ impl Leg {
         Pose::new(self.start.at + self.velocity * since, self.start.angle + self.turn * since)
     }
 
-    /// Returns true if nothing moves in it.
+    /// Returns true if the obstacle is at rest during the leg.
     #[must_use]
     pub fn is_still(&self) -> bool {
         self.turn == 0.0 && self.velocity == Vector::zeros()
     }
 
-    /// Returns the farthest that a point within `reach` of the frame's origin moves in a second, metres.
+    /// Returns an upper bound on the speed of points within `reach`, metres, of the frame's origin, metres per second.
     #[must_use]
     pub fn speed(&self, reach: f64) -> f64 {
         self.velocity.norm() + self.turn.abs() * reach
@@ -117,7 +118,7 @@ impl Leg {
 }
 
 impl ObstacleTrajectory {
-    /// Creates a course from stop to stop, which continues after the last one at `velocity`.
+    /// Creates a trajectory from stop to stop, which continues after the last one at `velocity`, metres per second.
     ///
     /// # Errors
     /// [`ObstacleTrajectoryError`]: the first one found.
@@ -141,7 +142,7 @@ impl ObstacleTrajectory {
         Ok(Self { stops, velocity, legs })
     }
 
-    /// Creates a course at a constant velocity from the beginning, metres a second, without a turn.
+    /// Creates a trajectory that begins at `at` with a constant velocity, metres per second, and never turns.
     ///
     /// # Errors
     /// If numbers are not finite.
@@ -155,25 +156,25 @@ impl ObstacleTrajectory {
         &self.stops
     }
 
-    /// Returns the velocity after the last stop, metres a second.
+    /// Returns the velocity after the last stop, metres per second.
     #[must_use]
     pub fn velocity(&self) -> Vector {
         self.velocity
     }
 
-    /// Returns the legs from time 0 on, in order; the last never ends.
+    /// Returns the legs from time 0 on, in order. The last leg never ends.
     #[must_use]
     pub fn legs(&self) -> &[Leg] {
         &self.legs
     }
 
-    /// Returns the frame's pose at a time from 0 on.
+    /// Returns the frame's pose at a time, which must not be negative.
     #[must_use]
     pub fn pose(&self, time: f64) -> Pose {
         self.leg(time).pose(time)
     }
 
-    /// Returns the motion from one time to another.
+    /// Returns a bound on the motion from one time to another.
     #[must_use]
     pub fn drift(&self, from: f64, to: f64) -> Drift {
         let (middle, half) = (f64::midpoint(from, to), (to - from) / 2.0);
@@ -187,20 +188,20 @@ impl ObstacleTrajectory {
         Drift { middle, velocity: Vector::zeros(), turn: 0.0, half, any }
     }
 
-    /// Returns true if it ever turns.
+    /// Returns true if the frame ever turns.
     #[must_use]
     pub fn turns(&self) -> bool {
         self.legs.iter().any(|leg| leg.turn != 0.0)
     }
 
-    /// Returns the same course on a clock that begins at a time from 0 on.
+    /// Returns the same trajectory on a clock that begins at `time`, which must not be negative.
     #[must_use]
     pub fn since(&self, time: f64) -> Self {
         let here = self.pose(time);
         let later = self.stops.iter().filter(|stop| stop.time > time);
         let mut stops: Vec<Stop> = later.map(|stop| Stop { time: stop.time - time, ..*stop }).collect();
         if time >= self.stops[0].time {
-            // Whole turns count, which a pose does not contain.
+            // Compute the angle from the leg: a pose does not contain whole turns.
             let leg = self.leg(time);
             let angle = leg.start.angle + leg.turn * (time - leg.from);
             stops.insert(0, Stop { time: 0.0, at: here.translation, angle });
@@ -209,8 +210,8 @@ impl ObstacleTrajectory {
         Self { stops, velocity: self.velocity, legs }
     }
 
-    /// Returns the times at which the frame's origin is at a point, or nearest to it within this distance, metres; in
-    /// order.
+    /// Returns the times at which the frame's origin passes a point, in order: times at which it is at the point, or
+    /// nearest to it and within the distance `within`, metres.
     #[must_use]
     pub fn passes(&self, at: Point, within: f64) -> Vec<Interval> {
         let of = |leg: &Leg| {
@@ -235,7 +236,7 @@ impl ObstacleTrajectory {
     }
 }
 
-/// Returns the legs of a course from time 0 on.
+/// Computes the legs of a trajectory from time 0 on.
 fn legs(stops: &[Stop], velocity: Vector) -> Vec<Leg> {
     let first = stops[0];
     let mut legs = Vec::with_capacity(stops.len() + 1);
@@ -258,9 +259,9 @@ fn legs(stops: &[Stop], velocity: Vector) -> Vec<Leg> {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct MovingObstacle {
-    /// Name, heights and shape, in its own frame.
+    /// Name, heights and shape of the obstacle, in its own frame.
     pub obstacle: Obstacle,
-    /// Motion of that frame.
+    /// Motion of the obstacle's frame.
     pub course: ObstacleTrajectory,
 }
 
@@ -271,7 +272,7 @@ impl MovingObstacle {
         self.obstacle.at(&self.course.pose(time))
     }
 
-    /// Returns the obstacle as a scene holds it.
+    /// Returns the obstacle in the form in which a scene holds it: without its place.
     #[must_use]
     pub fn loose(&self) -> LooseObstacle {
         let angle = (!self.course.turns()).then(|| self.course.stops()[0].angle);
@@ -353,7 +354,7 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(300))]
 
-        /// Compares the true place of a point of the mover with the bound of its drift; also across stops.
+        /// Compares the true place of a point of a moving obstacle with the bound of its drift, also across stops.
         #[test]
         fn points_stay_where_their_drift_lets_them(
             at in prop::array::uniform4(prop::array::uniform3(-2.0..2.0_f64)), times in prop::array::uniform4(0.1..1.0_f64),

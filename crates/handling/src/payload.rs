@@ -12,29 +12,30 @@ pub struct Payload {
     pub object: usize,
     /// Connection with the arm.
     pub grip: Grip,
-    /// Obstacles on which it rests, by number in [`Task::obstacles`]. It may touch them, but must not press into them by
-    /// more than [`Payload::penetration_allowance`].
+    /// Numbers in [`Task::obstacles`] of the obstacles on which the object rests. The object may touch them, but must
+    /// not press into them by more than [`Payload::penetration_allowance`].
     pub supports: Vec<usize>,
 }
 
-/// Depth to which a payload may press into its supports, as a share of the arm's reach. It is above the rounding of
-/// coordinates that people write down, and below the compliance of any gripper.
+/// Depth to which a payload may press into its supports, as a share of the arm's reach. It is greater than the rounding
+/// of coordinates in files, and less than the compliance of any gripper.
 const PENETRATION_ALLOWANCE: f64 = 1e-4;
 
-/// Share of the penetration allowance by which corners are moved: a little less than 1, so that a checker that moves
-/// them farther has room.
+/// Share of the penetration allowance by which corners are moved inwards. It is a little less than 1, so that a checker
+/// that moves corners by the whole allowance still accepts the motion.
 const ALLOWANCE_SHARE: f64 = 1.0 - 1e-3;
 
 impl Payload {
     /// Returns the greatest *penetration depth* of a payload in its supports, metres. Each corner of the payload is
     /// moved inwards by this distance, along the bisector of its sides, and the smaller shape must stay off the
-    /// supports. So sides press in by at most this times the sine of half the angle at their ends.
+    /// supports. So a side may press in by at most this distance times the sine of half the angle at its ends.
     #[must_use]
     pub fn penetration_allowance(arm: &Arm) -> f64 {
         PENETRATION_ALLOWANCE * arm.reach()
     }
 
-    /// Returns the payload as an attachment of the arm, at these heights: its pieces, and smaller ones for its supports.
+    /// Returns the payload as an attachment of the arm, at these heights. The attachment has the object's pieces, and
+    /// smaller pieces that must keep away from supports.
     #[must_use]
     pub fn attachment(&self, task: &Task, arm: &Arm, heights: Heights) -> Attachment {
         let Object { name, pieces, .. } = &task.objects[self.object];
@@ -53,8 +54,8 @@ impl Payload {
         Attachment { name: name.clone(), heights, grip: self.grip, parts, supports: self.supports.clone() }
     }
 
-    /// Returns the body that it adds to link 2, in the link's frame. A payload that a wrist keeps level does not turn:
-    /// its mass acts at the tip.
+    /// Returns the body that the payload adds to link 2, in the link's frame. If a wrist keeps the payload level, the
+    /// payload does not turn with the link, so its mass acts at the tip.
     fn body(&self, task: &Task, arm: &Arm) -> Body {
         let Object { mass, pieces, .. } = &task.objects[self.object];
         match self.grip {
@@ -68,8 +69,8 @@ impl Payload {
 }
 
 impl Task {
-    /// Returns the scene with the objects at their poses, except for `moving` ones, which are loose obstacles after those
-    /// of the workspace ([`Task::courses`]). Link 2 may touch the objects `touched`.
+    /// Returns the scene with the objects at their poses. The objects `moving` become loose obstacles, after those of
+    /// the workspace, in the order of [`Task::courses`]. Link 2 may touch the objects `touched`.
     #[must_use]
     pub fn scene(
         &self,
@@ -85,8 +86,7 @@ impl Task {
     }
 
     /// Returns the scene while the tool is lowered to pick or place an object. Returns `None` if the tool is not
-    /// lowered. Without a stroke, only the final pose of a placed object is considered: the path that lowers it to there
-    /// is unknown.
+    /// lowered. Without a stroke, the path that lowers a placed object is unknown, so only its final pose counts.
     #[must_use]
     pub fn lowered_scene(
         &self,

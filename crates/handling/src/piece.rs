@@ -1,9 +1,9 @@
-//! Pieces of motions.
+//! Pieces of motions: polynomials in time.
 
 use super::bernstein::Polynomial;
 use cplan_core::space::Configuration;
 
-/// A quantity of a motion: its value or a derivative by time.
+/// The value of a motion, or one of its derivatives by time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Derivative {
     /// The joint values themselves.
@@ -16,15 +16,15 @@ pub enum Derivative {
     Jerk,
 }
 
-/// A piece of a motion: one polynomial in time per joint, of degree 5 at most. Straight pieces are included.
+/// A piece of a motion: one polynomial in time per joint, of degree 3, 4 or 5.
 ///
-/// In Bernstein form, with `u` from 0 to 1 over the piece and `n` its degree:
-/// `q(u) = sum binomial(n, i) u^i (1 - u)^(n - i) c_i`. The piece lies in the box of its control points `c_i`.
+/// The polynomials have Bernstein form: with `u` from 0 to 1 over the piece, and degree `n`,
+/// `q(u) = sum binomial(n, i) u^i (1 - u)^(n - i) c_i`. The piece lies in the box around its control points `c_i`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Piece {
-    /// Begin of the piece, seconds. Without times: the number of its first waypoint.
+    /// Time at which the piece begins, seconds. For a motion without times: the number of its first waypoint.
     pub from: f64,
-    /// End of the piece, in the same unit.
+    /// Time at which the piece ends, in the same unit.
     pub to: f64,
     curve: Polynomial<Configuration>,
 }
@@ -37,7 +37,7 @@ impl Piece {
         Self { from, to, curve: Polynomial::new(points) }
     }
 
-    /// Creates the line from `a` to `b` at constant velocity.
+    /// Creates the straight piece from `a` to `b` at constant velocity.
     #[must_use]
     pub fn line(from: f64, to: f64, a: Configuration, b: Configuration) -> Self {
         Self::new(from, to, [a, a + (b - a) / 3.0, b - (b - a) / 3.0, b])
@@ -66,37 +66,38 @@ impl Piece {
         Self::new(from, to, [a, a + va * one, a + va * two + aa * bend, b - vb * two + ab * bend, b - vb * one, b])
     }
 
-    /// Creates the quadratic curve with these control points, raised to a cubic.
+    /// Creates the quadratic curve with these three control points, written as a cubic.
     #[must_use]
     pub fn quadratic(from: f64, to: f64, [a, b, c]: [Configuration; 3]) -> Self {
         Self::new(from, to, [a, (a + b * 2.0) / 3.0, (b * 2.0 + c) / 3.0, c])
     }
 
-    /// Returns its control points, including the ends: one more than its degree.
+    /// Returns the control points, including the ends: one more than the degree.
     #[must_use]
     pub fn control(&self) -> &[Configuration] {
         self.curve.coefficients()
     }
 
-    /// Returns the degree of its polynomials: 3, 4 or 5. Straight pieces are raised to degree 3.
+    /// Returns the degree of the polynomials: 3, 4 or 5. Straight pieces are written as cubics.
     #[must_use]
     pub fn degree(&self) -> usize {
         self.curve.degree()
     }
 
-    /// Returns the time at a share of the piece.
+    /// Returns the time at a share `u` of the piece.
     #[must_use]
     pub fn time(&self, u: f64) -> f64 {
         if u == 1.0 { self.to } else { self.from + u * (self.to - self.from) }
     }
 
-    /// Returns the configuration at a share of the piece; exact at the ends.
+    /// Returns the configuration at a share `u` of the piece. It is exact at both ends.
     #[must_use]
     pub fn at(&self, u: f64) -> Configuration {
         self.curve.at(u)
     }
 
-    /// Returns a derivative by time at a share of the piece; zero for a piece without duration.
+    /// Returns the value, or a derivative by time, at a share `u` of the piece. Derivatives are zero for a piece
+    /// without duration.
     #[must_use]
     pub fn derivative(&self, of: Derivative, u: f64) -> Configuration {
         let duration = self.to - self.from;
@@ -112,14 +113,15 @@ impl Piece {
         (0..order).fold(scaled.at(u), |value, k| value * ((self.degree() - k) as f64 / duration))
     }
 
-    /// Iterates over the shares of the piece that include the extremes of one joint's value or derivative: both ends,
-    /// and all zeros of its own derivative.
+    /// Iterates over the shares of the piece at which a joint's value or derivative can be extreme: both ends, and all
+    /// zeros of the next derivative.
     pub fn critical(&self, of: Derivative, joint: usize) -> impl Iterator<Item = f64> {
         let slope = self.curve.differences(of as usize + 1).map(|slope| slope.map(|d| d[joint]));
         [0.0, 1.0].into_iter().chain(slope.map_or(Vec::new(), |slope| slope.zeros()))
     }
 
-    /// Returns a bound on the magnitude of each joint's second derivative by `u` between two shares; exact for cubics.
+    /// Returns a bound on the magnitude of each joint's second derivative by `u` between two shares. It is exact for
+    /// cubics.
     #[must_use]
     pub fn bend(&self, from: f64, to: f64) -> [f64; 2] {
         let factor = (self.degree() * (self.degree() - 1)) as f64;

@@ -1,19 +1,19 @@
-//! Motions as samples.
+//! Recordings: motions given by samples.
 
 use super::{Interpolation, Piece};
 use cplan_core::space::{Configuration, Path, Topology};
 use std::ops::RangeInclusive;
 use thiserror::Error;
 
-/// Limit on joint values, radians or metres: larger ones are no values of an arm, and doubles near the limit still
-/// resolve a nanometre.
+/// Limit on joint values, radians or metres. No arm has larger values, and doubles near the limit still resolve a
+/// nanometre.
 const MAX_VALUE: f64 = 1e6;
 
-/// Limit on times and velocities: larger ones are a mistake. Seconds since 1970 are far below.
+/// Limit on times, velocities and accelerations. Larger values are a mistake; seconds since 1970 are far smaller.
 const MAX_RATE: f64 = 1e12;
 
-/// A motion of both joints, given by samples and their [`Interpolation`]. Radians or metres, and seconds; values are
-/// not wrapped.
+/// A motion of both joints, given by samples and their [`Interpolation`]. Values are in radians or metres, and are not
+/// wrapped. Times are in seconds.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Recording {
     position: Vec<Configuration>,
@@ -21,11 +21,11 @@ pub struct Recording {
     velocity: Option<Vec<Configuration>>,
     acceleration: Option<Vec<Configuration>>,
     interpolation: Interpolation,
-    /// Samples after which no interpolation applies, ascending.
+    /// Numbers of the samples, ascending, after which the arm rests and the motion is straight to the next sample.
     rests: Vec<usize>,
 }
 
-/// Reason why samples do not form a motion. Samples count from 0.
+/// Reason why samples do not form a motion. Samples are numbered from 0.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum RecordingError {
     /// There are no samples.
@@ -36,41 +36,41 @@ pub enum RecordingError {
     Count {
         /// Number of positions.
         positions: usize,
-        /// `times`, `velocities` or `accelerations`.
+        /// Kind of the other values: `times`, `velocities` or `accelerations`.
         what: &'static str,
         /// Number of the other values.
         others: usize,
     },
-    /// Velocities are of no use without times.
+    /// There are velocities but no times.
     #[error("there are velocities, but no times")]
     VelocityWithoutTime,
-    /// Accelerations join samples only together with velocities.
+    /// The interpolation uses accelerations, but there are no velocities.
     #[error("there are accelerations, but no velocities")]
     AccelerationWithoutVelocity,
     /// A number is NaN, infinite, or implausibly large.
     #[error("a {what} is {value}")]
     Value {
-        /// The place of the sample in the recording, from 0.
+        /// Number of the sample.
         sample: usize,
-        /// `position`, `time`, `velocity` or `acceleration`.
+        /// Kind of the number: `position`, `time`, `velocity` or `acceleration`.
         what: &'static str,
-        /// The number that was found there.
+        /// The wrong number.
         value: f64,
     },
     /// Times do not increase.
     #[error("the time {time} s follows {before} s; times must increase")]
     Time {
-        /// The later sample.
+        /// Number of the later of two samples.
         sample: usize,
         /// The time of that sample, seconds.
         time: f64,
-        /// The time of the sample before.
+        /// The time of the sample before it, seconds.
         before: f64,
     },
 }
 
 impl RecordingError {
-    /// Returns the sample at fault, if there is one.
+    /// Returns the number of the sample with the error. `None` if no single sample is wrong.
     #[must_use]
     pub fn sample(&self) -> Option<usize> {
         match *self {
@@ -81,7 +81,7 @@ impl RecordingError {
 }
 
 impl Recording {
-    /// Makes a motion from samples: cubic between them if velocities are known, or else linear.
+    /// Makes a motion from samples. The interpolation is cubic if velocities are known, and linear otherwise.
     ///
     /// # Errors
     /// [`RecordingError`]: the first problem found.
@@ -123,11 +123,11 @@ impl Recording {
         Ok(Self { position, time, velocity, acceleration: None, interpolation, rests: Vec::new() })
     }
 
-    /// Adds stated accelerations, which may affect the interpolation.
+    /// Adds accelerations and sets the interpolation, which may use them.
     ///
     /// # Errors
-    /// [`RecordingError`]: a wrong number of accelerations, too large ones, or accelerations for interpolation without
-    /// velocities.
+    /// [`RecordingError`] if the number of accelerations is wrong, if one is too large, or if the interpolation needs
+    /// velocities and there are none.
     pub fn accelerated(
         self,
         acceleration: Vec<Configuration>,
@@ -149,8 +149,8 @@ impl Recording {
         Ok(Self { acceleration: Some(acceleration), interpolation, ..self })
     }
 
-    /// Makes the motion straight from each of these samples to the next, independent of the interpolation. This is for
-    /// places where one motion ends and another starts, with the arm at rest between them.
+    /// Makes the motion straight from each of these samples to the next, whatever the interpolation. This is for
+    /// samples at which one motion ends and the arm rests until the next motion begins.
     #[must_use]
     pub fn resting_after(self, samples: &[usize]) -> Self {
         let mut rests = samples.to_vec();
@@ -164,19 +164,19 @@ impl Recording {
         &self.position
     }
 
-    /// Returns the times of the samples, strictly increasing, seconds.
+    /// Returns the times of the samples, strictly increasing, seconds. `None` if there are no times.
     #[must_use]
     pub fn times(&self) -> Option<&[f64]> {
         self.time.as_deref()
     }
 
-    /// Returns the joint velocities at the samples.
+    /// Returns the joint velocities at the samples. `None` if they are unknown.
     #[must_use]
     pub fn velocities(&self) -> Option<&[Configuration]> {
         self.velocity.as_deref()
     }
 
-    /// Returns the stated joint accelerations at the samples.
+    /// Returns the joint accelerations at the samples. `None` if they are unknown.
     #[must_use]
     pub fn accelerations(&self) -> Option<&[Configuration]> {
         self.acceleration.as_deref()
@@ -188,14 +188,13 @@ impl Recording {
         self.interpolation
     }
 
-    /// Returns the duration from the first to the last sample, seconds.
+    /// Returns the time from the first to the last sample, seconds. `None` if there are no times.
     #[must_use]
     pub fn duration(&self) -> Option<f64> {
         self.time.as_ref().map(|t| t[t.len() - 1] - t[0])
     }
 
-    /// Returns the samples of a range, on the same clock, as far as they exist. Returns `None` if the range has no
-    /// samples.
+    /// Returns the recording of the samples in a range, on the same clock. Returns `None` if the range has no samples.
     #[must_use]
     pub fn part(&self, samples: RangeInclusive<usize>) -> Option<Self> {
         let last = (*samples.end()).min(self.position.len() - 1);
@@ -214,8 +213,8 @@ impl Recording {
         })
     }
 
-    /// Returns the motion between the samples: piece `k` from sample `k` to `k + 1`. A single sample is one piece
-    /// without motion. Without times, sample `k` is at time `k`.
+    /// Returns the pieces of the motion: piece `k` leads from sample `k` to sample `k + 1`. A single sample gives one
+    /// piece at rest. If there are no times, sample `k` is at time `k`.
     #[must_use]
     pub fn pieces(&self) -> Vec<Piece> {
         let at = |k: usize| self.time.as_ref().map_or(k as f64, |t| t[k]);
@@ -239,8 +238,9 @@ impl Recording {
         (0..q.len() - 1).map(piece).collect()
     }
 
-    /// Finds the steps of a joint on a circle that are nearer to a whole turn than to none. Returns the first sample of
-    /// each, and the joint. A wrapped recording has such steps where it crosses the seam.
+    /// Finds the intervals between samples in which a continuous joint moves by more than half a turn. Returns the
+    /// first sample of each interval, and the joint. A recording with wrapped values has such intervals where it
+    /// crosses the seam.
     #[must_use]
     pub fn turns(&self, topology: &Topology) -> Vec<(usize, usize)> {
         let steps = self.position.windows(2).enumerate();
@@ -250,7 +250,8 @@ impl Recording {
         steps.flat_map(|(i, w)| (0..2).filter(move |&k| is_turn(w, k)).map(move |k| (i, k))).collect()
     }
 
-    /// Unwraps joints on circles, so that they take the short direction between samples.
+    /// Adds whole turns to the values of continuous joints, so that the joints take the shorter direction between
+    /// samples.
     #[must_use]
     pub fn unwrapped(mut self, topology: &Topology) -> Self {
         for k in 1..self.position.len() {

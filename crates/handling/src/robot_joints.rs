@@ -1,4 +1,4 @@
-//! All movable joints of a robot, for formats that must list each of them.
+//! All movable joints of a robot, for file formats that must list every joint.
 
 use super::{Stroke, ToolJoint};
 use serde::{Deserialize, Serialize};
@@ -9,26 +9,26 @@ use serde::{Deserialize, Serialize};
 pub enum Driver {
     /// The planner: the joint is one of the two joints of the arm, 0 or 1.
     Planned(usize),
-    /// Nothing: the joint stays at this value, radians or metres.
+    /// No source: the joint stays at this value, radians or metres.
     Held(f64),
-    /// The stroke, which lowers the tool at picks and places.
+    /// The stroke: the joint lowers the tool at picks and places.
     Stroke,
-    /// The wrist, which keeps or turns the load.
+    /// The wrist: the joint keeps or turns the load.
     Wrist,
 }
 
-/// A joint whose value is `factor * x + offset`, where `x` is the value of its driver: the joint itself, or the joint
-/// that it mimics.
+/// A movable joint. Its value is `factor * x + offset`, where `x` is the value of its driver. For a mimic joint, the
+/// driver is that of the joint that it follows.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RobotJoint {
     /// Name in the URDF.
     pub name: String,
-    /// Source of `x`.
+    /// Source of the value `x`.
     pub driver: Driver,
-    /// For a mimic joint: the factor along the whole chain of joints that it follows. Otherwise 1.
+    /// Factor. For a mimic joint, the product over the chain of joints that it follows; otherwise 1.
     pub factor: f64,
-    /// For a mimic joint: the offset along this chain. Otherwise 0.
+    /// Offset, radians or metres. For a mimic joint, the sum over the chain of joints that it follows; otherwise 0.
     pub offset: f64,
 }
 
@@ -44,19 +44,19 @@ pub struct RobotJoints {
     pub wrist: Option<ToolJoint>,
 }
 
-/// The driving values of a robot's joints at a moment, or their rates.
+/// Values of the drivers of a robot's joints at a time, or the rates of these values.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Drives {
-    /// The two planned joints, base to tip.
+    /// Values of the two planned joints, base to tip.
     pub planned: [f64; 2],
-    /// The joint that executes strokes.
+    /// Value of the joint that executes strokes.
     pub stroke: f64,
-    /// The wrist's joint.
+    /// Value of the wrist's joint.
     pub wrist: f64,
 }
 
 impl RobotJoints {
-    /// Returns the two planned joints alone.
+    /// Returns the joints of a robot that has only the two planned joints, with these names.
     #[must_use]
     pub fn planned(names: &[String; 2]) -> Self {
         let joint =
@@ -69,7 +69,7 @@ impl RobotJoints {
         self.joints.iter().map(|joint| joint.name.as_str())
     }
 
-    /// Returns the driving values when only the planned joints move.
+    /// Returns the values of the drivers while the stroke and the wrist are at rest.
     #[must_use]
     pub fn at_rest(&self, planned: [f64; 2]) -> Drives {
         let rest = |joint: Option<&ToolJoint>| joint.map_or(0.0, |joint| joint.rest);
@@ -80,14 +80,15 @@ impl RobotJoints {
         }
     }
 
-    /// Returns the joints' values, radians or metres.
+    /// Returns the values of all joints, radians or metres.
     #[must_use]
     pub fn values(&self, drives: &Drives) -> Vec<f64> {
         let value = |joint: &RobotJoint| joint.factor * joint.driver.value(drives) + joint.offset;
         self.joints.iter().map(value).collect()
     }
 
-    /// Returns the joints' rates of any order, given the rates of the driving values.
+    /// Returns the derivatives of all joints' values by time, given the derivatives of the drivers' values. The order
+    /// of the derivatives does not matter.
     #[must_use]
     pub fn rates(&self, drives: &Drives) -> Vec<f64> {
         let rate = |joint: &RobotJoint| match joint.driver {

@@ -5,7 +5,8 @@ use cplan_core::model::{Arm, Heights, OutlineSource, check_range};
 use cplan_core::space::JointRange;
 use serde::{Deserialize, Serialize};
 
-/// A joint of the tool. It moves along the plane's normal, or about it, and so affects only the load within the plane.
+/// A joint of the tool. It moves the tool along the plane's normal, or turns it about the normal. Within the plane, it
+/// affects only the load.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ToolJoint {
@@ -13,14 +14,14 @@ pub struct ToolJoint {
     pub name: String,
     /// Default value, radians or metres.
     pub rest: f64,
-    /// 1 if greater values are along the plane's normal (or counter-clockwise in the plane), else -1.
+    /// 1 if greater values move along the plane's normal (or turn counter-clockwise in the plane); otherwise -1.
     pub sign: f64,
-    /// Range of its values.
+    /// Range of the joint's values, radians or metres.
     pub range: JointRange,
 }
 
 impl ToolJoint {
-    /// Returns true if its numbers are valid: a sign, a range, and a rest value within the range.
+    /// Returns true if the sign is 1 or -1, the range is valid, and the default value is within the range.
     pub fn is_sound(&self) -> bool {
         self.sign.abs() == 1.0
             && self.rest.is_finite()
@@ -35,18 +36,19 @@ impl ToolJoint {
 pub struct Stroke {
     /// The joint that lowers the tool. It is raised at rest.
     pub joint: ToolJoint,
-    /// Distance that the tool is lowered against the plane's normal, metres. `None`: the lift of the object.
+    /// Distance by which the tool is lowered against the plane's normal, metres. With `None`, it is the lift of each
+    /// object.
     pub travel: Option<f64>,
     /// Top speed, m/s, positive.
     pub velocity: f64,
     /// Greatest acceleration, m/s2, positive.
     pub acceleration: f64,
-    /// The URDF links that it moves.
+    /// Names of the URDF links that the joint moves.
     pub bodies: Vec<String>,
 }
 
 impl Stroke {
-    /// Returns the distance that the tool is lowered for an object, metres.
+    /// Returns the distance by which the tool is lowered for an object, metres.
     #[must_use]
     pub fn depth(&self, object: &Object) -> f64 {
         self.travel.unwrap_or(object.lift)
@@ -64,8 +66,8 @@ impl Stroke {
         self.joint.rest - self.joint.sign * depth
     }
 
-    /// Returns the arm with everything that the stroke moves extended to all heights it takes. This includes a bar on
-    /// link 2, because it ends at the tip.
+    /// Returns the arm with taller shapes: each shape that the stroke moves gets all heights that it has during the
+    /// stroke. This includes a bar on link 2, because the bar ends at the tip.
     #[must_use]
     pub fn swept(&self, arm: &Arm, depth: f64) -> Arm {
         let mut arm = arm.clone();

@@ -7,14 +7,14 @@ use cplan_geometry::{Convex, Interval, Point, Pose};
 use cplan_text::short;
 use serde::{Deserialize, Serialize};
 
-/// The behaviour of an object's orientation while the arm carries it.
+/// What determines an object's orientation while the arm carries it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Holding {
     /// The object turns with link 2.
     Rigid,
-    /// A wrist joint keeps the orientation. If a step requires another one, the wrist turns the object while the arm is
-    /// at rest.
+    /// A wrist joint keeps the object's orientation. If a step requires another orientation, the wrist turns the object
+    /// while the arm is at rest.
     Level,
 }
 
@@ -22,7 +22,7 @@ pub enum Holding {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Object {
-    /// The user's name for it. It is unique among objects and obstacles.
+    /// Name in the world file, unique among objects and obstacles.
     pub name: String,
     /// Shape as given, in its own frame.
     pub shape: Shape,
@@ -30,13 +30,13 @@ pub struct Object {
     pub pieces: Vec<Convex>,
     /// Extent along the plane's normal while it lies somewhere.
     pub heights: Heights,
-    /// Distance that it is raised while it is carried, metres.
+    /// Distance by which the object is raised while it is carried, metres.
     pub lift: f64,
-    /// Behaviour of its orientation while it is carried.
+    /// What determines the object's orientation while it is carried.
     pub holding: Holding,
     /// Initial pose.
     pub at: Pose,
-    /// Motion from the initial pose until it is picked, if it moves.
+    /// Motion from the initial pose until the object is picked; `None` if it lies still.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub course: Option<ObstacleTrajectory>,
     /// Mass in kilograms.
@@ -45,7 +45,8 @@ pub struct Object {
 }
 
 impl Object {
-    /// Returns true if it may rest on supports: some part of it remains after the allowed penetration is taken off.
+    /// Returns true if the object may rest on supports: it is large enough that some part of it remains after all
+    /// corners are moved inwards by the allowed penetration.
     #[must_use]
     pub fn can_rest(&self, arm: &Arm) -> bool {
         let by = Payload::penetration_allowance(arm);
@@ -63,7 +64,7 @@ pub enum Action {
         object: usize,
         /// The point of the object, in its own frame, to which the tip moves.
         grasp: Point,
-        /// Obstacles on which the object rests and which it may therefore touch, by number in [`Task::obstacles`].
+        /// Numbers in [`Task::obstacles`] of the obstacles on which the object rests, and which it may therefore touch.
         supports: Vec<usize>,
         /// For a moving object: the times at which it may be picked, seconds, in order. Empty if any time is allowed.
         #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -75,10 +76,11 @@ pub enum Action {
         at: Point,
         /// The required orientation there, radians; `None` if any orientation is allowed.
         angle: Option<f64>,
-        /// Obstacles on which the object comes to rest and which it may therefore touch.
+        /// Numbers in [`Task::obstacles`] of the obstacles on which the object comes to rest, and which it may
+        /// therefore touch.
         supports: Vec<usize>,
     },
-    /// The arm moves to a goal, with whatever object it carries.
+    /// The arm moves to a goal, with the object that it carries, if any.
     Move(Goal),
 }
 
@@ -88,9 +90,9 @@ pub enum Action {
 pub struct Step {
     /// The action.
     pub action: Action,
-    /// Number in the world file, from 1. It is the same in each repetition.
+    /// Number of the step in the world file, from 1. It is the same in each repetition.
     pub number: usize,
-    /// Number of its repetition, from 1.
+    /// Number of the step's repetition, from 1.
     pub cycle: usize,
     /// Position in the world file, for messages: `cell.toml:12:1`.
     pub place: String,
@@ -108,7 +110,7 @@ pub enum Item {
     Step(Step),
     /// Pairs of a pick and the place that follows it. The pairs may be executed in any order.
     AnyOrder(Vec<[Step; 2]>),
-    /// These objects return to their initial poses: new ones have been supplied.
+    /// New objects are supplied: the objects with these numbers are at their initial poses again.
     Renew(Vec<usize>),
 }
 
@@ -122,8 +124,8 @@ pub struct Wrist {
     pub acceleration: f64,
 }
 
-/// A task of an arm. In a valid task, picked objects lie somewhere, places follow picks, and numbers of objects and
-/// obstacles are valid.
+/// A task of an arm. In a valid task, an object that is picked lies somewhere, each place follows a pick, and the
+/// numbers of objects and obstacles exist.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Task {
@@ -150,8 +152,8 @@ impl Task {
         self.workspace.obstacles.len() + object
     }
 
-    /// Returns the workspace with the objects at their poses. A carried object has no pose and becomes an obstacle
-    /// without pieces, so that numbers stay the same.
+    /// Returns the workspace with the objects at their poses, as static obstacles. A carried object has no pose. It
+    /// becomes an obstacle without pieces, so that numbers stay the same.
     #[must_use]
     pub fn obstacles(&self, poses: &[Option<Pose>]) -> TimedWorkspace {
         let mut workspace = self.workspace.clone();
@@ -161,7 +163,8 @@ impl Task {
         workspace
     }
 
-    /// Returns the same workspace with moving objects. They follow the workspace's own moving obstacles.
+    /// Returns the same workspace as [`Task::obstacles`], with the objects `moving` as moving obstacles, after those of
+    /// the world.
     #[must_use]
     pub fn surroundings(&self, poses: &[Option<Pose>], moving: &[usize]) -> TimedWorkspace {
         let mut workspace = self.obstacles(poses);
@@ -176,13 +179,13 @@ impl Task {
         self.workspace.courses().into_iter().chain(objects).collect()
     }
 
-    /// Returns the same on a clock that begins at a time of the task's.
+    /// Returns the same trajectories on a clock that begins at the time `begin` of the task, seconds.
     #[must_use]
     pub fn courses_since(&self, moving: &[usize], begin: f64) -> Vec<ObstacleTrajectory> {
         self.courses(moving).iter().map(|course| course.since(begin)).collect()
     }
 
-    /// Returns the same for the objects that move initially.
+    /// Returns the trajectories of all moving obstacles and of the objects that move initially.
     #[must_use]
     pub fn courses_at_first(&self) -> Vec<ObstacleTrajectory> {
         self.courses(&self.initially_moving().collect::<Vec<_>>())
@@ -207,14 +210,14 @@ impl Task {
         !self.workspace.movers.is_empty() || self.initially_moving().next().is_some()
     }
 
-    /// Restricts the shapes of obstacles and objects to the convex pieces that are judged. This is for tasks that are
-    /// read as data.
+    /// Replaces the displayed shapes of obstacles and objects by the convex pieces that are judged. This is for tasks
+    /// that are read as data, in which the two may differ.
     pub fn restrict_shapes(&mut self) {
         self.workspace.restrict_shapes();
         self.objects.iter_mut().for_each(|object| object.shape.restrict_to(&object.pieces));
     }
 
-    /// Iterates over all steps. Those of a group in any order come in the order of the file.
+    /// Iterates over all steps. The steps of a group that may be executed in any order come in the order of the file.
     pub fn steps(&self) -> impl Iterator<Item = &Step> {
         self.items.iter().flat_map(|item| match item {
             Item::Step(step) => vec![step],
@@ -235,13 +238,13 @@ impl Object {
         Obstacle { name: self.name.clone(), shape, pieces, heights: self.heights }
     }
 
-    /// Returns its initial pose. Returns `None` if it moves.
+    /// Returns the object's initial pose. Returns `None` if the object moves initially.
     #[must_use]
     pub fn initial_static_pose(&self) -> Option<Pose> {
         self.course.is_none().then_some(self.at)
     }
 
-    /// Returns the object as a moving obstacle, if it moves.
+    /// Returns the object as a moving obstacle. `None` if it does not move initially.
     #[must_use]
     pub fn moving(&self) -> Option<MovingObstacle> {
         let obstacle = || {
@@ -251,14 +254,14 @@ impl Object {
         self.course.clone().map(|course| MovingObstacle { obstacle: obstacle(), course })
     }
 
-    /// Returns its extent along the plane's normal over all heights from where it lies to where it is carried.
+    /// Returns the range of all heights that the object has while it is raised or lowered.
     #[must_use]
     pub fn handled_heights(&self) -> Heights {
         let carried = self.carried_heights();
         Heights { lower: self.heights.lower.min(carried.lower), upper: self.heights.upper.max(carried.upper) }
     }
 
-    /// Returns its extent along the plane's normal while it is carried.
+    /// Returns the object's heights while it is carried.
     #[must_use]
     pub fn carried_heights(&self) -> Heights {
         Heights { lower: self.heights.lower + self.lift, upper: self.heights.upper + self.lift }
@@ -266,7 +269,7 @@ impl Object {
 }
 
 impl Action {
-    /// Returns the object that is picked, if any.
+    /// Returns the number of the object that is picked. `None` for other actions.
     #[must_use]
     pub fn picked(&self) -> Option<usize> {
         match self {

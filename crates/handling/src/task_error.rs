@@ -7,7 +7,7 @@ use cplan_core::model::{
 use std::collections::BTreeSet;
 use std::f64::consts::TAU;
 
-/// Limit on the duration of any part of a task, seconds; same as for motions.
+/// Limit on the duration of each part of a task, seconds. It is the same as for motions.
 const MAX_PART_DURATION: f64 = 1e6;
 
 /// Reason why an arm, objects and steps do not form a task.
@@ -38,7 +38,7 @@ pub enum TaskError {
     Step {
         /// The step's number in the world file.
         number: usize,
-        /// Number of its repetition.
+        /// Number of the step's repetition, from 1.
         cycle: usize,
         /// Description of the problem.
         why: &'static str,
@@ -49,12 +49,12 @@ pub enum TaskError {
     /// A group has no steps.
     #[error("a group of steps in any order has no steps")]
     EmptyGroup,
-    /// Something moves, and the task needs a feature that supports static obstacles only.
+    /// An obstacle or object moves, and the task needs a feature that supports static obstacles only.
     #[error("\"{mover}\" moves, but {why}")]
     Moves {
         /// Name of a moving obstacle or object.
         mover: String,
-        /// The feature.
+        /// The feature, in words.
         why: &'static str,
     },
     /// An object cannot be renewed.
@@ -172,7 +172,7 @@ struct Gripper<'a> {
     carried: Option<usize>,
     /// The objects that have been picked.
     picked: BTreeSet<usize>,
-    /// Orientation of each object, radians. It is not tracked for rigid payloads.
+    /// Orientation of each object, radians. The orientation of rigid payloads is not tracked.
     turned: Vec<f64>,
 }
 

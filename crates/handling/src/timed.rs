@@ -1,4 +1,4 @@
-//! Workspaces and scenes whose obstacles move in time.
+//! Workspaces and scenes with moving obstacles.
 
 use super::{MovingObstacle, ObstacleTrajectory};
 use cplan_core::model::{Additions, Arm, Obstacle, Obstruction, Pair, Preference, Scene, SceneError, Workspace};
@@ -6,7 +6,7 @@ use cplan_core::space::Configuration;
 use cplan_geometry::Pose;
 use serde::{Deserialize, Serialize};
 
-/// A workspace with obstacles that move.
+/// A workspace with moving obstacles.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct TimedWorkspace {
@@ -30,7 +30,7 @@ impl From<Workspace> for TimedWorkspace {
 }
 
 impl TimedWorkspace {
-    /// Returns the static workspace, and the moving obstacles as additions to a scene.
+    /// Splits this into the static workspace, and the moving obstacles as additions to a scene.
     #[must_use]
     pub fn into_parts(self) -> (Workspace, Additions) {
         let Self { name, obstacles, clearance, preferences, movers } = self;
@@ -38,7 +38,7 @@ impl TimedWorkspace {
         (Workspace { name, obstacles, clearance, preferences }, Additions { loose, ..Additions::default() })
     }
 
-    /// Returns the scene of an arm in it.
+    /// Returns the scene of an arm in this workspace.
     ///
     /// # Errors
     /// Same as for [`Scene::with`].
@@ -67,7 +67,8 @@ impl TimedWorkspace {
         self.obstacles.iter().chain(self.movers.iter().map(|mover| &mover.obstacle))
     }
 
-    /// Makes the displayed shapes agree with the pieces that are judged. For workspaces that are read as data.
+    /// Replaces the displayed shapes by the convex pieces that are judged. This is for workspaces that are read as
+    /// data, in which the two may differ.
     pub fn restrict_shapes(&mut self) {
         let moving = self.movers.iter_mut().map(|mover| &mut mover.obstacle);
         self.obstacles.iter_mut().chain(moving).for_each(Obstacle::hold_shape);
@@ -96,13 +97,13 @@ impl<'a> TimedScene<'a> {
         if self.courses.is_empty() { &[] } else { self.scene.loose_pairs() }
     }
 
-    /// Returns the trajectory of a pair's obstacle, if it moves.
+    /// Returns the trajectory of a pair's obstacle. `None` for a static obstacle.
     #[must_use]
     pub fn course(self, pair: Pair) -> Option<&'a ObstacleTrajectory> {
         self.courses.get(self.scene.loose_index(pair)?)
     }
 
-    /// Returns the obstacle of a pair at its place at a time, if it moves.
+    /// Returns the obstacle of a pair at its place at a time. `None` for a static obstacle.
     #[must_use]
     pub fn obstacle(self, pair: Pair, time: f64) -> Option<Obstacle> {
         self.course(pair).map(|course| self.scene.obstacle(pair.obstacle).at(&course.pose(time)))
@@ -113,7 +114,8 @@ impl<'a> TimedScene<'a> {
         self.courses.iter().map(move |course| course.pose(time))
     }
 
-    /// Returns the scene at a time: moving obstacles become static at their places then, after all static ones.
+    /// Returns the scene at a time. Each moving obstacle becomes static at its place at that time. These obstacles
+    /// follow all others.
     #[must_use]
     pub fn frozen(self, time: f64) -> Scene {
         self.scene.with_loose_at(self.poses(time))

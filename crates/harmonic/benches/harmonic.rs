@@ -19,7 +19,7 @@ fn boxes(n: usize) -> Vec<bool> {
     blocked
 }
 
-/// Returns the middle one of the free cells.
+/// Returns the free cell in the middle of the list of free cells.
 fn middle(blocked: &[bool]) -> usize {
     let free: Vec<usize> = (0..blocked.len()).filter(|&cell| !blocked[cell]).collect();
     free[free.len() / 2]

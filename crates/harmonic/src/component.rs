@@ -3,14 +3,14 @@
 use super::{Lattice, Wave};
 use cplan_interrupt::checkpoint;
 
-/// The free cells that a wave from the goal reached, numbered in the order of the wave: first the goals, then level by
-/// level. Field algorithms use positions in this numbering, not indices of the grid.
+/// The free cells that a wave from the goals reached. Their *positions* are numbers in the order of the wave: first the
+/// goals, then level by level. The algorithms of this crate use positions instead of indices of the grid.
 ///
 /// Relaxation in this order carries information away from the goal through a whole corridor in one sweep. Neighbours
 /// lie on consecutive levels (never on the same one, except on circles of odd size), so this is a consistent ordering,
 /// for which Young's theory of over-relaxation holds.
 ///
-/// Each cell takes two 32-bit numbers. Neighbours are looked up by their place in the grid.
+/// Each cell needs two 32-bit numbers. Neighbours are found by their place in the grid.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Component {
     /// Number of goals, which are the first positions.
@@ -19,18 +19,18 @@ pub struct Component {
     pub levels: usize,
     /// Rows and columns of the grid.
     pub shape: [usize; 2],
-    /// Place of each position in the grid with a frame of one cell around it.
+    /// Place of each position, in the grid with a frame of one cell around it.
     places: Vec<u32>,
-    /// Position at each place, or [`Component::wall`]. A frame cell has the position of the cell on the other side of a
-    /// circle.
+    /// Position at each place, or [`Component::wall`]. On a circle, a place in the frame has the position of the cell
+    /// on the other side.
     positions: Vec<u32>,
 }
 
-/// Processing this many cells takes less than a millisecond.
+/// Number of cells that are processed between two checkpoints. This takes less than a millisecond.
 const CELLS_BETWEEN_CHECKPOINTS: usize = 4096;
 
 impl Component {
-    /// Numbers the cells that a wave over this lattice reached. Linear.
+    /// Numbers the cells that a wave over this lattice reached. Takes linear time.
     #[must_use]
     pub fn new(lattice: &Lattice, wave: Wave) -> Self {
         let Wave { order: places, sources: goals, levels, labels: mut positions } = wave;
@@ -99,7 +99,7 @@ impl Component {
         i * self.shape[1] + j
     }
 
-    /// Computes two measures of the room at each position. Linear.
+    /// Computes how much room there is at each position, by two measures. Takes linear time.
     #[must_use]
     pub fn room(&self) -> Room {
         let mut clearance = vec![u32::MAX; self.len()];
@@ -141,9 +141,10 @@ impl Component {
 /// Measures of the room at each position of a [`Component`].
 #[derive(Debug, Clone)]
 pub struct Room {
-    /// Steps to the nearest wall; 1 for a cell beside one. Without any walls: steps to a goal, plus 1.
+    /// Number of steps to the nearest wall: 1 for a cell beside a wall. If there are no walls, number of steps to a
+    /// goal plus 1.
     pub clearance: Vec<u32>,
-    /// Greatest clearance reachable by moving away from walls: the clearance of the room or corridor to which the cell
-    /// belongs.
+    /// Greatest clearance that is reached by moving away from walls. It measures the room or corridor that contains the
+    /// cell.
     pub widest: Vec<u32>,
 }

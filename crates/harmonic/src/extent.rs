@@ -1,15 +1,15 @@
-//! Boxes of cells.
+//! Boxes of cells: rectangles that may continue across the seam of a circle.
 
 use cplan_multigrid::Ends;
 
 /// A box of cells of a grid.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Extent {
-    /// Its first row and column.
+    /// First row and column of the box.
     pub first: [usize; 2],
-    /// Rows and columns.
+    /// Numbers of rows and columns.
     pub cells: [usize; 2],
-    /// Whether each axis is a circle, so that the box continues at its other end.
+    /// Boundary condition of each axis. If the box covers a whole circle, its two ends are neighbours.
     pub ends: [Ends; 2],
 }
 
@@ -30,7 +30,7 @@ pub(super) struct Bounds {
 }
 
 impl Bounds {
-    /// Creates bounds around no cell.
+    /// Creates bounds without any cell.
     pub fn new() -> Self {
         Self { low: [usize::MAX; 2], high: [0; 2], joined: [false; 2] }
     }
@@ -48,8 +48,8 @@ impl Bounds {
         self.joined[axis] |= joined;
     }
 
-    /// Returns the box in a grid of this shape. It covers a whole circle whose seam is crossed. Returns `None` without
-    /// cells.
+    /// Returns the box in a grid of this shape. If cells are neighbours across a seam, the box covers that whole
+    /// circle. Returns `None` if there are no cells.
     pub fn extent(self, shape: [usize; 2]) -> Option<Extent> {
         if self.high == [0; 2] {
             return None;

@@ -1,16 +1,18 @@
-//! The curve along the gradient of a field, between the cells.
+//! Follows a field along its gradient, as a curve that is not bound to the centres of cells.
 //!
-//! [`follow`] works with any [`Guide`]: the harmonic potential ([`PotentialGuide`](crate::PotentialGuide)), a relaxed field, or forces.
-//! A guide returns the direction at the centres of free cells: the gradient of the logarithm, by central differences.
+//! [`follow`] works with any [`Guide`]: the harmonic potential ([`PotentialGuide`](crate::PotentialGuide)), a relaxed
+//! field, or forces. A guide returns the direction at the centres of free cells: the gradient of the logarithm, by
+//! central differences.
 //! `follow` interpolates bilinearly and integrates with the fourth-order Runge-Kutta method, in steps of a fifth of a
 //! cell.
 //!
-//! Within about four cells the curve must reach a better cell. Where it does not (at a saddle, or in a corridor one
-//! cell wide), the guide names the next cells. So the curve reaches the goal whenever the cells do.
+//! Within about four cells, the curve must reach a better cell. If it does not (at a saddle, or in a corridor one cell
+//! wide), the guide gives the next cells. So the curve reaches a goal whenever a path from cell to cell does.
 
 use cplan_interrupt::checkpoint;
 
-/// Row and column of a cell on the unbounded lattice. On a circle they count on past the seam.
+/// Row and column of a cell on the unbounded lattice. On a circle, they continue past the seam instead of starting
+/// again.
 pub type Place = [i64; 2];
 
 /// A point in units of cells. Centres of cells have integer coordinates.
@@ -28,30 +30,32 @@ pub trait Guide {
     /// Reasons why a curve ends without reaching a goal.
     type DeadEnd;
 
-    /// Returns the gradient at the centre of a cell, per cell along each axis, in any unit. Returns `None` for cells
-    /// that are not free and for goals.
+    /// Returns the gradient at the centre of a cell, per cell along each axis, in any unit. Returns `None` for goals
+    /// and for cells that are not free.
     ///
-    /// Lengths are weights relative to the neighbours. Where values fall fast, use the gradient of the logarithm.
+    /// The curve interpolates between the gradients of neighbouring cells, so longer gradients have more weight. For
+    /// values that fall fast, use the gradient of the logarithm.
     fn slope(&self, place: Place) -> Option<[f64; 2]>;
 
     /// Returns true if a cell is a goal.
     fn is_goal(&self, place: Place) -> bool;
 
-    /// Returns true if moving from one cell to the other is progress. This may happen only a finite number of times.
+    /// Returns true if a move from one cell to the other is progress. It must return true only a finite number of
+    /// times.
     fn comes_on(&mut self, from: Place, to: Place) -> bool;
 
-    /// Returns cells from one to a better one. Each is free and a neighbour of the previous one.
+    /// Returns the cells that lead from a cell to a better one. Each is free, and a neighbour of the cell before it.
     ///
     /// # Errors
-    /// The reason why no such cells exist.
+    /// Returns the reason why no such cells exist.
     fn onward(&mut self, from: Place) -> Result<Vec<Place>, Self::DeadEnd>;
 }
 
 /// A curve along a field, and the goal that it reaches.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Streamline {
-    /// Points from the given one to one in the goal's cell. Neighbours are at most [`STEP_LENGTH`] apart, except where the
-    /// field has no direction.
+    /// Points of the curve, from the given point to a point in the goal's cell. Consecutive points are at most
+    /// [`STEP_LENGTH`] apart, except where the field has no direction.
     pub points: Vec<LatticePoint>,
     /// Cell of the goal.
     pub place: Place,
@@ -71,7 +75,7 @@ pub struct Streamline {
 /// [`Guide::DeadEnd`] if the guide has no further cells.
 pub fn follow<G: Guide>(guide: &mut G, sides: [f64; 2], from: LatticePoint) -> Result<Streamline, G::DeadEnd> {
     let mut points = vec![from];
-    // The best cell so far, and the number of points on reaching it.
+    // The best cell so far, and the number of points when the curve reached it.
     let mut best = (nearest(from), 1);
     let mut square = Square::new(sides);
     loop {
@@ -97,16 +101,16 @@ pub fn follow<G: Guide>(guide: &mut G, sides: [f64; 2], from: LatticePoint) -> R
 }
 
 /// Returns the unit direction in which a field is followed from a point, in cells. It is interpolated bilinearly
-/// between the gradients at the surrounding free cells, whose side lengths are `sides`. Returns `None` if none of them
-/// has a gradient, or if they cancel.
+/// between the gradients at the surrounding free cells, whose side lengths are `sides`. Returns `None` if none of these
+/// cells has a gradient, or if the gradients cancel.
 pub fn direction<G: Guide>(guide: &G, sides: [f64; 2], at: LatticePoint) -> Option<[f64; 2]> {
     Square::new(sides).direction(guide, at)
 }
 
-/// Advances along a field by the given number of [`STEP_LENGTH`]s, for callers whose field changes at the next moment. Does
-/// not check for progress.
+/// Advances along a field by a number of steps of [`STEP_LENGTH`], and returns the last point. This is for fields that
+/// change at the next moment, so there is no check for progress.
 ///
-/// The point stays in free cells. It stops early in a goal's cell, or if no step stays in free cells.
+/// The point stays in free cells. It stops early in a goal's cell, or if no step would stay in free cells.
 pub fn advance<G: Guide>(guide: &G, sides: [f64; 2], from: LatticePoint, steps: usize) -> LatticePoint {
     let mut square = Square::new(sides);
     let mut at = from;
@@ -167,7 +171,7 @@ impl Square {
     fn step<G: Guide>(&mut self, guide: &G, at: LatticePoint) -> Option<LatticePoint> {
         let moved = |d: [f64; 2], by: f64| [0, 1].map(|k| at[k] + by * d[k]);
         let a = self.direction(guide, at)?;
-        // Beyond the free cells there may be no direction; keep the previous one.
+        // Beyond the free cells there may be no direction. Then keep the previous one.
         let b = self.direction(guide, moved(a, STEP_LENGTH / 2.0)).unwrap_or(a);
         let c = self.direction(guide, moved(b, STEP_LENGTH / 2.0)).unwrap_or(b);
         let d = self.direction(guide, moved(c, STEP_LENGTH)).unwrap_or(c);

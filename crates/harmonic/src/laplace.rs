@@ -1,4 +1,4 @@
-//! Laplace's equation: 1 at the goals, 0 on obstacles and beyond limits, periodic on circles.
+//! Laplace's equation. The value is 1 at goals, and 0 on obstacles and beyond limits. Circles are periodic.
 
 use super::peeling::Peeling;
 use super::{Component, Potential};
@@ -8,21 +8,21 @@ use std::f64::consts::{LN_2, PI};
 /// maximum except the goals (Connolly, Grupen 1993).
 #[derive(Debug, Clone)]
 pub struct Field {
-    /// The values. A greater value is closer to a goal in this sense.
+    /// The values.
     pub potential: Potential,
-    /// Number of windows in which it was solved.
+    /// Number of windows in which the potential was solved.
     pub windows: usize,
 }
 
-/// Additional weight beside a cell's four neighbours: at each step a walk ends with a quarter of this probability,
-/// 3e-14.
+/// Weight of the value 0 in the mean, in addition to the weights 1 of the four neighbours. So at each step, a random
+/// walk ends with a quarter of this probability, 3e-14.
 ///
 /// So every value is less than the mean of its neighbours by more than all rounding errors, and one neighbour is
 /// strictly greater. This also holds where the harmonic function is level: without any walls, or where symmetry makes
 /// all four neighbours equal.
 ///
-/// Each step of a walk to the goal lowers the value by this fraction, which is less than a millionth for ten million
-/// steps.
+/// Each step of a walk to the goal lowers the value by that fraction. For ten million steps, this is less than a
+/// millionth.
 pub(super) const WALK_LOSS: f64 = f64::EPSILON * 512.0;
 
 /// Computes the harmonic potential on a component, in relative precision at any distance. Values may be `1e-50000`.
@@ -47,14 +47,14 @@ pub fn harmonic_path(component: &Component, from: usize) -> Option<Vec<usize>> {
     Peeling::new(component, WALK_LOSS).run_to(from).potential.ascend(component, from)
 }
 
-/// Estimates [`harmonic`] in a fraction of the time: a positive potential that falls with the steps from the goal,
-/// faster in narrow places. For pictures of the cells from which the goal is reachable.
+/// Estimates [`harmonic`] in a fraction of the time. The result is positive, and falls with the number of steps from
+/// the goal, faster in narrow places. It is for pictures of the cells from which the goal is reachable.
 #[must_use]
 pub fn estimated_harmonic(component: &Component) -> Potential {
     let clearance = component.room().clearance;
     let mut log2 = vec![0.0; component.len()];
     for i in component.goals..component.len() {
-        // The neighbours that the wave reached earlier. There is at least one.
+        // Use the neighbours that the wave reached earlier. There is at least one.
         let before = component.neighbors(i).into_iter().filter(|&n| n < i);
         log2[i] = before.map(|n| log2[n]).fold(f64::NEG_INFINITY, f64::max) - decay(clearance[i]) / LN_2;
     }
@@ -67,7 +67,7 @@ pub(super) fn decay(clearance: u32) -> f64 {
     (2.0 - (PI / (2.0 * f64::from(clearance.max(1)))).cos()).acosh()
 }
 
-/// Returns the greatest relative difference between a value and the one that its neighbours imply.
+/// Returns the greatest relative difference between a value and the value that its neighbours imply.
 #[must_use]
 pub fn residual(component: &Component, potential: &Potential) -> f64 {
     let mut worst = 0.0_f64;

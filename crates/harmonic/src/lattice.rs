@@ -1,4 +1,4 @@
-//! The grid in a form suited to neighbour-by-neighbour algorithms, and the breadth-first wave over it.
+//! The grid with a frame of cells, in which each cell has four neighbours, and a breadth-first search (wave) over it.
 
 use cplan_interrupt::checkpoint;
 
@@ -10,18 +10,18 @@ const TWIN_LABEL: u32 = u32::MAX - 1;
 /// Label of a [`Site::Wall`].
 const WALL_LABEL: u32 = u32::MAX - 2;
 
-/// Kind of a place. One byte each, because a map of them is kept and copied for every wave.
+/// Kind of a place in the framed grid. It needs only one byte, because a map of all places is copied for every wave.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Site {
     Free,
-    /// Beyond the seam of a circle: represents the free cell on the other side.
+    /// A place beyond the seam of a circle. It represents the free cell on the other side.
     Twin,
-    /// Blocked, or beyond a limit.
+    /// A blocked cell, or a place beyond a limit.
     Wall,
 }
 
-/// A grid with a frame of one cell around it, so that every cell has four neighbours at constant offsets. The frame is
-/// wall beyond the limits of an interval. On a circle it represents the cells of the other side.
+/// A grid with a frame of one cell around it, so that every cell has four neighbours at constant offsets. Beyond the
+/// limits of an interval, the frame is wall. On a circle, the frame represents the cells of the other side.
 ///
 /// Indices are *framed*: row `i`, column `j` of the grid is `(i + 1) * (cells[1] + 2) + j + 1`, which is less than
 /// `2^32 - 3`.
@@ -32,12 +32,12 @@ pub struct Lattice {
     sites: Vec<Site>,
 }
 
-/// Steps to the nearest source, for every free cell connected to one.
+/// The number of steps to the nearest source, for every free cell that is connected with a source.
 #[derive(Debug, Clone)]
 pub struct Wave {
     /// Framed cells in the order in which the wave reached them.
     pub(super) order: Vec<u32>,
-    /// Number of sources, which come first.
+    /// Number of sources, which come first in the order.
     pub(super) sources: usize,
     /// Number of distinct labels.
     pub levels: usize,
@@ -105,7 +105,7 @@ impl Lattice {
         [framed - self.stride, framed + self.stride, framed - 1, framed + 1]
     }
 
-    /// Returns the free cell that `framed` is or represents, or `None`.
+    /// Returns the free cell that a place is or represents. `None` for walls.
     pub(super) fn resolve(&self, framed: usize) -> Option<usize> {
         match self.sites[framed] {
             Site::Free => Some(framed),
@@ -162,7 +162,7 @@ impl Lattice {
             levels += 1;
             for at in begin..end {
                 for next in self.around(order[at] as usize) {
-                    // One comparison rejects both walls and labelled cells.
+                    // This one comparison skips both walls and cells with a label.
                     if labels[next] >= TWIN_LABEL {
                         let next = if labels[next] == TWIN_LABEL { self.other_side(next) } else { next };
                         if labels[next] == UNREACHED {
@@ -185,7 +185,7 @@ impl Wave {
         self.order.len()
     }
 
-    /// Returns the steps from cell `index` of the grid to the nearest source, or [`UNREACHED`].
+    /// Returns the number of steps from cell `index` of the grid to the nearest source, or [`UNREACHED`].
     #[must_use]
     pub fn label(&self, lattice: &Lattice, index: usize) -> u32 {
         match self.labels[lattice.framed(index)] {

@@ -1,4 +1,5 @@
-//! The harmonic potential of a goal on a grid, in relative precision at any distance, and the curve up its gradient.
+//! The harmonic potential of goals on a grid, with full relative precision at any distance, and the curve along its
+//! gradient.
 //!
 //! # The problem
 //!
@@ -48,8 +49,8 @@
 //! - Every cell except the goals has a strictly greater neighbour, compared exactly ([`Potential::navigates`]). This
 //!   also holds where symmetry makes the harmonic function level, because each step of a walk ends with probability
 //!   `3e-14`. That exceeds all rounding, and lowers a value ten million steps away by less than a millionth.
-//! - [`follow`] stays in free cells and ends at a goal, because it moves from cell to cell where the gradient leads
-//!   nowhere. It works with any other field that implements [`Guide`].
+//! - [`follow`] stays in free cells and ends at a goal: if the gradient leads nowhere, it moves from cell to cell. It
+//!   works with any field that implements [`Guide`].
 //! - The same input gives the same bits. Long solves can be interrupted: they pass a
 //!   [`checkpoint`](cplan_interrupt::checkpoint).
 //!
@@ -61,15 +62,14 @@
 //! ```
 //!
 //! The potential is solved in *windows* in order of falling values (`peeling`), each scaled to its own greatest value.
-//! Outside of mazes a single window has all cells.
+//! Except in mazes, a single window has all cells.
 //!
-//! Each window also yields the probability of leaving it where it was cut off. This bounds the missing part of each
-//! value, and only values to which that part adds nothing are accepted.
+//! For each cell of a window, the solver also computes the probability that a walk leaves the window where it was cut
+//! off. This bounds the missing part of the cell's value. Only values with a negligible missing part are accepted.
 //!
 //! Narrow windows are eliminated without subtractions (`network`). Wide ones are solved by multigrid and refined until
-//! each value agrees with its neighbours to 64 relative roundings (`wide`). Cells are corrected from a quarter of that,
-//! so rounding cannot push one across the bound.
-//! across the bound).
+//! each value agrees with its neighbours to 64 relative roundings (`wide`). Each cell that exceeds a quarter of this is
+//! corrected, so rounding cannot push a cell across the bound.
 #![forbid(unsafe_code)]
 
 mod component;

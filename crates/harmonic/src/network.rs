@@ -3,18 +3,18 @@
 use cplan_interrupt::checkpoint;
 use std::collections::VecDeque;
 
-/// Marks a missing link or node.
+/// Index that stands for a missing link or node.
 const NO_LINK: u32 = u32::MAX;
 
-/// Number of right-hand sides solved together.
+/// Number of right-hand sides that are solved together.
 pub(super) const RIGHT_SIDES: usize = 2;
 
-/// If the node with the fewest links has at least one link for this many remaining nodes, the rest is solved as a dense
-/// matrix.
+/// Greatest ratio of the number of remaining nodes to the least number of links of a node at which the rest is solved
+/// as a dense matrix.
 const DENSE_RATIO: usize = 4;
 
-/// Unknowns, each with `(ground + sum of weights) u = source + sum of weight * neighbour's u`: the potential in a
-/// network of conductances, in which `ground` leads to known potentials.
+/// A system of equations `(ground + sum of weights) u = source + sum of weight * neighbour's u`, one for each node. It
+/// gives the potentials in a network of conductances. `ground` is the conductance to known potentials.
 ///
 /// The network is eliminated by Gauss's algorithm in the form of Grassmann, Taksar and Heyman (1985): a pivot is the
 /// sum of the weights that lead away from the node. Only non-negative numbers are ever added, multiplied and divided.
@@ -22,7 +22,7 @@ const DENSE_RATIO: usize = 4;
 /// (O'Cinneide 1993).
 #[derive(Debug, Clone, Default)]
 pub(super) struct Network {
-    /// First link of each node. For an eliminated node: links to the nodes that remained at that time.
+    /// First link of each node. The links of an eliminated node lead to nodes that remained when it was eliminated.
     first: Vec<u32>,
     degree: Vec<u32>,
     ground: Vec<f64>,
@@ -52,7 +52,8 @@ impl Network {
         }
     }
 
-    /// Joins a node to known potentials, with the given `weight` to potential 0 and `source` as weighted potentials.
+    /// Joins a node to known potentials. `weight` is the sum of the conductances, and `source` the sum of the
+    /// potentials times their conductances, for each right-hand side.
     pub fn ground(&mut self, node: usize, weight: f64, source: [f64; RIGHT_SIDES]) {
         self.ground[node] += weight;
         for (sum, source) in self.source[node].iter_mut().zip(source) {
@@ -105,7 +106,7 @@ impl Network {
                 }
                 at = link.next;
             }
-            // The pivot has replaced the ground.
+            // Elimination has replaced the ground by the pivot.
             solution[node] = value.map(|value| value / self.ground[node]);
         }
         solution

@@ -1,16 +1,16 @@
-//! The harmonic potential in windows, in order of falling values.
+//! Computes the harmonic potential in windows, in order of falling values.
 //!
 //! Initially only the goals are known. A *window* consists of the unknown cells next to known ones, down to an
 //! estimated depth. Its equations are solved in doubles, scaled to the greatest known value around it, as if the
 //! potential were 0 beyond it.
 //!
-//! The solver also yields, for each cell, the probability that a walk leaves the window where it was cut off. The
+//! For each cell, the solver also computes the probability that a walk leaves the window where it was cut off. The
 //! maximum principle bounds the potential there, and so the missing part of each value. Values whose missing part is
-//! below the precision of a double are accepted. Errors add up but do not grow, because values are sums of known ones
-//! with positive weights.
+//! below the precision of a double are accepted. Errors add up but are not magnified, because each value is a sum of
+//! known values with positive weights.
 //!
-//! On average every cell is in about two windows, so the cost is linear in the number of cells, independent of the values. If
-//! no path is long, the first window covers everything and is usually the last.
+//! On average every cell is in about two windows, so the cost is linear in the number of cells, independent of the
+//! values. If no path is long, the first window covers everything and is usually the last.
 
 use super::extent::Bounds;
 use super::front::KeyQueue;
@@ -28,43 +28,45 @@ const NO_WINDOW: u32 = u32::MAX;
 /// Estimated depth of a window, as the fall of the potential in nepers (natural logarithm).
 const WINDOW_DEPTH: f64 = 64.0;
 
-/// A value is accepted if the missing part is at most this fraction of it.
+/// Greatest missing part of an accepted value, as a fraction of the value.
 const NEGLIGIBLE_SHARE: f64 = f64::EPSILON / 4.0;
 
-/// Values below this fraction of the greatest are postponed to a later window, in which they are large. Far above the least
-/// double.
+/// Least value that a window accepts, as a fraction of its greatest value. Smaller values wait for a later window, in
+/// which they are large. It is far above the least double.
 const MIN_VALUE_SHARE: f64 = 1e-200;
 
-/// A window without more room than this is eliminated: a maze.
+/// Greatest room (`Room::widest`) in a maze. Mazes are solved by elimination.
 const MAX_MAZE_ROOM: u32 = 3;
-/// A corridor is also eliminated up to this room. The factor fills with the square of the width.
+/// Greatest room in a corridor that is solved by elimination. The cost of elimination grows with the square of the
+/// width.
 const MAX_CORRIDOR_ROOM: u32 = 12;
 /// Largest number of cells for which a window always counts as a corridor.
 const SMALL_WINDOW_CELLS: usize = 2000;
-/// Largest number of cells of a corridor, as a multiple of its squared room. A window is 41 times as deep as the room,
-/// and twice as wide.
+/// Largest number of cells of a corridor, as a multiple of its squared room. In a corridor, a window is 41 times as
+/// long as the room, and twice as wide.
 const CORRIDOR_CELLS_PER_ROOM: usize = 128;
 
-/// Wide windows are refined down to this fraction of the greatest value.
+/// Least value that is refined in a wide window, as a fraction of the greatest value.
 const REFINEMENT_FLOOR: f64 = 1e-36;
-/// Values above this fraction of the greatest are then precise.
+/// Least value that is precise after refinement, as a fraction of the greatest value.
 const PRECISE_SHARE: f64 = 1e-30;
 
 /// The part of the potential that is known so far.
 pub(super) struct Peeling<'a> {
     component: &'a Component,
-    /// Weight of a walk's end at each step, beside the weight 1 of each neighbour.
+    /// Weight of a walk's end at each step; each neighbour has the weight 1.
     loss: f64,
     /// Estimated fall of the potential per cell, nepers, by the room around it.
     decay: Vec<f64>,
-    /// Room of each position; empty until windows are gathered.
+    /// Room of each position. Empty until the first window is gathered.
     room: Vec<u32>,
     pub potential: Potential,
     /// Number of unknown positions.
     unknown: usize,
-    /// Accepted positions that may have unknown neighbours, greatest value first. Keys are negated binary logarithms.
+    /// Accepted positions that may have unknown neighbours, the greatest value first. Keys are negated binary
+    /// logarithms of the values.
     front: KeyQueue,
-    /// Number of each position in the window, or [`NO_WINDOW`]; empty until windows are gathered.
+    /// Number of each position within the window, or [`NO_WINDOW`]. Empty until the first window is gathered.
     number: Vec<u32>,
     depth: f64,
     pub windows: usize,
@@ -72,13 +74,13 @@ pub(super) struct Peeling<'a> {
 
 /// Unknown cells whose values are computed together.
 struct Window {
-    /// Positions of its cells.
+    /// Positions of the window's cells.
     cells: Vec<u32>,
-    /// Positions of the accepted cells around which it was gathered.
+    /// Positions of the accepted cells around which the window was gathered.
     sources: Vec<u32>,
-    /// Exponent of its numbers.
+    /// Common exponent of the numbers in the window's equations.
     exponent: i32,
-    /// True if unknown cells were cut off.
+    /// True if unknown cells next to the window are not part of it.
     cut: bool,
     /// Greatest accepted value next to unknown cells beyond the window.
     beside: f64,
@@ -86,7 +88,7 @@ struct Window {
     greatest: f64,
 }
 
-/// Processing this many cells takes less than a millisecond.
+/// Number of cells that are processed between two checkpoints. This takes less than a millisecond.
 const CELLS_BETWEEN_CHECKPOINTS: usize = 4096;
 
 impl<'a> Peeling<'a> {
@@ -222,7 +224,7 @@ impl<'a> Peeling<'a> {
         self.potential.mantissa[position] > 0.0
     }
 
-    /// Iterates over the neighbours of a cell that are cells.
+    /// Iterates over the neighbours of a cell that are not walls.
     fn around(&self, position: usize) -> impl Iterator<Item = usize> + use<'a> {
         let wall = self.component.wall();
         self.component.neighbors(position).into_iter().filter(move |&n| n != wall)
@@ -290,8 +292,8 @@ impl<'a> Peeling<'a> {
         Some(Window { cells, sources, exponent, cut, beside, greatest })
     }
 
-    /// Builds the window's equations. The first side is for the known values around it, the second for 1 at the cut-off
-    /// cells.
+    /// Builds the window's equations. The first right-hand side has the known values around the window, and the second
+    /// has 1 at the cells where the window was cut off.
     fn network(&self, window: &Window) -> Network {
         let mut network = Network::new(window.cells.len());
         for (i, &position) in window.cells.iter().enumerate() {
@@ -311,7 +313,7 @@ impl<'a> Peeling<'a> {
         network
     }
 
-    /// Builds the same equations on the smallest box around the cells.
+    /// Builds the same equations as [`Self::network`], on the smallest box around the cells.
     fn wide(&self, window: &Window) -> Option<WideSystem> {
         let mut bounds = Bounds::new();
         for &position in &window.cells {
@@ -376,7 +378,7 @@ impl<'a> Peeling<'a> {
         taken
     }
 
-    /// Queues a position to continue from, if it is known and a neighbour is not.
+    /// Queues a position from which the next window may start: its value is known, and that of a neighbour is not.
     fn push_front(&mut self, position: u32) {
         if self.is_known(position as usize) && self.is_front(position as usize) {
             let log2 = self.potential.at(position as usize).log2();

@@ -1,16 +1,17 @@
-//! Positive numbers of unbounded range.
+//! Positive numbers of practically unlimited range, and potentials of such numbers.
 
 use super::Component;
 
-/// The exponent counts steps of this many binary orders. Neighbours mostly share an exponent and can be averaged as
-/// plain doubles.
+/// Binary logarithm of the base of exponents. The base is so large that neighbours mostly have the same exponent, and
+/// can be averaged as plain doubles.
 const EXPONENT_STEP: i32 = 256;
-/// One scale step down, `2^-EXPONENT_STEP`.
+/// Factor `2^-EXPONENT_STEP`, which lowers the exponent by 1.
 const STEP_DOWN: f64 = f64::from_bits(((1023 - EXPONENT_STEP) as u64) << 52);
-/// One scale step up, `2^EXPONENT_STEP`.
+/// Factor `2^EXPONENT_STEP`, which raises the exponent by 1.
 const STEP_UP: f64 = f64::from_bits(((1023 + EXPONENT_STEP) as u64) << 52);
-/// A mantissa within `2^-192 ..= 2^192` keeps its exponent. This range is wider than a step, so values near a boundary
-/// do not alternate. Products and sums of a chunk of cells stay within the range of doubles.
+/// Least mantissa of a normalized number; the greatest is its reciprocal, `2^192`. This range is wider than the base,
+/// so values near a boundary do not alternate between two exponents. Products and sums of several cells stay within the
+/// range of doubles.
 const MIN_MANTISSA: f64 = f64::from_bits((1023 - 192) << 52);
 const MAX_MANTISSA: f64 = f64::from_bits((1023 + 192) << 52);
 
@@ -61,13 +62,13 @@ impl ScaledNumber {
     }
 }
 
-/// A positive value for every position of a [`Component`], and zero for the wall. Each has its own exponent, so the
-/// relative precision is that of doubles, however far the goal is.
+/// A positive value for every position of a [`Component`], and 0 for walls. Each value has its own exponent, so it has
+/// the relative precision of doubles, however far the goal is.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Potential {
-    /// Mantissa per position. The last one is the wall's 0.
+    /// Mantissa at each position, and then 0 for walls.
     pub(super) mantissa: Vec<f64>,
-    /// Exponent per position; empty while all values are 0. The wall has none.
+    /// Exponent at each position, without walls. Empty while all values are 0.
     exponent: Vec<i32>,
 }
 

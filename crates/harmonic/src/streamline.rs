@@ -1,4 +1,4 @@
-//! Steepest ascent of a harmonic potential between the cells.
+//! Steepest ascent of a harmonic potential along its gradient.
 
 use super::{Component, Guide, Place, Potential};
 
@@ -37,7 +37,8 @@ impl<F: Fn(Place) -> Option<usize>> Guide for PotentialGuide<'_, F> {
     fn slope(&self, place: Place) -> Option<[f64; 2]> {
         let position = (self.at)(place).filter(|&position| position >= self.component.goals)?;
         let here = self.potential.at(position);
-        // As doubles with a common scale, so that quotients are correct for numbers outside the range of doubles.
+        // Convert to doubles with a common scale, so that quotients are correct for numbers outside the range of
+        // doubles.
         let around = self.component.neighbors(position).map(|n| self.potential.at(n));
         let [down, up, left, right] = around
             .map(|value| if value.mantissa == 0.0 { 0.0 } else { value.mantissa_at(here.exponent) / here.mantissa });

@@ -1,4 +1,4 @@
-//! Wide windows: multigrid, refined until every value has its relative precision.
+//! Solves wide windows by multigrid, and refines the solution until every value has its relative precision.
 //!
 //! A solve leaves an error that is small compared with the greatest value. The residual, in contrast, is known at each
 //! cell to a few roundings of the values *there*, because it is a sum of differences of neighbours. So the same solver
@@ -9,38 +9,39 @@ use super::extent::Extent;
 use super::network::RIGHT_SIDES;
 use cplan_multigrid::{Ends, Multigrid, Workspace};
 
-/// Relative residual below which a value is precise: half of the loss of walks per step ([`WALK_LOSS`](super::laplace::WALK_LOSS)
-/// over four neighbours), so that the loss outweighs it, and many roundings.
+/// Relative residual below which a value is precise. It is half of the loss of walks per step, which is a quarter of
+/// [`WALK_LOSS`](super::laplace::WALK_LOSS), so that the loss outweighs it. It is also many roundings.
 const PRECISE_RESIDUAL: f64 = 64.0 * f64::EPSILON;
 
-/// Relative residual below which a cell needs no correction. A correction rounds by about 2 units in the last place,
-/// far less than the gap to [`PRECISE_RESIDUAL`]. Without the gap, each round would lift some of the many cells just below the
-/// bound above it, and windows of 10^5 cells would never converge.
+/// Relative residual below which a cell needs no correction. Rounding of a correction is about 2 units in the last
+/// place, far less than the gap to [`PRECISE_RESIDUAL`]. Without this gap, each round would move some of the many cells
+/// just below the bound across it, and windows of 10^5 cells would never converge.
 const SETTLED_RESIDUAL: f64 = PRECISE_RESIDUAL / 4.0;
 
-/// Unknowns in a box of cells: `(4 + loss) u = source + sum of the neighbours' u`. Cells of the box that are not
-/// unknowns count as 0.
+/// The equations `(4 + loss) u = source + sum of the neighbours' u` for the unknowns in a box of cells. Other cells of
+/// the box count as 0.
 #[derive(Debug, Clone)]
 pub(super) struct WideSystem {
     pub extent: Extent,
-    /// Additional weight beside the four neighbours.
+    /// Weight of a walk's end at each step; each neighbour has the weight 1.
     loss: f64,
     /// True at the places in the box that are unknowns.
     free: Vec<bool>,
-    /// Sums of known values around each unknown that has any: the potential, and 1 at cut-off cells.
+    /// For each right-hand side, the sum of known values around each unknown next to such values: of the potential, and
+    /// of 1 at cells where the window was cut off.
     sources: [Vec<(u32, f64)>; RIGHT_SIDES],
 }
 
-/// Both sides for each place in the box. A side that is 0 everywhere is empty.
+/// The solutions for both right-hand sides at each place in the box. A solution that is 0 everywhere is an empty list.
 pub(super) struct Values([Vec<f64>; RIGHT_SIDES]);
 
-/// Error of a round, relative to the greatest correction: as much as single precision gains in a few steps.
+/// Error of a round, relative to the greatest correction. In single precision, a few steps reach it.
 const ROUND_ERROR: f64 = 1e-8;
 
-/// Largest number of rounds of refinement. Each gains several of at most 36 digits.
+/// Largest number of rounds of refinement. Each round gains several digits, and at most 36 are needed.
 const MAX_ROUNDS: usize = 24;
 
-/// Error of the second side, which is not refined. It exceeds the error of a round.
+/// Assumed error of the solution for the second right-hand side, which is not refined. It exceeds the error of a round.
 const SHARE_ERROR: f64 = 1e-7;
 
 impl WideSystem {
@@ -71,8 +72,10 @@ impl WideSystem {
         }
     }
 
-    /// Solves for both sides at each place. The first is precise down to `floor`, or down to its value at the place
-    /// `above`; the second is within [`SHARE_ERROR`] of 1. Returns `None` if the refinement does not converge.
+    /// Solves for both right-hand sides. The first solution is precise down to `floor`, or down to its value at the
+    /// place
+    /// `above`. The second has an absolute error of at most [`SHARE_ERROR`]. Returns `None` if the refinement does not
+    /// converge.
     pub fn solve(&self, floor: f64, above: Option<usize>) -> Option<Values> {
         let inner = Multigrid::new(self.extent.cells, self.extent.ends, &self.free, 0.0);
         let mut workspace = inner.workspace();
@@ -82,7 +85,7 @@ impl WideSystem {
         Some(Values([u, e]))
     }
 
-    /// Returns both sides at a place in the box. The second is an upper bound.
+    /// Returns both solutions at a place in the box. The second is an upper bound.
     pub fn at(&self, Values([u, e]): &Values, at: usize) -> [f64; RIGHT_SIDES] {
         [u.get(at).copied().unwrap_or(0.0), e.get(at).copied().unwrap_or(0.0) + SHARE_ERROR]
     }
@@ -154,8 +157,8 @@ impl WideSystem {
     }
 }
 
-/// Returns zeros that are in memory. Zero pages of the system that are read before they are written would be mapped
-/// twice.
+/// Returns a list of zeros that is already in memory. The system would map pages of zeros twice if they were read
+/// before they are written.
 fn written(len: usize) -> Vec<f64> {
     let mut zeros = Vec::with_capacity(len);
     zeros.resize(len, 0.0);

@@ -1,30 +1,31 @@
-//! Corners cut short by parabolas.
+//! Blends: parabolas that round the corners of a path.
 
 use cplan_core::space::{Configuration, Path};
 use cplan_handling::Piece;
 
-/// Greatest deviation of a motion from a blend's parabola, in each joint, as a share of the radius. Certificates hold
-/// for all of this tube, so they also cover readers that join a motion's samples by cubics.
+/// Greatest deviation of a motion from a blend's parabola, in each joint, as a share of the blend's radius.
+/// Certificates hold for this whole tube around the parabola, so they also cover readers that join samples by cubics.
 pub const BLEND_TOLERANCE: f64 = 1e-6;
 
 /// Number of points of a blend in pictures.
 const POINTS_PER_BLEND: u8 = 12;
 
-/// A parabola that leaves one straight piece at `from` and joins the next at `to`, tangent to both: the quadratic Bézier
-/// curve with the corner for its middle control point. Both ends are equally far from the corner.
+/// A parabola that leaves one straight piece at `from` and joins the next at `to`, tangent to both pieces. It is the
+/// quadratic Bézier curve whose middle control point is the corner. Both ends are equally far from the corner.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Blend {
-    /// The point where it leaves the first leg.
+    /// The point where the blend leaves the first leg.
     pub from: Configuration,
-    /// The point where the legs meet; not on the curve.
+    /// The point where the legs meet. It is not on the curve.
     pub corner: Configuration,
-    /// The point where it joins the second leg.
+    /// The point where the blend joins the second leg.
     pub to: Configuration,
 }
 
 impl Blend {
-    /// Cuts the corner of the legs `before`-`corner` and `corner`-`after`, from `radius` before it to `radius` after
-    /// it. The radius is positive and no longer than either leg.
+    /// Makes the blend of the corner between the legs `before`-`corner` and `corner`-`after`. Its ends are at the
+    /// distance
+    /// `radius` from the corner. The radius is positive and not longer than either leg.
     #[must_use]
     pub fn new([before, corner, after]: [Configuration; 3], radius: f64) -> Self {
         let toward = |end: Configuration| corner + (end - corner) * (radius / (end - corner).norm());
@@ -37,7 +38,7 @@ impl Blend {
         (self.corner - self.from).norm()
     }
 
-    /// Returns the point at a share of the curve; exact at the ends.
+    /// Returns the point at a share `u` of the curve. It is exact at both ends.
     #[must_use]
     pub fn at(&self, u: f64) -> Configuration {
         let mix = |a: Configuration, b: Configuration| a * (1.0 - u) + b * u;
@@ -57,12 +58,12 @@ impl Blend {
 pub enum Stretch {
     /// A straight piece between two corners or their blends.
     Line {
-        /// The configuration at which it begins.
+        /// The configuration at which the piece begins.
         from: Configuration,
-        /// The configuration at which it ends.
+        /// The configuration at which the piece ends.
         to: Configuration,
     },
-    /// Around a corner.
+    /// A blend, which rounds a corner.
     Blend(Blend),
 }
 
@@ -70,7 +71,7 @@ pub enum Stretch {
 #[derive(Debug, Clone, PartialEq)]
 pub struct BlendedPath {
     path: Path,
-    /// The radius at each waypoint; 0 where the motion stops at the corner, and at both ends.
+    /// Radius of the blend at each waypoint; 0 where the motion stops at the corner, and at both ends of the path.
     radii: Vec<f64>,
 }
 
@@ -88,7 +89,7 @@ impl BlendedPath {
         &self.path
     }
 
-    /// Returns the radius of each waypoint's blend, in joint units (mixing radians and metres); 0 without one.
+    /// Returns the radius of the blend at each waypoint, in joint space (radians and metres mixed); 0 if there is none.
     #[must_use]
     pub fn radii(&self) -> &[f64] {
         &self.radii
@@ -118,7 +119,7 @@ impl BlendedPath {
         self
     }
 
-    /// Appends another path that starts at its end, with a corner between them.
+    /// Appends another path, which starts where this one ends, with a corner between the two.
     #[must_use]
     pub fn then(self, next: &BlendedPath) -> Self {
         let waypoints = self.path.waypoints().iter().chain(next.path.waypoints()).copied().collect();

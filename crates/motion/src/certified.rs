@@ -1,4 +1,4 @@
-//! Corners cut short as far as the clearance allows.
+//! Rounds the corners of certified paths as far as the clearance allows.
 
 use super::blend::{BLEND_TOLERANCE, Blend, BlendedPath};
 use super::span::along;
@@ -7,36 +7,38 @@ use cplan_core::model::Scene;
 use cplan_core::space::Path;
 use cplan_handling::Piece;
 
-/// Share of the excess clearance that remains when corners are cut: half, so that a motion on blends is proven to keep
-/// at least half the distance of the straight path.
+/// Share of the clearance in excess of the required one that remains when corners are rounded. It is one half, so that
+/// a motion on blends is proven to keep at least half the distance of the straight path.
 const KEPT_CLEARANCE_SHARE: f64 = 0.5;
 
-/// Share of an inner leg that the blend at either end of it may take; the part between them stays straight.
+/// Greatest share of an inner leg that a blend at one of its ends may take. The part between the two blends stays
+/// straight.
 const INNER_LEG_SHARE: f64 = 0.45;
 
-/// Share of the first and the last leg, which have a blend at one end only.
+/// Greatest share of the first and the last leg that a blend may take. These legs have a blend at one end only.
 const END_LEG_SHARE: f64 = 0.9;
 
-/// Number of halvings of a radius before the corner stays a corner. The speed on a blend grows with the root of its
-/// radius, so the last one tried saves a hundredth of the time of the first.
+/// Number of times that a radius is halved before the corner stays a corner. The speed on a blend grows with the root
+/// of its radius, so the smallest blend saves a hundredth of the time that the largest would save.
 const MAX_RADIUS_HALVINGS: u32 = 13;
 
-/// Number of tries between the first certified radius and the one before it.
+/// Number of further radii that are tried between the first certified radius and the refused one before it.
 const RADIUS_REFINEMENTS: u32 = 2;
 
-/// Number of checks per pair of shapes after which a blend counts as not certified. Blends at a clear distance need
-/// some ten, and a smaller blend costs little.
+/// Number of checks per pair of shapes after which a blend counts as not certified. A blend at a clear distance needs
+/// about ten checks, and trying a smaller blend costs little.
 const MAX_CHECKS_PER_BLEND: usize = 64;
 
-/// A path with blended corners whose whole motion is proven to be within the joint limits and to keep its clearance.
-/// That holds on the straight legs up to their corners, on the blends, and anywhere within [`BLEND_TOLERANCE`] of these. If a
-/// motion rounds the corners by another curve, it holds on that curve. Only [`blend`] and [`Rounding`] make either.
+/// A path with rounded corners. The whole motion is proven to be within the joint limits and to keep its clearance: on
+/// the straight legs up to their corners, on the blends, and within [`BLEND_TOLERANCE`] of these. If the motion rounds
+/// the corners by other curves than blends, this is proven for these curves. Only [`blend`] and [`Rounding`] round
+/// corners.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CertifiedCurve {
     curve: BlendedPath,
     /// The straight path, with the clearance of the whole motion.
     straight: CertifiedPath,
-    /// For corners that are not rounded by parabolas: the extents of the rounding, and a polyline for pictures.
+    /// For corners that other curves than blends round: the extents of the rounding, and a polyline for pictures.
     driven: Option<(Vec<f64>, Path)>,
 }
 
@@ -61,22 +63,22 @@ impl CertifiedCurve {
         self.driven.as_ref().map_or_else(|| self.curve.radii(), |(radii, _)| radii)
     }
 
-    /// Returns the proven lower bound on the distance between arm and obstacles, metres, along the blends and along the
-    /// straight legs all the way to their corners; infinite if nothing can meet. Never less than the required
+    /// Returns a proven lower bound on the distance between arm and obstacles, metres, along the blends and along the
+    /// straight legs up to their corners. It is infinite if no shapes can meet, and never less than the required
     /// clearance.
     #[must_use]
     pub fn clearance(&self) -> f64 {
         self.straight.clearance()
     }
 
-    /// Returns the place where the motion comes nearest to an obstacle, as far as the search looked; `None` if nothing
-    /// can meet.
+    /// Returns the place nearest to an obstacle, among the places that the search examined. `None` if no shapes can
+    /// meet.
     #[must_use]
     pub fn nearest(&self) -> Option<Nearest> {
         self.straight.nearest()
     }
 
-    /// Returns the straight path, which is proven up to its corners.
+    /// Returns the straight path, which is proven free up to its corners.
     #[must_use]
     pub fn straight(&self) -> &CertifiedPath {
         &self.straight
@@ -88,7 +90,7 @@ impl CertifiedCurve {
         self.driven.as_ref().map_or_else(|| self.curve.outline(), |(_, outline)| outline.clone())
     }
 
-    /// Returns this motion followed by another one that begins where this ends, at rest between them.
+    /// Returns this motion followed by another one that begins where this one ends. The arm is at rest between them.
     #[must_use]
     pub fn then(self, next: &Self) -> Self {
         let driven = (self.driven.is_some() || next.driven.is_some()).then(|| {
@@ -99,7 +101,8 @@ impl CertifiedCurve {
         Self { curve: self.curve.then(&next.curve), straight: self.straight.then(&next.straight), driven }
     }
 
-    /// Returns the same motion with this proven distance from moving obstacles, and the nearest place among them.
+    /// Returns the same motion with the proven distance `clearance` from moving obstacles, and the nearest place to
+    /// them. They replace the motion's own if they are nearer.
     #[must_use]
     pub fn among_movers(self, clearance: f64, nearest: Option<Nearest>) -> Self {
         let known = self.nearest();
@@ -108,21 +111,23 @@ impl CertifiedCurve {
         Self { straight: self.straight.within(clearance, nearest), ..self }
     }
 
-    /// Returns the same motion without the blend at an inner waypoint: the legs are proven up to the corner.
+    /// Returns the same motion without the blend at an inner waypoint. This needs no proof, because the legs are proven
+    /// up to the corner.
     #[must_use]
     pub fn without(self, waypoint: usize) -> Self {
         Self { curve: self.curve.with(waypoint, 0.0), ..self }
     }
 }
 
-/// Cuts the corners of a certified path by parabolas, each as large as the certificate allows. A blend begins and ends
-/// at most `greatest` from its corner (in joint units, radians and metres; infinite for no such bound). It takes at
-/// most 0.45 of a leg (0.9 of the first and the last). It keeps more than half of the path's clearance in excess of
-/// `clearance`. A radius that is not certified is halved; after some halvings the corner stays. Corners without a turn
-/// are blended too: the blend is straight then.
+/// Rounds the corners of a certified path by blends, each as large as can be certified. The radius of a blend is at
+/// most
+/// `greatest` (in joint space, radians and metres mixed; infinite for no limit), and at most 0.45 of each leg (0.9 of
+/// the first and the last leg). The motion keeps more than half of the path's clearance in excess of `clearance`. A
+/// radius that is not certified is halved. After some halvings the corner stays. A corner without a turn gets a
+/// straight blend.
 ///
-/// Blends lie in the triangle of their control points, so joint limits need no check. Each blend is judged by the same
-/// bisection as a straight piece, with the tube about its chord for the deviation.
+/// A blend lies in the triangle of its control points, so joint limits need no check. Each blend is judged by the same
+/// bisection as a straight piece, with a tube around the blend's chord.
 #[must_use]
 pub fn blend(scene: &Scene, path: &CertifiedPath, greatest: f64, clearance: f64) -> CertifiedCurve {
     let q = path.path().waypoints();
@@ -156,12 +161,12 @@ pub fn blend(scene: &Scene, path: &CertifiedPath, greatest: f64, clearance: f64)
     blended
 }
 
-/// Judges a piece of a motion with a tube of half width `beside` in each joint.
+/// Judges a tube around a piece of a motion, with the half width `beside` in each joint.
 fn follow(search: &mut CurveSearch, vicinity: &Vicinity, piece: &Piece, beside: f64) -> Result<(), Rejection> {
     search.curve(vicinity, |middle: f64, half: f64| along(piece, middle - half, middle + half, beside))
 }
 
-/// Returns the distance that motions must keep if they leave a path at its corners.
+/// Returns the distance, metres, that a motion must keep if it leaves the path at corners.
 fn required(path: &CertifiedPath, clearance: f64) -> f64 {
     clearance + KEPT_CLEARANCE_SHARE * (path.clearance() - clearance)
 }
@@ -170,7 +175,7 @@ fn required(path: &CertifiedPath, clearance: f64) -> f64 {
 /// straight piece may slide along an obstacle at a tiny distance.
 const MAX_CHECKS_PER_PIECE: usize = 2048;
 
-/// A judge of motions that round the corners of a path by any curve.
+/// Judges motions that round the corners of a path by any curve.
 pub struct Rounding<'a> {
     scene: &'a Scene,
     vicinity: Vicinity<'a>,
@@ -179,8 +184,8 @@ pub struct Rounding<'a> {
 }
 
 impl<'a> Rounding<'a> {
-    /// Creates a judge of motions. They must keep more than half of the path's clearance in excess of `clearance`, as
-    /// blends do.
+    /// Creates the judge. Motions must keep more than half of the path's clearance in excess of `clearance`, same as
+    /// blends.
     #[must_use]
     pub fn new(scene: &'a Scene, path: &'a CertifiedPath, clearance: f64) -> Self {
         Self { scene, vicinity: Vicinity::new(scene), path, required: required(path, clearance) }
@@ -197,7 +202,7 @@ impl<'a> Rounding<'a> {
         (0..pieces.len()).filter(|&i| is_open(&pieces[i])).collect()
     }
 
-    /// Returns the path with a motion that rounds its corners, with these extents (see [`CertifiedCurve::radii`]);
+    /// Certifies a motion that rounds the corners of the path with these extents (see [`CertifiedCurve::radii`]).
     /// `None` if the motion is not shown to be free. Joint limits are not checked.
     #[must_use]
     pub fn certified(&self, radii: Vec<f64>, pieces: &[Piece]) -> Option<CertifiedCurve> {
@@ -212,7 +217,7 @@ impl<'a> Rounding<'a> {
     }
 }
 
-/// Returns the result for the largest radius up to `most` that is accepted, among those tried.
+/// Returns the result of `judge` for the largest accepted radius, up to `most`, among those that are tried.
 fn largest<T>(most: f64, judge: impl Fn(f64) -> Option<T>) -> Option<T> {
     let mut refused = f64::INFINITY;
     let mut radius = most;

@@ -1,15 +1,15 @@
-//! The clock of a motion: whole nanoseconds, in which ROS counts.
+//! The clock of a motion: times are whole nanoseconds, as in ROS.
 //!
-//! Samples lie on this grid, and positions and velocities are those at that exact nanosecond, so no format needs to
-//! round times. In a cubic between samples `h` seconds apart, half a nanosecond would change the acceleration by `3e-9
-//! v / h^2`.
+//! Each sample is at a whole nanosecond, with the position and velocity of exactly that time. So no format needs to
+//! round times. Rounding a time by half a nanosecond would change the acceleration of a cubic between samples `h`
+//! seconds apart by `3e-9 v / h^2`.
 
 use cplan_geometry::Interval;
 
 /// Nanoseconds in a second.
 pub(super) const NANOSECONDS_PER_SECOND: u64 = 1_000_000_000;
 
-/// Rounding error of a computed time, relative to it, which rounding up ignores.
+/// Relative rounding error of a computed time. A smaller excess over a whole nanosecond is not rounded up.
 const TIME_SLACK: f64 = 8.0 * f64::EPSILON;
 
 /// Returns seconds as nanoseconds, rounded to the nearest. Exact for all times below [`super::MAX_DURATION`], whose
@@ -23,7 +23,8 @@ pub fn seconds(nanoseconds: u64) -> f64 {
     nanoseconds as f64 / NANOSECONDS_PER_SECOND as f64
 }
 
-/// Times from here on are not rounded, seconds: no motion lasts so long, and doubles cannot count their nanoseconds.
+/// Greatest time that is rounded, seconds. No motion lasts longer, and doubles cannot represent the nanoseconds of
+/// longer times.
 const MAX_ROUNDED_TIME: f64 = 1e6;
 
 /// Rounds a time up to a whole nanosecond, in seconds.
@@ -80,7 +81,7 @@ mod tests {
         assert!(whole_nanoseconds(f64::INFINITY).is_infinite());
     }
 
-    /// Rounding to the nearest nanosecond would put this window's beginning before it, and its end after it.
+    /// In this test, rounding to the nearest nanosecond would move both ends of the interval outwards.
     #[test]
     fn times_are_rounded_into_intervals() {
         let [from, to] = [0.720_956_725_469_559_8, 0.820_956_725_669_559_8];

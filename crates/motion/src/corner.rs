@@ -6,11 +6,12 @@
 //! second derivative of `s` by time is constant. So `z = (ds/dt)^2` is linear in `s`, and with the values `z0` and `z1`
 //! at a span's ends (a point in the phase plane each):
 //!
-//! - a joint's acceleration `q'' z + q' z' / 2` is linear in `s`: it keeps its limit if it does at both ends of the span;
-//! - its squared velocity `q'^2 z` is a cubic in `s`, which keeps its limit if its Bernstein coefficients do;
-//! - the tip keeps its limit if `z` keeps a bound that holds all over the span, which it does if it keeps it at both ends;
+//! - A joint's acceleration `q'' z + q' z' / 2` is linear in `s`. It is within its limit if it is at both ends of the
+//!   span.
+//! - A joint's squared velocity `q'^2 z` is a cubic in `s`. It is within its limit if its Bernstein coefficients are.
+//! - The tip's speed is within its limit if `z` is below a bound for the whole span. It is if it is at both ends.
 //!
-//! and all of these are linear in `z0` and `z1`. `q(t)` is a polynomial of the fourth degree on each span.
+//! All these conditions are linear in `z0` and `z1`. On each span, `q(t)` is a polynomial of degree four.
 
 use super::clock::reserve;
 use super::limits::Limits;
@@ -32,40 +33,40 @@ const MAX_SPANS: usize = 256;
 /// Number of parts into which each span is cut when more spans are tried.
 const PARTS_PER_SPAN: usize = 4;
 
-/// ... up to this number.
+/// Largest number of spans when more spans are tried.
 const MAX_TRIED_SPANS: usize = 1024;
 
-/// Greatest change of a joint's acceleration over a span, as a share of its limit, if more spans can reduce it. Half of
-/// the change is lost where the limit is reached at one end of the span.
+/// Greatest change of a joint's acceleration over a span, as a share of its limit, with which spans are not cut
+/// further. If the limit is reached at one end of a span, half of the change is lost.
 const MAX_ACCELERATION_STEP: f64 = 0.1;
 
-/// Greatest change of the speed over a span, as a share of it. Where acceleration and deceleration meet within a span,
-/// half of the change is lost.
+/// Greatest change of the speed over a span, as a share of the speed, with which spans are not cut further. If
+/// acceleration turns into deceleration within a span, half of the change is lost.
 const MAX_SPEED_STEP: f64 = 0.1;
 
-/// Share of the limits that stays unused on a blend, so that the cubic through positions and velocities of two samples,
-/// which many controllers use, also keeps them. [`reserve`] adds a little.
+/// Share of the limits that stays unused on a blend, so that cubics through the positions and velocities of samples,
+/// which many controllers use, are also within the limits. [`reserve`] adds a little.
 const LIMIT_RESERVE: f64 = 1e-3;
 
 /// Largest number of spans if torques are limited.
 const MAX_TORQUE_SPANS: usize = 1024;
 
-/// A blend with its timing; or a straight stretch, treated as a blend of two equal directions, if its limits on speed
-/// and acceleration vary along it.
+/// A blend, cut into spans for its timing. A straight stretch along which limits vary is treated in the same manner, as
+/// a blend of two equal directions.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Corner {
     blend: Blend,
     radius: f64,
     directions: [Configuration; 2],
     spans: usize,
-    /// Bound on the speed of the parameter.
+    /// Upper bound on the speed of the parameter.
     fastest: f64,
-    /// Share of the speed that the limits allow.
+    /// Share of the speed allowed by the limits at which the blend is passed.
     share: f64,
 }
 
-/// Returns the least duration, in seconds, of a blend with this many spans. Each span lasts at least the least interval
-/// between samples, although one may be passed several times as fast as the others.
+/// Returns the least duration, seconds, of a blend with this many spans. Each span must last at least the least
+/// interval between samples, although some spans are passed several times as fast as others.
 fn shortest(spans: usize) -> f64 {
     8.0 * MIN_INTERVAL * spans as f64
 }
@@ -101,13 +102,13 @@ impl Corner {
         LIMIT_RESERVE + reserve(span.clamp(MIN_INTERVAL, MIN_PERIODIC_INTERVAL))
     }
 
-    /// Returns the corner with twice the spans, if they are too coarse for these squared speeds at their ends.
+    /// Returns the corner with twice as many spans, if the spans are too coarse for these squared speeds at their ends.
     pub(super) fn finer(&self, squared_speeds: &[f64], limits: &Limits) -> Option<Self> {
         let bend = self.second_derivative();
         let coarse = squared_speeds.windows(2).enumerate().any(|(i, z)| {
             let step = (z[1] - z[0]).abs();
-            // With a constant second derivative of the parameter, q'' z + q' z' / 2 changes by three halves of q'' times
-            // the change of z.
+            // With a constant second derivative of the parameter, q'' z + q' z' / 2 changes by three halves of q''
+            // times the change of z.
             (0..2).any(|k| 1.5 * bend[k].abs() * step > MAX_ACCELERATION_STEP * limits.acceleration[k])
                 || (!self.is_straight() && step > 2.0 * MAX_SPEED_STEP * z[0].max(z[1]))
                 || limits
@@ -119,7 +120,7 @@ impl Corner {
         if coarse { self.cut(2, most, squared_speeds) } else { None }
     }
 
-    /// Returns the corner with several times the spans, regardless of need.
+    /// Returns the corner with several times as many spans, even if they are fine enough.
     pub(super) fn much_finer(&self, squared_speeds: &[f64]) -> Option<Self> {
         self.cut(PARTS_PER_SPAN, MAX_TRIED_SPANS, squared_speeds)
     }
@@ -149,7 +150,7 @@ impl Corner {
         self.directions[0] * (1.0 - u) + self.directions[1] * u
     }
 
-    /// Returns a span in the form used for the tip's limit.
+    /// Returns a span as a part of a curve, for the limits on the tip and on torques.
     fn part(&self, span: usize) -> Part {
         let middle = (span as f64 + 0.5) / self.spans as f64;
         Part {
@@ -172,7 +173,7 @@ impl Corner {
             for k in 0..2 {
                 let (acceleration, velocity) = (left * limits.acceleration[k], (left * limits.velocity[k]).powi(2));
                 let [p, q] = ends.map(|end| end[k]);
-                // q'' z + q' (z1 - z0) / (2 step) at the first end and at the second, either way.
+                // q'' z + q' (z1 - z0) / (2 step) at the first end and at the second, in both directions.
                 let [at_first, at_second] = [p, q].map(|slope| slope / (2.0 * step));
                 for row in [[bend[k] - at_first, at_first], [-at_second, bend[k] + at_second]] {
                     let row = row.map(|c| c / acceleration);
@@ -202,8 +203,8 @@ impl Corner {
         squared_speeds.windows(2).enumerate().map(phase).collect()
     }
 
-    /// Returns the longest interval between samples within a phase for which the cubic through positions and velocities
-    /// keeps the limits and stays within [`BLEND_TOLERANCE`] of the blend.
+    /// Returns the longest interval between samples in a phase for which the cubic through positions and velocities
+    /// is within the limits, and within [`BLEND_TOLERANCE`] of the blend.
     ///
     /// For a motion with a constant fourth derivative `d`, the error of the cubic is at most `d h^4 / 384` in position,
     /// `d h^3 / (72 sqrt 3)` in velocity and `d h^2 / 12` in acceleration. If `a` is the second derivative of the
@@ -221,7 +222,7 @@ impl Corner {
         longest(0).min(longest(1)).max(2.0 * MIN_INTERVAL)
     }
 
-    /// Returns position, velocity and acceleration of the joints.
+    /// Returns the joints' position, velocity and acceleration in a state.
     pub(super) fn at(&self, state: State) -> [Configuration; 3] {
         let State { distance, speed, acceleration } = state;
         let u = (distance / self.length()).clamp(0.0, 1.0);
@@ -237,20 +238,20 @@ impl Corner {
     }
 }
 
-/// Squared speeds `z0`, `z1` at the ends of a span: neither is negative, and `a z0 + b z1 <= 1` for each row `[a, b]`. A
-/// convex set that holds a neighbourhood of 0 in the quadrant.
+/// The feasible squared speeds `z0` and `z1` at the ends of a span: neither is negative, and `a z0 + b z1 <= 1` for
+/// each row `[a, b]`. This set is convex. It contains all small `z0` and `z1`.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Bounds {
-    /// The greatest `z0` by rows without `z1`.
+    /// The greatest `z0` that rows without `z1` allow.
     most: f64,
-    /// Intercept and slope of `z1` over `z0` for the rows that bound it from above.
+    /// Intercept and slope of `z1` over `z0`, for each row that bounds `z1` from above.
     above: Vec<[f64; 2]>,
-    /// ... and of those that bound it from below.
+    /// Intercept and slope of `z1` over `z0`, for each row that bounds `z1` from below.
     below: Vec<[f64; 2]>,
 }
 
-/// Rounding of a coefficient or of a squared speed, relative to the others: far above the one of doubles, far below
-/// [`LIMIT_RESERVE`].
+/// Relative rounding error that is assumed for coefficients and squared speeds. It is far greater than that of doubles,
+/// and far less than [`LIMIT_RESERVE`].
 const ROUNDING: f64 = 1e-12;
 
 impl Default for Bounds {
@@ -265,7 +266,7 @@ impl Extend<[f64; 2]> for Bounds {
     fn extend<T: IntoIterator<Item = [f64; 2]>>(&mut self, rows: T) {
         for [a, b] in rows {
             let line = [1.0 / b, -a / b];
-            // A second coefficient within rounding would make the result depend on rounding only.
+            // If the second coefficient is only rounding, ignore it: dividing by it would give a meaningless result.
             if b.abs() <= ROUNDING * a.abs() {
                 self.most = if a > 0.0 { self.most.min(1.0 / a) } else { self.most };
             } else if b > 0.0 {
@@ -285,16 +286,18 @@ impl Bounds {
 
     /// Returns the greatest `z0` for which a `z1` up to `most` exists.
     ///
-    /// The difference between the greatest and the least `z1` is a concave, piecewise linear function of `z0`, not
-    /// negative at 0. Newton's method from above ends at its root, after at most as many steps as there are pairs of
-    /// rows. The result is lowered by more than the rounding, so that [`Bounds::onward`] finds a feasible `z1`.
+    /// The difference between the greatest and the least `z1` is a concave, piecewise linear function of `z0`, and not
+    /// negative at 0. Newton's method from above ends at the root of this function, after at most as many steps as
+    /// there are pairs of rows. The result is lowered by more than the rounding, so that [`Bounds::onward`] finds a
+    /// feasible
+    /// `z1`.
     pub(super) fn back(&self, most: f64) -> f64 {
         let mut z0 = self.most;
         for _ in 0..=(self.above.len() + 1) * (self.below.len() + 1) {
             let (upper, lower) = (self.upper(z0, most), self.lower(z0));
             let (room, slope) = (upper.0 - lower.0, upper.1 - lower.1);
             let next = z0 - room / slope;
-            // Rounding ends the iteration, too.
+            // Rounding also ends the iteration.
             if room >= 0.0 || next.is_nan() || next >= z0 {
                 break;
             }

@@ -4,8 +4,9 @@ use super::Trajectory;
 use std::borrow::Cow;
 use std::fmt::Write;
 
-/// Writes the trajectory as CSV: a header `time,A,B,A_velocity,B_velocity` for joints `A` and `B`, then one line per
-/// sample. Adds `A_acceleration,B_acceleration` on request, and `A_torque,B_torque` if the trajectory has torques.
+/// Returns the trajectory as CSV: a header `time,A,B,A_velocity,B_velocity` for joints `A` and `B`, then one line per
+/// sample. There are also `A_acceleration,B_acceleration` on request, and `A_torque,B_torque` if the trajectory has
+/// torques.
 ///
 /// Fields are quoted by RFC 4180. Lines end in a single line feed, which every reader accepts and text tools prefer.
 /// Numbers have as many digits as needed to read back the same `f64`.

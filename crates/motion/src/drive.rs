@@ -1,4 +1,4 @@
-//! From a certified path to a motion: corners and time.
+//! Makes a motion in time along a certified path, with rounded corners.
 
 use super::schedule::duration_bound;
 use super::shape::ShapeSearch;
@@ -14,10 +14,11 @@ use std::cell::Cell;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Objective {
-    /// The length of the path; the motion is the fastest along it.
+    /// The length of the path. The motion is the fastest along the shortest path.
     #[default]
     Length,
-    /// The duration: candidate paths are compared by it, and the path gets the shape that makes the motion fast.
+    /// The duration of the motion. Candidate paths are compared by it, and the path gets the shape with the fastest
+    /// motion.
     Time,
 }
 
@@ -30,13 +31,13 @@ pub struct Drive {
     pub optimize: Objective,
     /// Time between two samples, seconds.
     pub period: f64,
-    /// Greatest distance from a corner at which the motion may leave the path to round it, in joint space; 0 to stop at
-    /// every corner, infinite to let the clearance and the path decide.
+    /// Greatest distance from a corner at which the motion may leave the path, in joint space. With 0, it stops at
+    /// every corner. If infinite, only the clearance and the path limit the distance.
     #[serde(with = "cplan_text::number")]
     pub blend: f64,
     /// Greatest speed of the tip, metres per second; `None` to limit only the joints.
     pub tip_speed: Option<f64>,
-    /// True to keep the joints within their efforts, even if the world does not ask for it.
+    /// True if the torques must be within the joints' efforts, even if the world does not require it.
     #[serde(default)]
     pub torque: bool,
 }
@@ -50,22 +51,22 @@ impl Default for Drive {
 }
 
 impl Drive {
-    /// Returns options with a stop at every corner, which are computed in a fraction of the time.
+    /// Returns the same options with a stop at every corner. Such motions are computed in a fraction of the time.
     #[must_use]
     pub fn stopping_at_corners(self) -> Self {
         Self { blend: 0.0, ..self }
     }
 
-    /// Returns a motion along a path at this share of the joints' top speeds (more than 0, at most 1), within the
-    /// scene's clearance: the fastest one by [`time`].
+    /// Returns the fastest motion along a path, by [`time`]. `speed` is the share of the joints' top speeds to use,
+    /// greater than 0 and at most 1. The motion keeps the scene's clearance.
     ///
     /// With limits on jerks, corners are moved off obstacles by the distance that makes the motion fastest, because a
     /// smooth motion needs room there. If the duration is to be minimal ([`Drive::optimize`]), the whole path gets the
     /// fastest shape.
     ///
     /// # Errors
-    /// A motion that is too long or has too many samples; joints whose efforts cannot hold the arm somewhere on the
-    /// path.
+    /// If the motion would last too long or have too many samples, or if the efforts of the joints cannot hold the arm
+    /// somewhere on the path.
     pub fn along(&self, scene: &Scene, path: &CertifiedPath, speed: f64) -> Result<TimedMotion, TimingError> {
         let tip = self.tip_speed.map(|speed| TipSpeed { arm: scene.arm(), speed });
         let torque = TorqueLimit::of(scene);
@@ -109,7 +110,7 @@ impl Drive {
                 found.push(refined);
             }
             if is_smooth {
-                // An initially slower path may become faster once it is driven along its own curve in the least time.
+                // A slower motion may become the faster one after it is driven along its own curve in the least time.
                 let retimed = |timed: &TimedMotion| {
                     let path = timed.curve.straight();
                     smoothed(scene, path, self.blend, limits, self.period, f64::INFINITY, true)

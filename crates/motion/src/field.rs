@@ -1,4 +1,4 @@
-//! The field that a planner followed, for the result.
+//! Describes in results the field that a planner followed.
 
 use serde::Serialize;
 
@@ -6,60 +6,60 @@ use serde::Serialize;
 /// the equation are omitted. The number of sweeps is among the sizes of the report.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct FieldReport {
-    /// `harmonic`, `oriented`, `local`, `bvp`, `bvp2` or `khatib`.
+    /// Name of the field: `harmonic`, `oriented`, `local`, `bvp`, `bvp2` or `khatib`.
     pub equation: &'static str,
-    /// Strength of the drift, per cell: everywhere, or outside of preference regions.
+    /// Strength of the drift, per cell: everywhere, or outside zones.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub epsilon: Option<f64>,
-    /// Direction of its drift in joint space, of length 1.
+    /// Direction of the drift in joint space, of length 1.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub direction: Option<[f64; 2]>,
-    /// `central` or `upwind`.
+    /// Discretisation of slopes: `central` or `upwind`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub difference: Option<&'static str>,
-    /// `jacobi`, `weighted-jacobi`, `gauss-seidel` or `sor`.
+    /// Relaxation: `jacobi`, `weighted-jacobi`, `gauss-seidel` or `sor`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub relaxation: Option<&'static str>,
-    /// `rows`, `columns`, `corners` or `red-black`.
+    /// Order of updates: `rows`, `columns`, `corners` or `red-black`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub order: Option<String>,
     /// Relaxation factor on the last grid.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub factor: Option<f64>,
-    /// `anisotropic`; left out if cells count as square.
+    /// `anisotropic` if the equation takes the shape of cells into account; omitted if cells count as square.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stencil: Option<&'static str>,
     /// Measure that must fall below the tolerance: `absolute`, `greatest`, `squares` or `sums`; omitted for the
     /// relative change.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub measure: Option<&'static str>,
-    /// Measure of a sweep's changes that counts as converged.
+    /// Tolerance: the field has converged when the measure falls below this.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tolerance: Option<f64>,
     /// Largest number of sweeps.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub max_sweeps: Option<usize>,
-    /// The GPU that relaxed it, by its name and interface; left out on the CPU.
+    /// Name and interface of the GPU that relaxed the field; omitted for the CPU.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub on: Option<&'static str>,
-    /// Pull of the goal.
+    /// Law of the attraction by the goal.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub attraction: Option<String>,
-    /// Push of the nearest obstacle.
+    /// Law of the repulsion by obstacles.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub repulsion: Option<String>,
     /// True if both forces pass through tanh.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub saturated: Option<bool>,
-    /// Method for leaving local minima, as on the command line; omitted if they end the search.
+    /// Method of leaving local minima, as on the command line; omitted if local minima end the search.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub escape: Option<String>,
-    /// Number of local minima left; omitted without `escape`.
+    /// Number of local minima that the path left; omitted without `escape`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub escaped: Option<usize>,
     /// Boundary condition at joint limits: `high` or `reflecting`.
     pub limits: &'static str,
-    /// True if the tolerance was reached; omitted without relaxation.
+    /// True if relaxation reached the tolerance; omitted for fields without relaxation.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub converged: Option<bool>,
 }

@@ -1,12 +1,12 @@
-//! File formats by extension.
+//! Formats of result files, by the extension of the file's name.
 
 use std::path::Path;
 use thiserror::Error;
 
-/// A format of result files. Features of the crate add some.
+/// A format of result files. Some formats need a feature of the crate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Format {
-    /// The whole report.
+    /// The whole result, as JSON.
     Json,
     /// The trajectory as a table.
     Csv,
@@ -17,7 +17,7 @@ pub enum Format {
     Mcap,
 }
 
-/// A file name without a known format.
+/// Reason why a file name gives no format.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum FormatError {
     /// The extension is unknown.
@@ -26,7 +26,7 @@ pub enum FormatError {
         /// The name as given.
         file: String,
     },
-    /// The format is one that this build of the program does not have.
+    /// This build of the program does not have the format MCAP.
     #[error("{file}: this program was built without MCAP; use .yaml, .csv or .json")]
     WithoutMcap {
         /// The name as given.
@@ -35,7 +35,7 @@ pub enum FormatError {
 }
 
 impl Format {
-    /// Returns the format for a file's extension; case does not matter.
+    /// Returns the format for the extension of a file's name, in upper or lower case.
     ///
     /// # Errors
     /// [`FormatError::Unknown`] for any other extension, or none; [`FormatError::WithoutMcap`] for `.mcap` without the

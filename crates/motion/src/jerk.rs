@@ -14,18 +14,18 @@ use super::clock::whole_nanoseconds;
 use super::profile::Phase;
 use rsruckig::prelude::{InputParameter, Ruckig, RuckigError, ThrowErrorHandler, Trajectory};
 
-/// For a jerk of 1 and a length of 1, from rest to rest, the greatest acceleration and speed are 0.79 and 0.63. Larger
-/// limits, even infinite ones, have no effect.
+/// Limit on speed and acceleration that stands for no limit. With a jerk of 1 and a length of 1, from rest to rest, the
+/// greatest acceleration is 0.79 and the greatest speed 0.63, so larger limits have no effect.
 const NO_LIMIT: f64 = 1.0;
 
 /// The times of a symmetric motion from rest to rest, seconds.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Times {
-    /// Duration of growing or shrinking acceleration; occurs four times.
+    /// Duration of a phase of growing or shrinking acceleration. There are four such phases.
     grow: f64,
-    /// Duration of constant acceleration; occurs twice.
+    /// Duration of a phase of constant acceleration. There are two such phases.
     hold: f64,
-    /// Duration of constant speed; occurs once.
+    /// Duration of the phase of constant speed.
     cruise: f64,
 }
 
@@ -72,7 +72,7 @@ fn fastest([speed, acceleration]: [f64; 2]) -> Result<Times, RuckigError> {
 }
 
 impl Times {
-    /// Lengthens the times to at least `shortest`, except those that are 0.
+    /// Lengthens each time that is not 0 to at least `shortest`.
     fn with_floor(self, shortest: f64) -> Self {
         let Self { mut grow, mut hold, mut cruise } = self;
         if hold < shortest {
@@ -108,7 +108,7 @@ impl Times {
     fn phases(&self, length: f64) -> Vec<Phase> {
         let &Self { grow, hold, cruise } = self;
         let [peak, _, jerk] = self.rates(length);
-        // So rounded, it ends at 0 exactly.
+        // With this rounding, the acceleration ends at exactly 0.
         let acceleration = jerk * grow;
         let (mut from, mut enter) = (0.0, 0.0);
         let ramp = [(grow, 0.0, jerk), (hold, acceleration, 0.0), (grow, acceleration, -jerk)];
@@ -121,7 +121,7 @@ impl Times {
         });
         let level =
             Phase { duration: cruise, from, to: length - from, enter: peak, leave: peak, acceleration: 0.0, jerk: 0.0 };
-        // The motion backwards: of the derivatives only the second changes its sign.
+        // Reverse the motion: of the derivatives, only the second changes its sign.
         let down = up.into_iter().rev().map(|phase| Phase {
             from: length - phase.to,
             to: length - phase.from,

@@ -4,8 +4,8 @@ use serde::Serialize;
 use serde_json::ser::{CompactFormatter, Formatter};
 use std::io::{self, Write};
 
-/// Formats a JSON object with one line per field, so that people can read it and long lists of numbers stay compact,
-/// and a final line feed. Numbers have as many digits as needed to read back the same `f64`.
+/// Returns a JSON object as text, with one line per field and a final line feed. People can read it, and long lists of
+/// numbers stay compact. Numbers have as many digits as needed to read back the same `f64`.
 ///
 /// # Panics
 /// If a value has no form in JSON: maps whose keys are not strings.

@@ -2,10 +2,10 @@
 
 use super::Limits;
 
-/// Number of halvings of an interval of times.
+/// Number of halvings when a duration is found by bisection.
 const TIME_HALVINGS: usize = 64;
 
-/// Relative rounding error of such a time.
+/// Relative rounding error of a duration that bisection finds.
 const ROUNDING: f64 = 1e-9;
 
 /// Returns a lower bound on the seconds of every motion from rest to rest on a path that takes at least `length`
@@ -19,8 +19,8 @@ pub fn least_duration(length: f64, limits: &Limits) -> f64 {
     let rate = |of: &dyn Fn(usize) -> f64| of(0).max(of(1));
     let acceleration = rate(&|k| limits.acceleration[k] / limits.velocity[k]);
     let jerk = rate(&|k| limits.jerk[k].unwrap_or(f64::INFINITY) / limits.velocity[k]);
-    // The times at which the jerk has built up the greatest acceleration, and at which the speed is greatest; 0 without
-    // a limit.
+    // The time at which the jerk has built up the greatest acceleration, or at which the speed is greatest if that is
+    // earlier; 0 without a limit on the jerk.
     let grown = if jerk.is_finite() { (acceleration / jerk).min((2.0 / jerk).sqrt()) } else { 0.0 };
     let lost = if jerk.is_finite() { jerk * grown * grown / 2.0 } else { 0.0 };
     let top = if lost < 1.0 && acceleration.is_finite() { grown + (1.0 - lost) / acceleration } else { grown };

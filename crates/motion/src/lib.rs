@@ -1,7 +1,7 @@
 //! From a certified path to a motion in time, and to files.
 //!
 //! [`time`] times a path with its blends within the joints' limits. [`csv`], [`ros_yaml`] and (a feature) `mcap` write
-//! motions, [`Format`] returns the format for a file name, and [`write_whole`] writes a file whole or not at all.
+//! motions. [`Format`] gives the format for a file name. [`write_whole`] writes a file completely, or not at all.
 //!
 //! Each format makes guarantees to its readers, which join samples differently:
 //!
@@ -14,11 +14,11 @@
 //! | MCAP `/tf`, `/scene`, `/outlines` | RViz, Foxglove, Rerun | nothing: a frame stays where it is until it moves |
 //! | MCAP `/joint_states` | `robot_state_publisher`, Foxglove | each state for itself; displays hold it or draw lines to the next |
 //!
-//! The cubics are the certified motion: on straight pieces exactly, on blends within [`BLEND_TOLERANCE`], which the certificate
-//! covers. They keep the limits, and while the arm is at rest the samples are equal and have no velocity. Quintics
-//! equal that motion only where the acceleration does not jump. So accelerations are written only on request, and
-//! refused where they jump. States lie on the motion; lines between them deviate from it by at most `a h^2 / 8` for
-//! accelerations up to `a` and states `h` seconds apart.
+//! On straight pieces, the cubics are exactly the certified motion. On blends, they are within [`BLEND_TOLERANCE`] of
+//! it, which the certificate covers. They are within the limits. While the arm is at rest, the samples are equal and
+//! have no velocity. Quintics equal that motion only where the acceleration does not jump. So accelerations are written
+//! only on request, and refused if they jump. States lie on the motion. Lines between states `h` seconds apart deviate
+//! from the motion by at most `a h^2 / 8`, where `a` is the greatest acceleration.
 //!
 //! ```
 //! use cplan_core::check::certify;
@@ -26,30 +26,29 @@
 //! use cplan_motion::Drive;
 //! use cplan_core::space::{Configuration, Path};
 //!
-//! let scene = Scene::new(Arm::rr([1.0, 0.8], 0.06)?, Workspace::new([]))?;
-//! let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]];
-//! let path = certify(&scene, Path::new(corners.map(Configuration::from).to_vec()), 0.0).expect("nothing is in the way");
-//! let timed = Drive::default().along(&scene, &path, 1.0)?;
-//! let stopping = Drive { blend: 0.0, ..Drive::default() }.along(&scene, &path, 1.0)?;
-//! // The corner is rounded, which is faster than to stop there.
+//! let scene = Scene::new(Arm::rr([1.0, 0.8], 0.06)?, Workspace::new([]))?; let corners = [[0.0, 0.0], [1.0, 0.0],
+//! [1.0, 1.0]]; let path = certify(&scene, Path::new(corners.map(Configuration::from).to_vec()), 0.0).expect("nothing
+//! is in the way"); let timed = Drive::default().along(&scene, &path, 1.0)?; let stopping = Drive { blend: 0.0,
+//! ..Drive::default() }.along(&scene, &path, 1.0)?; // The corner is rounded, which is faster than to stop there.
 //! assert!(timed.trajectory.duration() < stopping.trajectory.duration());
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
 //! # Timing
 //!
-//! [`time`] drives along the curve within the limits by forward-backward integration of the squared speed: on straight
-//! pieces in closed form (`profile`), on a blend over spans with bounds that are linear in the squared speeds at their
-//! ends (`corner`), from one stop to the next (`schedule`). Every piece of the motion is a polynomial in time of degree
-//! four at most, as stated by the samples.
+//! [`time`] computes the squared speed along the curve by forward-backward integration, from one stop to the next
+//! (`schedule`). On straight pieces it has a closed form (`profile`). A blend is cut into spans, with bounds that are
+//! linear in the squared speeds at the ends of each span (`corner`). Every piece of the motion is a polynomial in time
+//! of degree four at most, which the samples define.
 //!
-//! With a limit on jerks, `smooth` converts that motion to a cubic B-spline (`spline`): the mean over a window that is
-//! long enough for the jerk. Corners at which it is not shown to be free are passed more slowly. `retime` then drives
-//! along the resulting curve in the least time.
+//! With a limit on jerks, `smooth` converts that motion to a cubic B-spline (`spline`): the mean over a window of time
+//! that is long enough for the jerk. If the result is not shown to be free at a corner, that corner is passed more
+//! slowly.
+//! `retime` then computes the fastest motion along the resulting curve.
 //!
-//! Single straight pieces run from rest to rest by `jerk`. It takes Ruckig's times of the seven phases, adapts them to
-//! the least interval between samples, and computes the phases from the times and the length alone, so that they end at
-//! the right place and keep the limits for any tolerance of the solver.
+//! The motion along a single straight piece from rest to rest comes from `jerk`. It takes Ruckig's times of the seven
+//! phases, and adapts them to the least interval between samples. It then computes the phases from these times and the
+//! length alone. So the motion ends at the right place and is within the limits, whatever the tolerance of the solver.
 //!
 //! All samples lie at whole nanoseconds (`clock`). `shape` looks for the path with the fastest motion, and `least` has
 //! a lower bound on the time.

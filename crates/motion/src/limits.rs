@@ -5,18 +5,18 @@ use super::torque::TorqueLimit;
 use cplan_core::model::Joint;
 use cplan_core::space::Configuration;
 
-/// Limits of a motion, base to tip; positive, radians or metres and seconds.
+/// Limits of a motion, for the joints from base to tip. All are positive, in radians or metres and seconds.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Limits<'a> {
     /// Greatest speed of each joint.
     pub velocity: [f64; 2],
     /// Greatest acceleration of each joint.
     pub acceleration: [f64; 2],
-    /// Greatest jerk of each joint, if it has one.
+    /// Greatest jerk of each joint; `None` for a joint without a limit.
     pub jerk: [Option<f64>; 2],
-    /// Greatest speed of the tip, if it has one.
+    /// Greatest speed of the tip; `None` for no limit.
     pub tip: Option<TipSpeed<'a>>,
-    /// Greatest torques of the joints, if they have some.
+    /// Greatest torques of the joints; `None` for no limits.
     pub torque: Option<TorqueLimit<'a>>,
 }
 
@@ -34,8 +34,8 @@ impl From<&[Joint; 2]> for Limits<'_> {
 }
 
 impl Limits<'_> {
-    /// Scales the limits to a share of the speed: a slowed-down motion keeps them. Torques keep their full limits,
-    /// because gravity does not change.
+    /// Scales the limits for motions at a share of the speed: a motion within the full limits, slowed down to this
+    /// share, is within the scaled limits. Torques keep their full limits, because gravity does not change.
     #[must_use]
     pub fn scaled(self, share: f64) -> Self {
         Self {
@@ -75,7 +75,7 @@ impl Limits<'_> {
         along(limits, direction)
     }
 
-    /// Returns true if a motion must stop at every corner. It must if the jerk of any joint is limited, because the
+    /// Returns true if a motion must stop at every corner. This is so if the jerk of any joint is limited, because the
     /// acceleration would jump at the start of a blend.
     #[must_use]
     pub fn stops_at_corners(&self) -> bool {

@@ -15,7 +15,7 @@ pub struct JointMotion {
     pub position: Vec<Vec<f64>>,
     /// For each sample, the rate of each joint.
     pub velocity: Vec<Vec<f64>>,
-    /// For each sample, the accelerations; `None` if readers must join the samples by cubics.
+    /// For each sample, the acceleration of each joint. `None` if readers must join the samples by cubics.
     pub acceleration: Option<Vec<Vec<f64>>>,
 }
 
@@ -35,7 +35,8 @@ pub struct AccelerationJump {
 /// nanoseconds, far below a visible effect on a quintic.
 const ACCELERATION_TOLERANCE: f64 = 1e-6;
 
-/// Units in the last place of the greatest position that make the acceleration of a piece uncertain, over its squared duration.
+/// Uncertainty of the acceleration of a piece, as a multiple of a unit in the last place of the greatest position
+/// divided by the piece's squared duration.
 const ULPS: f64 = 256.0;
 
 impl JointMotion {

@@ -2,23 +2,23 @@
 
 use super::clock::whole_nanoseconds;
 
-/// A time of constant jerk along a stretch, in most cases without jerk. Distances count from the beginning of the
+/// A phase of constant jerk along a stretch. In most phases the jerk is 0. Distances count from the beginning of the
 /// stretch.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Phase {
     /// Duration, seconds.
     pub(super) duration: f64,
-    /// Distance at which it begins.
+    /// Distance at which the phase begins.
     pub(super) from: f64,
-    /// Distance at which it ends.
+    /// Distance at which the phase ends.
     pub(super) to: f64,
-    /// Speed at which it begins.
+    /// Speed at the beginning of the phase.
     pub(super) enter: f64,
-    /// Speed at which it ends.
+    /// Speed at the end of the phase.
     pub(super) leave: f64,
-    /// The acceleration with which it begins.
+    /// Acceleration at the beginning of the phase.
     pub(super) acceleration: f64,
-    /// The jerk, which is constant in it.
+    /// Jerk, constant during the phase.
     pub(super) jerk: f64,
 }
 
@@ -93,9 +93,10 @@ pub(super) fn rest_to_rest(length: f64, speed: f64, acceleration: f64, shortest:
     if cruise > 0.0 { vec![up, level, down] } else { vec![up, down] }
 }
 
-/// Returns the fastest motion over `length` between two speeds, not both 0, within `speed`, whose difference
-/// `acceleration` allows. It coasts for `coast` seconds between acceleration and deceleration, as far as the two speeds
-/// allow. Returns `None` if even a single phase would be shorter than `shortest`.
+/// Returns the fastest motion over `length` between two speeds, within the limits `speed` and `acceleration`. The two
+/// speeds must not both be 0, and the acceleration must allow their difference. The motion coasts for `coast` seconds
+/// between acceleration and deceleration, as far as the two speeds allow. Returns `None` if even a single phase would
+/// be shorter than `shortest`.
 ///
 /// A phase that would be too short is omitted, and the greater of the two speeds becomes the maximum. The lost speed is
 /// at most the gain in `shortest` seconds.
@@ -130,7 +131,8 @@ pub(super) fn passing(
         vec![Phase { acceleration: phase.acceleration.clamp(-acceleration, acceleration), ..phase }]
     };
     let meeting = (acceleration * length + (enter * enter + leave * leave) / 2.0).sqrt();
-    // The distance of the ramps and the coasting between them is that of the stretch: a quadratic equation for the speed.
+    // The distance of the ramps and the coasting between them is that of the stretch: a quadratic equation for the
+    // speed.
     let half = acceleration * coast / 2.0;
     let coasting = if half > 0.0 { half.hypot(meeting) - half } else { meeting };
     let highest = speed.min(coasting.max(enter).max(leave));

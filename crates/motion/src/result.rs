@@ -10,7 +10,7 @@ pub fn interpolation(joints: &[Joint; 2]) -> &'static str {
     if joints.iter().any(|joint| joint.jerk.is_some()) { SMOOTH_INTERPOLATION } else { INTERPOLATION }
 }
 
-/// A path's place between a proven lower bound on the length of every free motion and its own length.
+/// Length of a path, with a proven lower bound on the length of every free motion.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct LengthOptimality {
     /// Measure of lengths: `euclidean`, `weighted` or `time` (seconds at the joints' top speeds).
@@ -26,7 +26,7 @@ pub struct LengthOptimality {
     pub gap: Option<f64>,
 }
 
-/// A motion's place between a time that no motion undercuts and its own.
+/// Duration of a motion, with a proven lower bound on the duration of every motion.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct DurationOptimality {
     /// Duration of the motion, seconds.
@@ -66,18 +66,18 @@ impl BlendReport {
 /// Settings of a search of a grid or a roadmap.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct SearchReport {
-    /// `wave` or `deepening` (only for grids), `bfs`, `dfs`, `dijkstra`, `astar` or `greedy`.
+    /// Name of the search: `wave` or `deepening` (only for grids), `bfs`, `dfs`, `dijkstra`, `astar` or `greedy`.
     pub search: &'static str,
     /// Rule by which A\* breaks ties between equally promising cells, if not the default.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub ties: Option<&'static str>,
-    /// For grids: 4, or 8 with diagonal moves.
+    /// For grids, the number of neighbours: 4, or 8 with diagonal moves.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub neighbors: Option<u8>,
-    /// True if it was searched from the goals. For grids only stated if false.
+    /// True if the search began at the goals. For grids, it is stated only if false.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub backward: Option<bool>,
-    /// `full` for that visibility graph; omitted for the reduced one.
+    /// `full` for the full visibility graph; omitted for the reduced one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub graph: Option<&'static str>,
 }

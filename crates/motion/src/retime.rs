@@ -3,14 +3,14 @@
 //!
 //! A curve `q(s)` is passed at the rate `ds/dt = z(s)^(1/2)`. With derivatives by `s`, velocities are `q' z^(1/2)`,
 //! accelerations `q'' z + q' z' / 2`, and jerks `(q''' z + 3 q'' z' / 2 + q' z'' / 2) z^(1/2)`; the time is the
-//! integral of `z^(-1/2)`. `z` is a uniform quadratic B-spline, which must satisfy the limits at [`CONDITION_POSITIONS`] of each
-//! interval as [`Condition`]s.
+//! integral of `z^(-1/2)`. `z` is a uniform quadratic B-spline, which must satisfy the limits at
+//! [`CONDITION_POSITIONS`] of each interval as [`Condition`]s.
 //!
-//! A barrier method finds its coefficients: Newton steps minimise the time minus the logarithms of the slacks, with
-//! decreasing weight. For the second derivatives only the terms from first derivatives of the slacks are used, which
-//! are never negative, and dominate where a slack is small. (In the squared rate, only limits on jerks are not convex:
-//! Verscheure, Demeulenaere, Swevers, De Schutter, Diehl, *Time-optimal path tracking for robots: a convex optimization
-//! approach*, 2009.)
+//! A barrier method finds the coefficients of `z`: Newton steps minimise the time minus the logarithms of the slacks,
+//! which have a decreasing weight. Of the second derivatives, only the terms from first derivatives of the slacks are
+//! used. They are never negative, and dominate where a slack is small. (In the squared rate, only limits on jerks are
+//! not convex: Verscheure, Demeulenaere, Swevers, De Schutter, Diehl, *Time-optimal path tracking for robots: a convex
+//! optimization approach*, 2009.)
 
 /// Positions in each interval at which conditions are imposed.
 pub(super) const CONDITION_POSITIONS: [f64; 3] = [0.0, 0.5, 1.0];
@@ -18,30 +18,30 @@ pub(super) const CONDITION_POSITIONS: [f64; 3] = [0.0, 0.5, 1.0];
 /// Weights of these positions in an integral (Simpson's rule).
 const SIMPSON_WEIGHTS: [f64; 3] = [1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0];
 
-/// Initial weight of the barriers together, as a share of the time, ...
+/// Initial weight of all barriers together, as a share of the time.
 const FIRST_BARRIER_WEIGHT: f64 = 0.1;
 
-/// ... and final weight; ...
+/// Final weight of all barriers together, as a share of the time.
 const LAST_BARRIER_WEIGHT: f64 = 1e-3;
 
-/// ... divided by this in each round.
+/// Divisor of the barriers' weight after each round.
 const BARRIER_REDUCTION: f64 = 6.0;
 
 /// Greatest number of Newton steps for one weight.
 const MAX_NEWTON_STEPS: usize = 40;
 
-/// A round ends when a step promises less than this share of the time.
+/// Least predicted gain of a step, as a share of the time. A smaller gain ends the round.
 const MIN_ROUND_GAIN: f64 = 1e-5;
 
-/// A full step is taken if it achieves this fraction of its predicted decrease. Otherwise it is halved, up to a maximum
-/// number of times.
+/// Least fraction of the predicted decrease that a step must achieve. Otherwise the step is halved.
 const MIN_STEP_GAIN: f64 = 0.05;
 const MAX_STEP_HALVINGS: u32 = 20;
 
-/// Range within which a product stays a product; beyond it its logarithm is accumulated.
+/// Range of a product of slacks. A product that leaves this range is replaced by its logarithm, so that doubles neither
+/// overflow nor underflow.
 const PRODUCT_RANGE: std::ops::Range<f64> = 1e-150..1e150;
 
-/// Places and weights of Gauss's quadrature with five points on the interval from 0 to 1.
+/// Positions and weights of Gauss's quadrature with five points on the interval from 0 to 1.
 const GAUSS_POINTS: [[f64; 2]; 5] = [
     [0.046_910_077_030_668_0, 0.118_463_442_528_094_5],
     [0.230_765_344_947_158_5, 0.239_314_335_249_683_2],
@@ -50,7 +50,7 @@ const GAUSS_POINTS: [[f64; 2]; 5] = [
     [0.953_089_922_969_332, 0.118_463_442_528_094_5],
 ];
 
-/// Newton's steps for the place that is passed at some time.
+/// Number of Newton steps that find the parameter at a given time.
 const NEWTON_STEPS_TO_PLACE: usize = 4;
 
 /// A condition on `z` at a position: `a z + b z' + c z'' < 1`, or the same with the sum times the root of `z`.
@@ -71,7 +71,7 @@ pub(super) struct Rate {
 }
 
 impl Condition {
-    /// Returns its slack, and the derivatives of the slack by `z`, `z'` and `z''`.
+    /// Returns the slack of the condition, and its derivatives by `z`, `z'` and `z''`.
     fn left(&self, [z, rising, bend]: [f64; 3]) -> (f64, [f64; 3]) {
         let [a, b, c] = self.factors;
         let sum = a * z + b * rising + c * bend;
@@ -98,9 +98,10 @@ fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-/// A place with its conditions.
+/// A position of the curve, with its conditions.
 struct Place<'a> {
-    /// The first coefficient that counts there, and the weights of this one and the next two.
+    /// Index of the first coefficient that has an effect there. The next field has the weights of this coefficient and
+    /// the two after it.
     first: usize,
     basis: &'a [[f64; 3]; 3],
     /// `z` and its derivatives.

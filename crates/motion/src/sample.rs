@@ -1,4 +1,4 @@
-//! A path with its timing.
+//! Trajectories: motions along a path, sampled in time.
 
 use super::clock::{self, NANOSECONDS_PER_SECOND, nanoseconds, round_up, whole_nanoseconds};
 use super::limits::Limits;
@@ -11,46 +11,49 @@ use cplan_handling::Piece;
 use serde::Serialize;
 use thiserror::Error;
 
-/// Least time between two samples (approximately), seconds. It is a thousandth of the fastest servo cycle in use (1
-/// ms), so nothing useful is lost. It is a thousand times the nanosecond of ROS and, at the end of [`MAX_DURATION`],
-/// ten thousand times the spacing of doubles, so times stay distinct after rounding.
+/// Approximate least time between two samples, seconds. It is a thousandth of the fastest servo cycle in use (1 ms), so
+/// no useful sample is lost. It is also a thousand times the nanosecond of ROS and, at [`MAX_DURATION`], ten thousand
+/// times the spacing of doubles, so times stay distinct after rounding.
 pub const MIN_INTERVAL: f64 = 1e-6;
 
-/// Least distance, in seconds, between other samples and those that only the period requires, if the period is longer
+/// Least time, seconds, between a sample at a multiple of the period and another sample, unless the period is shorter
 /// than twice this. At this distance, rounding to doubles changes the acceleration of a cubic by less than a millionth
 /// of a radian per squared second.
 pub(super) const MIN_PERIODIC_INTERVAL: f64 = 1e-4;
 
-/// The longest motion that is timed, seconds: eleven days. For longer ones the limits are a mistake rather than a wish,
-/// and doubles no longer resolve [`MIN_INTERVAL`] well.
+/// Longest motion that is timed, seconds: eleven days. If a motion lasts longer, its limits are probably a mistake, and
+/// doubles no longer resolve [`MIN_INTERVAL`] well.
 pub const MAX_DURATION: f64 = 1e6;
 
-/// Greatest number of samples of a trajectory: some 300 MB.
+/// Greatest number of samples of a trajectory. They need some 300 MB of memory.
 pub const MAX_SAMPLES: usize = 5_000_000;
 
 /// A motion of both joints, sampled.
 ///
-/// Within each interval from `time[k]` to `time[k + 1]` the motion is a polynomial in time of the fourth degree; on
-/// straight pieces of the second, or of the third if the jerk has a limit. The samples define it: it is the polynomial
-/// with position `k`, velocity `k` and acceleration `k` at its beginning, and position and velocity `k + 1` at its end,
-/// as described by [`super::INTERPOLATION`]. So the samples are the motion, up to rounding, not an approximation of it.
+/// In each interval from `time[k]` to `time[k + 1]`, the motion is a polynomial in time of degree four. On straight
+/// pieces the degree is two, or three if the jerk has a limit. The samples define the polynomial: it has position `k`,
+/// velocity
+/// `k` and acceleration `k` at its beginning, and position and velocity `k + 1` at its end; see
+/// [`super::INTERPOLATION`]. So the samples are the motion itself, up to rounding, and not an approximation of it.
 ///
-/// The acceleration may jump at a sample, unless a joint's jerk has a limit; the stated one is that of the interval
-/// that begins there. The cubic through positions and velocities of two samples keeps the limits, too, and is the same
-/// motion on straight pieces. Times begin at 0 and increase strictly, by at least [`MIN_INTERVAL`]; they are whole
-/// nanoseconds. Radians or metres, and seconds; joints in the order base to tip.
+/// The acceleration may jump at a sample, unless a joint's jerk has a limit. The stated acceleration is that of the
+/// interval that begins at the sample. The cubic through positions and velocities of two samples is also within the
+/// limits, and is the same motion on straight pieces.
+///
+/// Times begin at 0 and increase by at least [`MIN_INTERVAL`]. They are whole nanoseconds. Units are radians or metres,
+/// and seconds. Joints are in the order from base to tip.
 #[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct Trajectory {
     /// Seconds from the start.
     pub time: Vec<f64>,
-    /// Joint values; the first is the path's start, the last its goal, exactly.
+    /// Joint values. The first are exactly the path's start, and the last its goal.
     pub position: Vec<[f64; 2]>,
     /// Joint velocities; the first and the last are 0.
     pub velocity: Vec<[f64; 2]>,
-    /// Joint accelerations at the beginning of the interval that begins here; 0 at the last sample.
+    /// Joint accelerations at the beginning of the interval that follows the sample; 0 at the last sample.
     pub acceleration: Vec<[f64; 2]>,
-    /// Joint torques (N m), or forces (N) of prismatic joints, at the start of the interval that starts here; empty if
-    /// not requested.
+    /// Joint torques (N m), or forces (N) of prismatic joints, at the beginning of the interval that follows the
+    /// sample. Empty if they are not requested.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub torque: Vec<[f64; 2]>,
 }
@@ -61,7 +64,7 @@ pub enum TimingError {
     /// The period is not a number, not finite, or too small.
     #[error("the sampling period is {0} s; it must be a finite number of at least {MIN_INTERVAL} s")]
     Period(f64),
-    /// Too many samples.
+    /// The motion would have too many samples.
     #[error(
         "sampling {duration:.3} s of motion every {period} s gives more than {MAX_SAMPLES} samples; \
          choose a longer period"
@@ -72,13 +75,13 @@ pub enum TimingError {
         /// The requested period, seconds.
         period: f64,
     },
-    /// The limits hardly let the joints move.
+    /// The motion would last longer than [`MAX_DURATION`]: the limits hardly let the joints move.
     #[error(
         "the motion would last {0:.3e} s, more than {MAX_DURATION:.0e} s; \
          raise the limits of the joints, and of the tip's speed if it has one"
     )]
     TooLong(f64),
-    /// A joint whose effort is less than the weight of the arm requires.
+    /// The effort of a joint is less than the torque that holds the arm against gravity.
     #[error(
         "joint \"{joint}\" has an effort of {effort} {unit}, and the arm takes {torque:.3} {unit} at {}; \
          raise [robot] effort, or let the path keep away from there",
@@ -87,13 +90,13 @@ pub enum TimingError {
     TooHeavy {
         /// The joint's name.
         joint: String,
-        /// The configuration.
+        /// The configuration in which the arm cannot be held.
         at: [f64; 2],
         /// The required torque or force, N m or N.
         torque: f64,
         /// The joint's effort.
         effort: f64,
-        /// Unit of both.
+        /// Unit of the torque and the effort.
         unit: &'static str,
     },
 }
@@ -128,8 +131,7 @@ impl Trajectory {
         self.torque.extend(&next.torque);
     }
 
-    /// Appends a rest of `pause` seconds, rounded up to whole nanoseconds; less than [`MIN_INTERVAL`] counts as
-    /// nothing.
+    /// Appends a rest of `pause` seconds, rounded up to whole nanoseconds. A rest below [`MIN_INTERVAL`] is omitted.
     pub fn append_rest(&mut self, pause: f64) {
         if rest(pause) > 0.0 {
             self.append_rest_to(nanoseconds(self.duration() + rest(pause)));
@@ -148,7 +150,7 @@ impl Trajectory {
     fn append_rest_to(&mut self, end: u64) {
         if let Some(&position) = self.position.last() {
             self.push(end, [position.into(), Configuration::zeros(), Configuration::zeros()]);
-            // These are the torques that hold the arm there.
+            // At rest, the last torques are those that hold the arm.
             self.torque.extend(self.torque.last().copied());
         }
     }
@@ -198,18 +200,19 @@ pub struct TimedMotion {
     pub trajectory: Trajectory,
 }
 
-/// Times a path: from rest to rest along its straight pieces and blends, with a stop at every corner without blend,
-/// both joints in step, as fast as the limits allow. Linear in the number of samples.
+/// Returns the fastest motion within the limits along the straight pieces and blends of a path. It begins and ends at
+/// rest, and stops at every corner without a blend. Takes linear time in the number of samples.
 ///
-/// Forward-backward integration of the squared speed along the path: on straight pieces in closed form, on a blend over
-/// up to 256 spans. On each span the second derivative of the path's parameter is constant, and both joints keep their
-/// limits (a thousandth of these stays unused there). The motion is never slower than one that stops at every corner:
-/// where that one is faster between two stops, it is used.
+/// The squared speed along the path is found by forward-backward integration: on straight pieces in closed form, and on
+/// a blend over up to 256 spans. On each span, the second derivative of the path's parameter is constant, and both
+/// joints are within their limits, of which a thousandth stays unused. Between two stops, the motion that stops at
+/// every corner replaces this motion if it is faster.
 ///
-/// Samples lie at the multiples of `period`, and wherever that second derivative changes. On blends they are dense
-/// enough for the cubic through positions and velocities to keep the limits, too, and to stay within [`crate::BLEND_TOLERANCE`] of
-/// the blend. All lie at whole nanoseconds. Multiples of the period closer than a tenth of a millisecond (or half the
-/// period) to another sample are left out. A path that does not move gives one sample.
+/// There is a sample at each multiple of `period`, and wherever that second derivative changes. On blends, samples are
+/// dense enough that the cubics through positions and velocities are also within the limits, and within
+/// [`crate::BLEND_TOLERANCE`] of the blend. All samples are at whole nanoseconds. A multiple of the period that is
+/// closer than a tenth of a millisecond (or half the period) to another sample is omitted. A path that does not move
+/// gives one sample.
 ///
 /// A straight piece of length `L` from rest to rest, with speed and acceleration limits `v` and `a` along it, takes `2
 /// sqrt(L / a)` if `L a <= v^2`, else `L / v + v / a`. It takes up to `4` [`MIN_INTERVAL`] longer if a phase would
@@ -230,7 +233,7 @@ pub fn time(curve: impl Into<CertifiedCurve>, limits: &Limits, period: f64) -> R
     Ok(TimedMotion { curve, trajectory })
 }
 
-/// Does the same as [`time`] for a curve without certificate, and returns the blends in use.
+/// Same as [`time`] for a curve without certificate. Also returns the curve with only the blends in use.
 pub(super) fn time_curve(
     curve: &BlendedPath,
     limits: &Limits,

@@ -14,13 +14,13 @@ use std::ops::Range;
 /// Greatest number of parts of a straight stretch.
 const MAX_LINE_PARTS: f64 = 1024.0;
 
-/// Least duration of a phase of a straight stretch that is passed, as a fraction of its least time. A shorter phase
-/// would gain less than the limits that [`reserve`] withholds for it.
+/// Least duration of a phase on a straight stretch that is passed without a stop, as a fraction of the least time for
+/// the stretch. A shorter phase would gain less than the share of the limits that [`reserve`] leaves unused for it.
 const MIN_PHASE_SHARE: f64 = 1.0 / 32.0;
 
-/// Blends are cut into more spans as long as that shortens the motion by this share. Where a joint of little
-/// acceleration turns back within a blend, the other joints may accelerate more near that place, which coarse spans do
-/// not show.
+/// Least share by which more spans on blends must shorten the motion. Otherwise no more spans are tried. Where a joint
+/// with a low acceleration limit turns back within a blend, the other joint may accelerate more near that place, but
+/// coarse spans do not show this.
 const MIN_GAIN: f64 = 0.005;
 
 /// A stretch of a path with the distance along it.
@@ -37,10 +37,10 @@ pub(super) struct Line {
     to: Configuration,
     length: f64,
     direction: Configuration,
-    /// The speed that the joints' limits allow along it.
+    /// The greatest speed along the line within the joints' limits.
     speed: f64,
     acceleration: f64,
-    /// The jerk; infinite without a limit.
+    /// The greatest jerk along the line; infinite without a limit.
     jerk: f64,
 }
 
@@ -83,12 +83,13 @@ impl Line {
         (0..count as u32).map(|i| Self::new(end(f64::from(i)), end(f64::from(i) + 1.0), limits)).collect()
     }
 
-    /// Returns the least duration of a phase on it, seconds.
+    /// Returns the least duration of a phase on the line, seconds.
     fn shortest(&self) -> f64 {
         (self.length / self.speed * MIN_PHASE_SHARE).clamp(MIN_INTERVAL, MIN_PERIODIC_INTERVAL)
     }
 
-    /// Adapts it to a motion that does not start and end at rest, so that its phases end between two nanoseconds.
+    /// Adapts the line to a motion that does not start and end at rest. The phases of such a motion may end between two
+    /// nanoseconds.
     fn passed(self) -> Self {
         let left = 1.0 - reserve(self.shortest());
         Self { speed: left * self.speed, acceleration: left * self.acceleration, ..self }
@@ -125,7 +126,7 @@ impl Track {
         }
     }
 
-    /// Returns true if it is the blend at a waypoint.
+    /// Returns true if the track is a blend at a waypoint.
     pub(super) fn is_blend(&self) -> bool {
         matches!(self, Track::Corner(corner) if !corner.is_straight())
     }
@@ -209,7 +210,7 @@ fn scheduled(
     (used, runs)
 }
 
-/// Returns their total duration, seconds.
+/// Returns the total duration of timed tracks, seconds.
 pub(super) fn duration(timed_tracks: &[TimedTrack]) -> f64 {
     timed_tracks.iter().flat_map(|(_, phases)| phases).map(|phase| phase.duration).sum()
 }

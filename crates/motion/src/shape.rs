@@ -1,4 +1,4 @@
-//! Path shapes for fast motions.
+//! Changes the shape of a path so that the motion along it is faster.
 //!
 //! The shortest path touches the obstacles that it goes around, so its corners can hardly be cut. Corners moved away
 //! slightly are passed several times as fast, on a path that is longer only by about the square of that distance.
@@ -24,7 +24,7 @@ const MAX_LIFT_HALVINGS: u32 = 6;
 pub(super) struct ShapeSearch<'a, F> {
     scene: &'a Scene,
     motions: StraightMotions<'a>,
-    /// Returns the fastest motion along a path, if it takes less than this many seconds.
+    /// Function that returns the fastest motion along a path, or `None` if it takes longer than the given seconds.
     drive: F,
 }
 
@@ -92,7 +92,7 @@ impl<'a, F: Fn(&CertifiedPath, f64) -> Option<TimedMotion>> ShapeSearch<'a, F> {
         is_free.then(|| certify(self.scene, Path::new(moved), self.scene.workspace().clearance).ok()).flatten()
     }
 
-    /// Takes the motion about a path if it is faster.
+    /// Replaces `best` by the motion along a path if that is faster. Returns true if it is.
     fn try_out(&self, path: &CertifiedPath, best: &mut TimedMotion) -> bool {
         let faster = (self.drive)(path, best.trajectory.duration());
         let is_faster = faster.is_some();

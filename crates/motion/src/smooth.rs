@@ -1,9 +1,8 @@
 //! Motions with limits on jerks, through the corners of a path.
 //!
-//! A path with blends is timed without those limits, and the motion is smoothed (`spline`). A smoothed motion leaves
-//! the path at its corners towards the inside, where the obstacle is. Where the resulting motion is not shown to be
-//! free, the corner is passed more slowly. Finally the motion is driven along its own curve in the least time
-//! (`retime`).
+//! A path with blends is timed without limits on jerks, and the motion is smoothed (`spline`). At corners, the smoothed
+//! motion leaves the path towards the inside, where the obstacle is. If it is not shown to be free there, the corner is
+//! passed more slowly. Finally the motion is driven along its own curve in the least time (`retime`).
 
 use super::clock::{nanoseconds, seconds};
 use super::limits::Limits;
@@ -21,13 +20,14 @@ use std::collections::BTreeSet;
 /// Factor for the speed at a corner near which the motion is not shown to be free.
 const SLOWDOWN_FACTOR: f64 = 0.7;
 
-/// Share of the speed below which the arm stops at the corner instead.
+/// Share of a corner's speed below which the arm stops at the corner instead of passing it.
 const MIN_SPEED_SHARE: f64 = 1.0 / 128.0;
 
-/// Number of rounds of slower corners, after which the arm stops at all of them.
+/// Number of rounds in which corners are passed more slowly. After that, the arm stops at all corners.
 const MAX_ROUNDS: usize = 24;
 
-/// Factor for gentler accelerations. The gentler they are, the shorter the time in which the jerk reverses them.
+/// Factor from each acceleration limit that is tried to the next one. With a lower acceleration, the jerk needs less
+/// time to reverse it.
 const ACCELERATION_FACTOR: f64 = 0.8;
 
 /// Least share of the accelerations that is tried.
@@ -36,18 +36,18 @@ const MIN_ACCELERATION_SHARE: f64 = 1e-3;
 /// Positions at which the distance of a piece of a motion from the path is measured.
 const DISTANCE_POSITIONS: [f64; 4] = [0.0, 0.25, 0.5, 0.75];
 
-/// ... share by which the distance may be greater between these positions, ...
+/// Share by which the distance from the path may be greater between these positions.
 const DISTANCE_MARGIN: f64 = 0.01;
 
-/// ... and greatest number of legs that it may be ahead of the last one.
+/// Greatest number of legs by which a piece may be ahead of the leg of the piece before.
 const MAX_LEGS_AHEAD: usize = 8;
 
 /// A path that is timed within limits.
 struct Smoothing<'a> {
     limits: Limits<'a>,
-    /// The same limits without those on jerks, and possibly with gentler accelerations.
+    /// The limits without those on jerks, and possibly with lower accelerations.
     base: Limits<'a>,
-    /// Seconds between acceleration and deceleration on a straight piece.
+    /// Least time between acceleration and deceleration on a straight piece, seconds.
     coast: f64,
     period: f64,
     /// True if motions are driven along their own curves in the least time.
@@ -57,7 +57,7 @@ struct Smoothing<'a> {
 /// A motion, with the times at which it passes the corners of its path.
 struct SmoothMotion {
     trajectory: Trajectory,
-    /// Waypoints with the nanoseconds between which their blends were passed.
+    /// Waypoints, each with the times in nanoseconds at which the motion enters and leaves its blend.
     passed: Vec<(usize, [u64; 2])>,
 }
 
@@ -76,7 +76,7 @@ pub(super) fn smoothed(
     let clearance = scene.workspace().clearance;
     let mut curve = blend(scene, path, greatest, clearance).curve().clone();
     let rounding = Rounding::new(scene, path, clearance);
-    // No reach exceeds the longest leg.
+    // The extent of a rounding is never greater than the longest leg.
     let most = path.path().segments().map(|(a, b)| (b - a).norm()).fold(0.0, f64::max).min(greatest);
     let mut smoothing = Smoothing::new(&curve, limits, period)?;
     let mut shares = vec![1.0; curve.radii().len()];
@@ -202,7 +202,7 @@ impl<'a> Smoothing<'a> {
         Some(smooth)
     }
 
-    /// Appends a run that passes the blends after a waypoint; returns its end.
+    /// Appends a run that passes the blends after a waypoint. Returns the time at which the run ends.
     fn run(&self, run: &[TimedTrack], after: usize, begin: u64, smooth: &mut SmoothMotion) -> u64 {
         let mut spline = Spline::smoothed(run, self.base.acceleration, &self.limits, self.period);
         let delay = spline.delay();

@@ -1,10 +1,11 @@
-//! Stretches of a motion, and the deviation in them from the configuration halfway.
+//! Spans of a motion, and the deviation of a span from the configuration in its middle.
 
 use cplan_core::check::Deviation;
 use cplan_core::space::Configuration;
 use cplan_handling::Piece;
 
-/// Least span of a piece, as a share of it: a nanosecond of a long piece, and still far above the rounding of a share.
+/// Least length of a span, as a share of its piece. It is a nanosecond of a long piece, and far greater than the
+/// rounding of a share.
 const MIN_SPAN: f64 = 1.0 / (1u64 << 40) as f64;
 
 /// A place on the motion: a piece, and a share of it.
@@ -13,14 +14,14 @@ pub type Place = (usize, f64);
 /// A stretch of the motion.
 #[derive(Debug, Clone, Copy)]
 pub enum Span {
-    /// Whole pieces, from one to before another.
+    /// Whole pieces, from the first number to before the second.
     Pieces(usize, usize),
-    /// A part of a piece, from one share of it to another.
+    /// A part of the piece with this number, from one share of it to another.
     Part(usize, f64, f64),
 }
 
 impl Span {
-    /// Returns the place where it begins.
+    /// Returns the place where the span begins.
     pub fn start(self) -> Place {
         self.ends()[0]
     }
@@ -30,7 +31,7 @@ impl Span {
         if pieces == 1 { Span::Part(0, 0.0, 1.0) } else { Span::Pieces(0, pieces) }
     }
 
-    /// Returns a stretch that covers everything from one place to a later one, and possibly more.
+    /// Returns a span that contains everything from one place to a later one, and possibly more.
     pub fn between(from: Place, to: Place) -> Self {
         if from.0 == to.0 { Span::Part(from.0, from.1, to.1) } else { Span::Pieces(from.0, to.0 + 1) }
     }
@@ -43,7 +44,7 @@ impl Span {
         }
     }
 
-    /// Returns the place halfway along it.
+    /// Returns the place in the middle of the span.
     pub fn middle(self) -> Place {
         match self {
             Span::Pieces(first, end) => (first + (end - first) / 2, 0.0),
@@ -51,7 +52,7 @@ impl Span {
         }
     }
 
-    /// Returns its first and its last place.
+    /// Returns the first and the last place of the span.
     pub fn ends(self) -> [Place; 2] {
         match self {
             Span::Pieces(first, end) => [(first, 0.0), (end - 1, 1.0)],
@@ -59,7 +60,7 @@ impl Span {
         }
     }
 
-    /// Returns both halves, in order; `None` for a span of the finest length.
+    /// Returns both halves of the span, in order. `None` if it has the least length.
     pub fn halves(self) -> Option<[Span; 2]> {
         let whole = |from: usize, to: usize| match to - from {
             1 => Span::Part(from, 0.0, 1.0),
@@ -79,8 +80,8 @@ impl Span {
     }
 }
 
-/// Rounding of a configuration computed from control points, per degree of the piece and relative to the largest
-/// control point: three operations per step, and some for the control points themselves.
+/// Rounding error of a configuration that is computed from control points, per degree of the piece and relative to the
+/// largest control point. It covers three operations per step, and the rounding of the control points.
 const ROUNDING: f64 = 6.0 * f64::EPSILON;
 
 /// Returns the rounding of a piece's configurations in one joint.

@@ -2,8 +2,8 @@
 //!
 //! Let `x_j` be the configurations of a motion at the multiples of a step `h`, and `y_j` the mean of `n` consecutive
 //! ones. The uniform cubic B-spline with the control points `y_j` is the smoothed motion. Its derivatives are weighted
-//! means of those of the motion, with non-negative weights that add up to 1. So it keeps every limit on speed and
-//! acceleration that the motion keeps, and stays in the convex hull of the motion within `(n + 3) h`.
+//! means of those of the motion, with non-negative weights that add up to 1. So it is within every limit on speed and
+//! acceleration that the motion respects, and stays in the convex hull of the motion within `(n + 3) h`.
 //!
 //! Its jerk is constant over each step, `(a_j - a_(j - n)) / (n h)` with the second differences `a` of `x` divided by
 //! `h^2`. So a window of `n h` seconds is long enough if the acceleration changes within it by at most the effect of
@@ -21,7 +21,8 @@ use super::schedule::{TimedTrack, duration, places};
 use super::torque::TorqueLimit;
 use cplan_core::space::Configuration;
 
-/// Number of steps of a window. With more steps, the last one costs less.
+/// Number of steps in a smoothing window. The motion takes one step longer than the window, so many short steps cost
+/// less time.
 const STEPS_PER_WINDOW: f64 = 32.0;
 
 /// Least step, as a share of the period of the samples.
@@ -30,23 +31,24 @@ const MIN_STEP_SHARE: f64 = 1.0 / 8.0;
 /// Greatest number of steps of a motion.
 const MAX_STEPS: f64 = 1e5;
 
-/// Least number of intervals of a retimed motion. It has one per step of the motion, or a multiple if that is fewer.
+/// Least number of intervals of a retimed motion. A motion with fewer steps gets several intervals per step.
 const MIN_INTERVALS: usize = 800;
 
-/// ... and greatest number, since longer motions gain less and less.
+/// Greatest number of intervals of a motion that is retimed. Longer motions gain less and less.
 const MAX_INTERVALS: usize = 20_000;
 
-/// Initial share of the speed, which satisfies all limits.
+/// Share of the original speed with which retiming begins. It satisfies all limits with some slack.
 const INITIAL_SPEED_SHARE: f64 = 0.97;
 
-/// Number of steps of a retimed motion, unless other reasons require shorter or longer ones. It takes two steps longer.
+/// Number of steps of a retimed motion, unless other reasons require shorter or longer steps. The motion takes two
+/// steps longer.
 const RETIMED_STEPS: f64 = 800.0;
 
-/// Share of the limits on torques and on the tip's speed that is used, because they may be exceeded between the
-/// positions at which they are imposed.
+/// Share of the limits on torques and on the tip's speed that is used. The rest allows for excesses between the
+/// positions at which the limits are imposed.
 const USED_LIMIT_SHARE: f64 = 0.995;
 
-/// Knots at which the jerk changes by at most this fraction of the greatest are not sampled.
+/// Greatest change of the jerk at a knot that is not sampled, as a fraction of the greatest jerk.
 const JERK_TOLERANCE: f64 = 1e-7;
 
 /// A motion from rest to rest.
@@ -56,7 +58,7 @@ pub(super) struct Spline {
     step: u64,
     /// Number of steps of the smoothing window.
     window: u64,
-    /// Control points: three times the start, ..., three times the goal.
+    /// Control points. The first three are the start, and the last three the goal.
     control: Vec<Configuration>,
 }
 
@@ -111,8 +113,8 @@ impl Spline {
         })
     }
 
-    /// Returns the factor by which it must be slowed down to keep the limits on velocities, accelerations and jerks; 1
-    /// if it keeps them.
+    /// Returns the factor by which the motion must be slowed down to be within the limits on velocities, accelerations
+    /// and jerks; 1 if it is within them.
     fn excess(&self, limits: &Limits) -> f64 {
         let h = seconds(self.step);
         let mut excess = 1.0_f64;
@@ -129,12 +131,12 @@ impl Spline {
         excess
     }
 
-    /// Returns its duration, nanoseconds.
+    /// Returns the duration of the motion, nanoseconds.
     pub fn duration(&self) -> u64 {
         self.step * (self.control.len() - 3) as u64
     }
 
-    /// Returns the nanoseconds by which it lags behind the original motion, in the middle.
+    /// Returns the nanoseconds by which the smoothed motion lags behind the original one, in the middle of the motion.
     pub fn delay(&self) -> u64 {
         self.step * (self.window + 1) / 2
     }
@@ -145,7 +147,7 @@ impl Spline {
         let [a, b, c, d] = [0, 1, 2, 3].map(|i| self.control[piece + i]);
         let (ab, bc, cd, w) = (b - a, c - b, d - c, 1.0 - u);
         let middle = 1.0 + 3.0 * u * (1.0 + u * w);
-        // Rounding must not move it out of the hull of its control points, which may lie on a joint limit.
+        // Rounding must not move the position out of the hull of the control points, which may lie on a joint limit.
         let (least, greatest) = (a.inf(&b).inf(&c).inf(&d), a.sup(&b).sup(&c).sup(&d));
         let position =
             (b + (bc * middle + (bc + cd) * (u * u * u) - ab * (w * w * w)) / 6.0).sup(&least).inf(&greatest);
@@ -167,7 +169,7 @@ impl Spline {
         [position, velocity, acceleration]
     }
 
-    /// Returns these and the jerk, this many seconds after the beginning.
+    /// Returns position, velocity, acceleration and jerk this many seconds after the beginning.
     fn at_seconds(&self, time: f64) -> [Configuration; 4] {
         let steps = time / seconds(self.step);
         let piece = (steps as usize).min(self.last());
@@ -194,8 +196,8 @@ impl Spline {
         knots
     }
 
-    /// Appends its samples, except the last one, to a motion that ends at its beginning: where its jerk changes, and at
-    /// the multiples of the period that are not close to those.
+    /// Appends the spline's samples, except the last one, to a motion that ends where the spline begins. There is a
+    /// sample wherever the jerk changes, and at each multiple of the period that is not close to such a sample.
     pub fn sample(&self, begin: u64, period: f64, trajectory: &mut Trajectory) {
         let near = nanoseconds((period / 2.0).clamp(MIN_INTERVAL, MIN_PERIODIC_INTERVAL));
         let mut knots = self.knots();
@@ -345,7 +347,8 @@ mod tests {
                 for knot in 1..=spline.duration() / spline.step {
                     let here = spline.at(knot * spline.step);
                     for k in 0..2 {
-                        // Positions, velocities and accelerations are integrals of each other, and all keep their limits.
+                        // Positions, velocities and accelerations are integrals of each other, and all keep their
+                        // limits.
                         let rate = (here[2][k] - before[2][k]) / h;
                         prop_assert!(limits.jerk[k].is_none_or(|most| rate.abs() <= most * (1.0 + 1e-6)), "jerk {}", rate);
                         prop_assert!(here[2][k].abs() <= acceleration * (1.0 + 1e-9), "acceleration {}", here[2][k]);

@@ -1,11 +1,11 @@
-//! A top speed of the tip.
+//! Limit on the speed of the tip.
 
 use cplan_core::model::{Arm, JointType};
 use cplan_core::space::Configuration;
 use cplan_handling::{Derivative, Piece};
 
-/// Share of its limit that the tip's speed may lose, because it is bounded part by part. It decides how finely curves
-/// are cut.
+/// Greatest share of the tip's limit that is lost because the tip's speed is bounded part by part. It determines how
+/// finely curves are cut.
 pub(super) const TIP_SPEED_STEP: f64 = 0.01;
 
 /// Greatest number of parts of a piece in which the tip's speed is bounded.
@@ -16,7 +16,7 @@ const MAX_TIP_PARTS: f64 = 64.0;
 pub struct TipSpeed<'a> {
     /// The arm with the tip.
     pub arm: &'a Arm,
-    /// Metres a second, positive.
+    /// Greatest speed, metres per second, positive.
     pub speed: f64,
 }
 
@@ -25,7 +25,7 @@ pub struct TipSpeed<'a> {
 pub(super) struct Part {
     /// The configuration in the middle.
     pub(super) middle: Configuration,
-    /// First derivative by the parameter there.
+    /// First derivative by the parameter in the middle.
     pub(super) slope: Configuration,
     /// Second derivative by the parameter.
     pub(super) bend: Configuration,

@@ -8,30 +8,30 @@ use cplan_core::space::{Configuration, Path};
 use cplan_dynamics::{Curvature, Rates, Torques};
 use cplan_handling::Piece;
 
-/// Share of an effort by which the torque may be overestimated on a part of a curve. It decides how finely curves are
-/// cut.
+/// Share of an effort by which the torque may be overestimated on a part of a curve. It determines how finely curves
+/// are cut.
 const TORQUE_STEP: f64 = 0.01;
 
-/// Rows for two joints in both directions: three coefficients, each with the error of the inertial factor to either
-/// side.
+/// Number of rows for a part of a curve: for two joints, two directions, three coefficients, and two signs of the error
+/// of the inertial factor.
 const TORQUE_ROWS: usize = 24;
 
 /// Number of parts of a straight stretch for which one acceleration and one speed must be safe.
 const PARTS_PER_STRETCH: u32 = 64;
 
-/// On such a part, the share of the remaining effort for acceleration; the rest is for speed.
+/// Share of the effort left by gravity that is used for acceleration on such a part. The rest is used for speed.
 const ACCELERATION_SHARE: f64 = 0.5;
 
-/// Least share of an effort that counts as remaining.
+/// Least share of an effort that counts as left by gravity.
 const MIN_REMAINING_EFFORT: f64 = 1e-12;
 
 /// Share of an effort by which a torque may be greater between two samples of a motion.
 const SAMPLED_TORQUE_TOLERANCE: f64 = 2e-4;
 
-/// The same tolerance during the search for a motion.
+/// Share of an effort by which a torque may be greater between two samples, during the search for a motion.
 const SEARCHED_TORQUE_TOLERANCE: f64 = 2e-3;
 
-/// Greatest number of parts of a leg on which the code checks that the arm can be held.
+/// Greatest number of parts into which a leg is cut to check that the arm can be held everywhere on it.
 const MAX_LEG_PARTS: f64 = 1e5;
 
 /// A limit on the torques of an arm's joints: their efforts.
@@ -50,7 +50,7 @@ struct TorquesOnPart {
     off: Curvature,
 }
 
-/// The factors at a place.
+/// The three factors of [`TorquesOnPart`] at one place.
 struct TorqueFactors {
     inertial: Configuration,
     bent: Configuration,
@@ -58,7 +58,7 @@ struct TorqueFactors {
 }
 
 impl<'a> TorqueLimit<'a> {
-    /// Returns the torques of an arm with its load, if motions must keep within its efforts.
+    /// Returns the limit for the scene's arm with its load. `None` if motions need not respect efforts.
     #[must_use]
     pub fn of(scene: &'a Scene) -> Option<Self> {
         Some(Self { torques: Torques::limited(scene)?, share: 1.0 })

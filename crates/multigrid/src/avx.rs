@@ -1,15 +1,15 @@
-//! 256-bit vectors of x86-64 processors that have them (AVX2).
+//! Packs of numbers in 256-bit vectors, for x86-64 processors with AVX2.
 
 use super::machine::{LANES, Machine, Pack};
 use pulp::x86::V3;
 use pulp::{Simd, f32x8, f64x4};
 use std::ops::{Add, Mul, Sub};
 
-/// Eight numbers, and the proof that the processor can handle them.
+/// Eight numbers in single precision, with a token that proves that the processor has AVX2.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Singles(V3, f32x8);
 
-/// Eight numbers in two vectors.
+/// Eight numbers in double precision, in two vectors, with the same token.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Doubles(V3, [f64x4; 2]);
 

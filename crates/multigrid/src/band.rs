@@ -1,12 +1,13 @@
-//! Rows of cells of one colour of a chessboard, and their neighbours of the other.
+//! Rows of cells of one colour of a chessboard, and their neighbours of the other colour.
 
 use super::machine::{LANES, Machine, packs, packs_mut};
 
-/// The most stages of a pipeline. The last works so many rows behind the first, less one, and needs one row more.
+/// Largest number of stages of a pipeline. The last stage is this many rows, less one, behind the first stage, and
+/// needs one row more.
 pub(super) const STAGES: usize = 5;
 
-/// Rows of one colour, each with a cell before the first and one after the last, between a row above and one below. Of
-/// many rows only the last few may be kept.
+/// Rows of one colour. Each row has one extra cell at both ends, and there is one extra row above the first and one
+/// below the last. A band may keep only the last few of many rows.
 #[derive(Debug, Clone)]
 pub(super) struct Band<T> {
     pub width: usize,

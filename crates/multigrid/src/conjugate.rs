@@ -25,8 +25,8 @@ pub(super) enum Right<'a> {
     Unit(usize),
 }
 
-/// Vectors used by a solve. They can be reused for other solves and other walls on a grid of the same shape. About 16
-/// bytes per cell, or 36 on a circle of rows.
+/// The vectors of a solve. They can be reused for other solves, also with other walls, on a grid of the same shape.
+/// They need about 16 bytes per cell, or 36 if the rows form a circle.
 #[derive(Debug, Clone)]
 pub struct Workspace {
     shape: Shape,
@@ -54,7 +54,7 @@ pub(super) struct Step {
     pub beta: f64,
 }
 
-/// The greatest magnitudes met in one pass.
+/// The greatest magnitudes in one pass.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Greatest {
     pub value: f64,
@@ -82,7 +82,7 @@ impl Workspace {
         }
     }
 
-    /// Returns true if it fits grids of this shape.
+    /// Returns true if the workspace fits grids of this shape.
     pub(super) fn is_for(&self, red_black: &RedBlack) -> bool {
         self.shape == red_black.shape
     }
@@ -94,7 +94,7 @@ impl Workspace {
         }
     }
 
-    /// Takes a step, smooths from zero and restricts; the greatest change and the greatest sum of changes.
+    /// Takes a step, smooths from zero and restricts. Returns the greatest change and the greatest sum of changes.
     pub(super) fn descend<M: Machine>(
         &mut self,
         m: M,
@@ -164,7 +164,8 @@ impl Workspace {
         Greatest { value: greatest(most), change: greatest(change) }
     }
 
-    /// Interpolates and smooths; the products of the advice with the residual and with its own image.
+    /// Interpolates and smooths. Returns the products of the preconditioned residual with the residual, and with its
+    /// own image by the operator.
     pub(super) fn ascend<M: Machine>(&mut self, m: M, red_black: &RedBlack, corners: &Corners) -> [f64; 2] {
         let count = red_black.count();
         let inverse = m.all((1.0 / red_black.degree) as f32);
@@ -234,8 +235,9 @@ impl Workspace {
         [product, energy].map(|sums| sums.lanes().iter().sum())
     }
 
-    /// Adds `unit` times the sum of the steps to the even cells of `values`, and computes the odd ones; with a `scale`,
-    /// the residual times it, too. The greatest value and residual (that already scaled).
+    /// Adds `unit` times the sum of the steps to the even cells of `values`, and computes the odd cells. With a
+    /// `scale`, also computes the residual times this factor. Returns the greatest value and the greatest scaled
+    /// residual.
     pub(super) fn correct<M: Machine>(
         &mut self,
         m: M,
@@ -275,7 +277,8 @@ impl Workspace {
         Greatest { value: greatest(most), change: greatest(left) }
     }
 
-    /// Reads a row of the right-hand side and of the values, and adds `unit` times the sum of the steps to its even cells.
+    /// Reads a row of the right-hand side and of the values, and adds `unit` times the sum of the steps to its even
+    /// cells.
     #[inline(always)]
     fn add_steps<M: Machine>(
         &mut self,
@@ -300,7 +303,7 @@ impl Workspace {
                 }
             }
         }
-        // The odd ones are not needed.
+        // The values of odd cells are not needed.
         part(&values[range], i, self.exact_even.cells_mut(i), self.exact_odd.cells_mut(i));
         let (sum, free) = (self.sum.row(i, count), red_black.even.row(i, count));
         for ((sum, free), to) in sum.iter().zip(free).zip(self.exact_even.row_mut(i, count)) {

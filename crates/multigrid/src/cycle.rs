@@ -9,10 +9,10 @@ use super::stencil::{FivePoint, Line, Operator, Stencil};
 use super::transfer::{Corners, Rows, Transfer};
 use cplan_interrupt::checkpoint;
 
-/// A level with at most this many cells is solved directly.
+/// Largest number of cells of a level that is solved directly.
 const MAX_DIRECT_CELLS: usize = 40;
 
-/// The levels below the finest. Depends on the operator only.
+/// The levels below the finest, which depend only on the operator.
 #[derive(Debug, Clone)]
 pub(super) struct Hierarchy {
     /// Transfer from the finest level to the first of `levels`.
@@ -23,7 +23,7 @@ pub(super) struct Hierarchy {
     bottom: Envelope,
 }
 
-/// The vectors of all levels but the finest.
+/// The vectors of all levels except the finest.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Stack {
     pub levels: Vec<Vectors>,

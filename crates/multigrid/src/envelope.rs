@@ -1,7 +1,7 @@
 //! Cholesky factorisation within the envelope of a small symmetric matrix, for the coarsest level.
 
-/// `A = L L^T`. Row `i` of `L` is kept from the first column in which row `i` of `A` has an entry; there is no fill to
-/// the left of it (Jennings 1966).
+/// The factor `L` of `A = L L^T`. Row `i` of `L` is stored from the first column in which row `i` of `A` has an entry;
+/// to the left of it, all entries are 0 (Jennings 1966).
 #[derive(Debug, Clone)]
 pub(super) struct Envelope {
     first: Vec<usize>,
@@ -57,6 +57,6 @@ impl Envelope {
     }
 }
 
-/// A pivot less than this part of the diagonal is rounding of the single precision in which the entries were computed:
-/// the matrix is singular there.
+/// Least pivot, as a fraction of the diagonal. A smaller pivot is only rounding of the entries, which are computed in
+/// single precision: the matrix is singular there.
 const MIN_PIVOT: f64 = 1e-6;

@@ -6,16 +6,16 @@ use std::ops::Range;
 /// Boundary condition at the two ends of an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Ends {
-    /// The value 0: limits repel like obstacles (Dirichlet).
+    /// Beyond the limit the value is 0, as in walls (Dirichlet).
     High,
-    /// The value of the cell at the end itself: nothing flows across the limit (Neumann).
+    /// Beyond the limit lies the value of the cell at the end itself: nothing flows across the limit (Neumann).
     Reflecting,
-    /// The other end: a circle.
+    /// Beyond the end lies the other end: the axis is a circle.
     Joined,
 }
 
 /// The layout of one level. Each row has one extra cell at each end, and there is one extra row above the first and one
-/// below the last. They hold the values that [`Ends`] prescribes once the row is finished.
+/// below the last. After a row is finished, the extra cells have the values that [`Ends`] prescribes.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Frame {
     pub rows: usize,

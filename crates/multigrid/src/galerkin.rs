@@ -1,9 +1,10 @@
 //! The next coarser level: interpolation that follows the operator, and the operator seen through it.
 //!
-//! Coarse cells are the cells in even rows and columns (box multigrid: Dendy 1982). The cells between two of them in a
-//! row get the values that balance the couplings of their column as a whole; the same with rows and columns exchanged;
-//! the cells in odd rows and columns then get the values that solve their own equation. In the open that is bilinear
-//! interpolation; nothing is interpolated across a wall, however thin, on any level, since couplings say where walls are.
+//! Coarse cells are the cells in even rows and columns (box multigrid: Dendy 1982). A cell between two coarse cells of
+//! a row gets the value that balances the sums of couplings over its column, and likewise with rows and columns
+//! exchanged. A cell in an odd row and column then gets the value that solves its own equation. In open space, this is
+//! bilinear interpolation. On all levels, no value is interpolated across a wall, however thin, because couplings show
+//! where walls are.
 
 use super::frame::{Ends, Frame};
 use super::machine::{LANES, Machine, Pack};
@@ -11,7 +12,8 @@ use super::seam::SeamlessOperator;
 use super::stencil::{Line, Operator, Stencil};
 use super::transfer::Transfer;
 
-/// The columns of a [`Line`] apart: number `j` of `even` and of `odd` are the columns `2 j` and `2 j + 1`.
+/// A [`Line`] with separate lists of its even and odd columns: entry `j` of `even` is column `2 j`, and entry `j` of
+/// `odd` is column `2 j + 1`.
 struct Halves {
     even: Line,
     odd: Line,
@@ -121,7 +123,7 @@ pub(super) fn coarsen<M: Machine, O: Operator>(m: M, operator: &O) -> (Transfer,
     (transfer, stencil)
 }
 
-/// Weights of the cells between two coarse cells of row `i`, or of rows `i` and `i + 1`.
+/// Computes the weights of the cells between two coarse cells of row `i`, and between rows `i` and `i + 1`.
 fn line_weights<M: Machine, O>(m: M, window: &Window<O>, transfer: &mut Transfer, i: usize) {
     let (c, e) = (&window.middle.even, &window.middle.odd);
     let (s, x) = (&window.below.even, &window.below.odd);
@@ -148,8 +150,8 @@ fn line_weights<M: Machine, O>(m: M, window: &Window<O>, transfer: &mut Transfer
     );
 }
 
-/// Prevents interpolation from coarse cells that are not unknowns. Diagonal couplings past such a cell would count for
-/// it.
+/// Sets to 0 the weights of coarse cells that are not unknowns. Without this, diagonal couplings past such a cell would
+/// count as couplings to it.
 fn keep_unknowns<M: Machine>(m: M, transfer: &mut Transfer, unknown: &[f32], i: usize) {
     let (row, below) = (transfer.coarse.row(i), transfer.coarse.below(i));
     m.run(
@@ -168,7 +170,7 @@ fn keep_unknowns<M: Machine>(m: M, transfer: &mut Transfer, unknown: &[f32], i: 
     );
 }
 
-/// Weights of the cells in the middle of four coarse cells.
+/// Computes the weights of the cells in the middle of four coarse cells.
 fn center_weights<M: Machine, O>(m: M, window: &Window<O>, transfer: &mut Transfer, i: usize) {
     let (c, e) = (&window.middle.even, &window.middle.odd);
     let (s, x) = (&window.below.even, &window.below.odd);
@@ -266,7 +268,8 @@ fn products<M: Machine, O>(
                 let (west, east_before) = (m.load(&t.west, at), m.load(&t.east, at - 1));
                 let (north, south) = (m.load(&t.north, at), m.load(&t.south, at));
 
-                // A P at the coarse cell itself: its own, then towards east, south, south-east, south-west, as couplings.
+                // A P at the coarse cell itself: its own, then towards east, south, south-east, south-west, as
+                // couplings.
                 let (ce, cs, cse, csw) = (
                     m.load(&c.east, j + 1),
                     m.load(&c.south, j + 1),

@@ -5,7 +5,7 @@
 
 use std::ops::{Add, Mul, Sub};
 
-/// Numbers in a pack. Rows are padded to a multiple of it, so that loops over whole rows need no remainder.
+/// Number of numbers in a pack. Rows are padded to a multiple of this, so that loops over whole rows have no remainder.
 pub(super) const LANES: usize = 8;
 
 /// A pack of numbers.
@@ -35,7 +35,7 @@ pub(super) trait Machine: Copy {
     /// Returns a pack with the same number in all lanes.
     fn all(self, x: f32) -> Self::Single;
     fn all_double(self, x: f64) -> Self::Double;
-    /// Reciprocals where positive, elsewhere 0.
+    /// Returns the reciprocal of each positive number, and 0 for others.
     fn inverse(self, x: Self::Single) -> Self::Single;
     /// Returns `x` with lanes below `negligible` in magnitude set to 0.
     fn significant(self, x: Self::Single, negligible: f32) -> Self::Single;
@@ -53,7 +53,7 @@ pub(super) fn packs<T>(from: &[T], at: usize, count: usize) -> &[[T; LANES]] {
     &from[at..].as_chunks().0[..count]
 }
 
-/// Does the same for writing.
+/// Same as [`packs`], for writing.
 #[inline(always)]
 pub(super) fn packs_mut<T>(from: &mut [T], at: usize, count: usize) -> &mut [[T; LANES]] {
     &mut from[at..].as_chunks_mut().0[..count]

@@ -1,18 +1,20 @@
-//! The cells of a grid in two colours like those of a chessboard, each colour in an array of its own.
+//! The cells of a grid in two colours, as on a chessboard. Each colour has its own array.
 //!
-//! Neighbours have different colours, so that the odd cells (of odd row plus column) depend on even ones alone and can be
-//! eliminated: what remains is a system for half of the cells. In row `i` the even cells are the columns `2 j + i mod 2`,
-//! the odd ones `2 j + 1 - i mod 2`; the neighbours above and below a cell have its number, those beside it have it and
-//! the one before or after.
+//! Neighbours have different colours. So the odd cells (for which row plus column is odd) depend only on even cells,
+//! and can be eliminated. A system for half of the cells remains. In row `i`, even cell number `j` is in column
+//! `2 j + i mod 2`, and odd cell number `j` is in column `2 j + 1 - i mod 2`. The neighbours of cell `j` in the rows
+//! above and below also have the number `j`. Its two neighbours in the same row have the numbers `j`, and `j - 1` or `j
+//! + 1`.
 //!
-//! Where a limit reflects, or a circle has an odd number of cells, neighbours have the same colour. Two even ones find
-//! each other's value in the frame of the odd cells; odd ones are eliminated together ([`RedBlack::settle`]).
+//! If a limit reflects, or a circle has an odd number of cells, some neighbours have the same colour. Two even
+//! neighbours find each other's value in the frame of the odd cells. Two odd neighbours are eliminated together
+//! ([`RedBlack::settle`]).
 
 use super::band::{Band, STAGES};
 use super::frame::Ends;
 use super::machine::LANES;
 
-/// A number of either precision.
+/// A number in single or double precision.
 pub(super) trait Real: Copy + Default + Into<f64> {
     fn of(x: f64) -> Self;
 }
@@ -41,9 +43,9 @@ pub(super) struct Shape {
 #[derive(Debug, Clone)]
 pub(super) struct RedBlack {
     pub shape: Shape,
-    /// 4 + shift: the diagonal before reflecting ends lower it.
+    /// Diagonal coefficient, `4 + shift`, of cells that are not at reflecting ends.
     pub degree: f64,
-    /// 1 on free cells, 0 elsewhere.
+    /// For each even cell, 1 if it is free and 0 otherwise.
     pub even: Band<f32>,
     pub odd: Band<f32>,
 }
@@ -76,12 +78,12 @@ impl RedBlack {
         }
     }
 
-    /// Cells of a colour in a row, at the most.
+    /// Returns the largest number of cells of one colour in a row.
     fn half(&self) -> usize {
         self.shape.columns.div_ceil(2)
     }
 
-    /// Packs in a row of one colour.
+    /// Returns the number of packs in a row of one colour.
     pub fn count(&self) -> usize {
         self.even.width / LANES
     }
@@ -103,7 +105,7 @@ impl RedBlack {
     pub fn pipeline(&self, stages: usize, mut stage: impl FnMut(usize, usize)) {
         if self.shape.ends[0] == Ends::Joined {
             for s in 0..stages {
-                // No iterator: its closure would not be inlined.
+                // Do not use an iterator: its closure would not be inlined.
                 for i in 0..self.shape.rows {
                     stage(s, i);
                 }
@@ -119,8 +121,8 @@ impl RedBlack {
         }
     }
 
-    /// Returns the parity of an axis that is a circle: whether its colours match at the seam. Returns `None` for an
-    /// interval.
+    /// Returns the parity of the number of cells of an axis that is a circle. If it is odd, neighbours across the seam
+    /// have the same colour. Returns `None` for an interval.
     fn joined(&self, axis: usize) -> Option<Parity> {
         let odd = [self.shape.rows, self.shape.columns][axis] % 2 == 1;
         (self.shape.ends[axis] == Ends::Joined).then_some(if odd { Parity::Odd } else { Parity::Even })
@@ -140,8 +142,8 @@ impl RedBlack {
         });
     }
 
-    /// Sets the frame of odd cells as far as it depends on row `i`: with it, sums over the neighbours of even cells are
-    /// right also where these are even themselves.
+    /// Sets the frame of odd cells as far as it depends on row `i`. With this frame, sums over the neighbours of even
+    /// cells are also right if some of these neighbours are even.
     #[inline(always)]
     pub fn frame_odd<T: Real, U: Real + Into<T>>(&self, band: &mut Band<T>, even: &Band<U>, i: usize) {
         let (at, half) = (band.start(i), self.half());
@@ -154,7 +156,7 @@ impl RedBlack {
                 (band.data[at - 1], band.data[at + half]) = (band.data[at + half - 1], band.data[at]);
             }
             ends => {
-                // Numbers before and after the row that only even cells at its ends see.
+                // The extra cells before and after the row, which only even cells at its ends use.
                 let (before, after) = if ends == Ends::Joined { (last, first) } else { (first, last) };
                 band.data[at - 1] = before;
                 band.data[at + half] = after;
@@ -186,7 +188,8 @@ impl RedBlack {
         }
     }
 
-    /// Calls for each row beyond the ends that row `i` decides, with where that starts and where this does.
+    /// Calls `set` for each extra row that depends on row `i`, with the start of the extra row and the start of row
+    /// `i`.
     #[inline(always)]
     fn rows_beyond<T: Real>(&self, band: &mut Band<T>, i: usize, mut set: impl FnMut(&mut Band<T>, usize, usize)) {
         let from = band.start(i);
@@ -201,7 +204,7 @@ impl RedBlack {
         }
     }
 
-    /// Returns how often the cell of an axis is its own neighbour.
+    /// Returns how many times a cell is its own neighbour along an axis.
     fn own(&self, axis: usize, at: usize) -> f64 {
         let cells = [self.shape.rows, self.shape.columns][axis];
         match self.shape.ends[axis] {
@@ -217,7 +220,7 @@ impl RedBlack {
         }
     }
 
-    /// Makes the solution for the odd cells of row `i` out of the right-hand sides divided by the degree.
+    /// Computes the solution for the odd cells of row `i`. The band has their right-hand sides divided by the degree.
     #[inline(always)]
     pub fn settle<T: Real, U: Real + Into<T>>(&self, band: &mut Band<T>, even: &Band<U>, i: usize) {
         if self.shape.ends != [Ends::High; 2] {

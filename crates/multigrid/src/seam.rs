@@ -1,19 +1,20 @@
-//! Circles with an odd number of cells, as the coarsening wants them: even.
+//! Adds a cell to circles with an odd number of cells, because coarsening needs an even number.
 
 use super::frame::{Ends, Frame};
 use super::machine::Machine;
 use super::stencil::{Line, Operator};
 
-/// An operator with one more column or row at the seam of each circle of odd size, in the middle of the couplings across
-/// the seam: a coupling `c` becomes two of `2 c` in series, which is the same once the new unknown is eliminated. (Exact
-/// for five points. Diagonal couplings across the seam, which coarse levels have, are laid on the straight ones beside
-/// them: a change that only the preconditioner sees.)
+/// An operator with one more column or row at the seam of each circle of odd size. The new cells lie in the middle of
+/// the couplings across the seam. A coupling `c` becomes two couplings `2 c` in series, which are equivalent to `c`
+/// after the new unknown is eliminated. (This is exact for five-point operators. Coarse levels also have diagonal
+/// couplings across the seam, which are added to the straight couplings beside them. This changes only the
+/// preconditioner.)
 pub(super) struct SeamlessOperator<'a, O> {
     operator: &'a O,
     fine: Frame,
     even: Frame,
     odd: [bool; 2],
-    /// The row before, and the last row with its new column.
+    /// The row before the current one, and finally the last row with its new column.
     before: Line,
     last: Line,
     /// The diagonal of the first row, with its new column.
@@ -107,9 +108,9 @@ impl<'a, O: Operator> SeamlessOperator<'a, O> {
     }
 }
 
-/// Returns the straight coupling that replaces all couplings across the seam between two cells: their own, and half of
-/// each diagonal one, whose other half goes to another pair. It is 0 if one of the cells is not an unknown: diagonal
-/// couplings of the other cell then act on its diagonal as before.
+/// Returns the straight coupling between two cells that replaces couplings across the seam: their own coupling, and
+/// half of each diagonal coupling. The other half of a diagonal coupling goes to another pair. The result is 0 if one
+/// of the cells is not an unknown; then the diagonal couplings of the other cell stay in its diagonal coefficient.
 fn straight(one: [f32; 3], other: [f32; 3], diagonals: [f32; 2]) -> f32 {
     if diagonals.iter().any(|&diagonal| diagonal <= 0.0) {
         return 0.0;

@@ -1,17 +1,18 @@
 //! Smoothing: two steps of Jacobi's method with the weights of Chebyshev, and residuals.
 //!
-//! The spectrum of `D^-1 A` lies within 0..2. The weights make the polynomial of degree 2 that is least on its upper part,
-//! `0.5..2`, which coarser levels do not see. No order of cells is involved, so that whole rows are vectors, and the
-//! cycle is symmetric.
+//! The spectrum of `D^-1 A` lies within 0..2. With these weights, both steps together are the polynomial of degree 2
+//! that is least on the upper part of the spectrum, `0.5..2`, which coarser levels cannot represent. The order of cells
+//! does not matter, so whole rows are processed as vectors, and the cycle is symmetric.
 
 use super::around::NineCells;
 use super::frame::Frame;
 use super::machine::{LANES, Machine, Pack, packs, packs_mut};
 use super::stencil::Stencil;
 
-/// `1 / (1.25 +- 0.75 cos(pi / 4))`.
+/// Weights of the two steps: `1 / (1.25 +- 0.75 cos(pi / 4))`.
 const STEP_WEIGHTS: [f32; 2] = [0.561_731_2, 1.389_488_2];
-/// Both steps from zero: `(w0 + w1 - w0 w1) D^-1 b + w0 w1 D^-1 (sum of couplings times D^-1 b)`.
+/// Weight of a cell's own right-hand side in two steps `w0`, `w1` from zero, which give
+/// `(w0 + w1 - w0 w1) D^-1 b + w0 w1 D^-1 (sum of couplings times D^-1 b)`.
 const OWN_WEIGHT: f32 = STEP_WEIGHTS[0] + STEP_WEIGHTS[1] - STEP_WEIGHTS[0] * STEP_WEIGHTS[1];
 const NEIGHBOR_WEIGHT: f32 = STEP_WEIGHTS[0] * STEP_WEIGHTS[1];
 
@@ -57,8 +58,8 @@ impl Stencil {
     pub fn go_on<M: Machine>(&self, m: M, vectors: &mut Vectors) {
         let Vectors { right, solution, other } = vectors;
         self.frame.finish(solution);
-        // The second step for a row as soon as the first is done for the rows around it: by then the first no longer
-        // needs the old values of that row.
+        // Take the second step for a row as soon as the first step is done for the rows around it. The first step then
+        // no longer needs the old values of that row.
         m.run(
             #[inline(always)]
             || {

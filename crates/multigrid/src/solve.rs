@@ -8,7 +8,7 @@ use super::red_black::RedBlack;
 use super::stencil::FivePoint;
 use cplan_interrupt::checkpoint;
 
-/// Evaluates an expression with the best machine that there is.
+/// Evaluates an expression with the fastest machine that the processor supports.
 macro_rules! on_this_machine {
     ($machine:ident => $run:expr) => {{
         #[cfg(target_arch = "x86_64")]
@@ -26,36 +26,36 @@ macro_rules! on_this_machine {
     }};
 }
 
-/// The solver for one arrangement of walls.
+/// The solver for a grid with certain walls.
 #[derive(Debug, Clone)]
 pub struct Multigrid {
     red_black: RedBlack,
-    /// The hierarchy, if there are cells.
+    /// The hierarchy of levels; `None` if there are no cells.
     hierarchy: Option<Hierarchy>,
 }
 
 /// Result of a solve.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Convergence {
-    /// Steps of conjugate gradients, each with one V-cycle.
+    /// Number of steps of conjugate gradients, each with one V-cycle.
     pub iterations: usize,
     /// Estimate of the greatest error of a value, relative to the greatest value.
     pub error: f64,
-    /// True if `error` is below the tolerance. Otherwise rounding ended the progress.
+    /// True if `error` is below the tolerance. If false, rounding ended the progress.
     pub converged: bool,
 }
 
-/// More steps than this are never needed: each gains a digit or nearly so.
+/// Largest number of steps. Each step gains about a digit, so more are never needed.
 const MAX_ITERATIONS: usize = 100;
 
-/// Rounding of sums in single precision, relative to the greatest.
+/// Rounding error of sums in single precision, relative to the greatest value.
 const SINGLE_ROUNDING: f64 = 1e-7;
 
-/// A round that leaves more than this part of the residual ended in rounding.
+/// Greatest fraction of the residual that a round may leave. If it leaves more, only rounding remains.
 const MIN_PROGRESS: f64 = 0.5;
 
-/// Least ratio assumed for the geometric series that estimates the error from the last two changes. A step that happens
-/// to change little proves little.
+/// Least ratio of the geometric series that estimates the error from the last two changes. A single step may change
+/// values only little by chance.
 const MIN_RATIO: f64 = 0.1;
 
 impl Multigrid {
@@ -147,8 +147,8 @@ impl Multigrid {
         }
     }
 
-    /// Steps until the tolerance is met or single precision ends the progress; the error. `greatest` is the greatest
-    /// value before.
+    /// Takes steps until the tolerance is reached or single precision ends the progress. Returns the estimated error.
+    /// `greatest` is the greatest value before the round.
     fn round<M: Machine>(
         &self,
         m: M,
@@ -180,7 +180,8 @@ impl Multigrid {
                 return if step.is_some() { error } else { 0.0 };
             }
             let beta = if product > 0.0 { next / product } else { 0.0 };
-            // Directions are conjugate: the energy of the advice is that of its part along the last direction and the rest.
+            // Directions are conjugate: the energy of the advice is that of its part along the last direction and the
+            // rest.
             energy = image - beta * beta * energy;
             let (true, true) = (next > 0.0, energy > 0.0) else { return error };
             product = next;
@@ -188,7 +189,7 @@ impl Multigrid {
         }
     }
 
-    /// Prepares the start; the factor that makes the residual a number of single precision.
+    /// Prepares the initial values. Returns the factor that scales the residual to the range of single precision.
     fn start(&self, right: Right, values: &mut [f64]) -> f64 {
         match right {
             Right::Given(right) => {

@@ -3,8 +3,8 @@
 use super::frame::{Ends, Frame};
 use super::machine::{LANES, Machine, Pack};
 
-/// `(A u)_p = d_p u_p - sum of c_pq u_q` over the eight neighbours `q`. Each coupling `c` is kept once, at the first of
-/// its two cells; it is 0 where a cell is no unknown.
+/// The operator `(A u)_p = d_p u_p - sum of c_pq u_q` over the eight neighbours `q` of a cell `p`. Each coupling `c` is
+/// stored once, at the first of its two cells. It is 0 if one of the cells is not an unknown.
 #[derive(Debug, Clone)]
 pub(super) struct Stencil {
     pub frame: Frame,
@@ -90,9 +90,9 @@ impl Operator for Stencil {
 #[derive(Debug, Clone)]
 pub(super) struct FivePoint {
     pub frame: Frame,
-    /// 4 + shift: the diagonal before reflecting ends lower it.
+    /// Diagonal coefficient, `4 + shift`, of cells that are not at reflecting ends.
     pub degree: f64,
-    /// 1 on free cells, 0 elsewhere.
+    /// For each cell, 1 if it is free and 0 otherwise.
     pub free: Vec<f32>,
 }
 

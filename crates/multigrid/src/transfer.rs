@@ -1,4 +1,4 @@
-//! Between a level and the next coarser one.
+//! Transfers between a level and the next coarser one: interpolation and restriction.
 
 use super::band::Band;
 use super::frame::Frame;
@@ -6,7 +6,8 @@ use super::machine::{LANES, Machine, Pack, packs, packs_mut};
 use super::seam::odd_circles;
 use super::smooth::{Smooth, Vectors};
 
-/// Interpolation weights, kept at the coarse cell that is north or west of the cell they are for, and its transpose.
+/// Interpolation, and its transpose, restriction. The weights of a fine cell are stored at the coarse cell to the north
+/// or west of it.
 #[derive(Debug, Clone)]
 pub(super) struct Transfer {
     pub fine: Frame,
@@ -23,13 +24,13 @@ pub(super) struct Transfer {
     pub corners: [Vec<f32>; 4],
 }
 
-/// Rows that a transfer works with, for all levels.
+/// Temporary rows for the transfers of all levels.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Rows {
     natural: Vec<f32>,
     even: Vec<f32>,
     odd: Vec<f32>,
-    /// The odd row above, its even and its odd columns.
+    /// The even columns and the odd columns of the odd row above.
     above: [Vec<f32>; 2],
     below: [Vec<f32>; 2],
 }
@@ -118,7 +119,7 @@ impl Transfer {
         }
     }
 
-    /// Forgets the cells that were put into the seams of odd circles.
+    /// Removes the cells that were added at the seams of odd circles.
     pub fn drop_seams(&mut self) {
         let odd = odd_circles(self.fine);
         let frame = self.coarse;
@@ -217,7 +218,7 @@ impl Transfer {
     }
 }
 
-/// Takes even and odd columns apart.
+/// Splits a row into its even and odd columns.
 #[inline(always)]
 fn split(natural: &[f32], even: &mut [f32], odd: &mut [f32]) {
     for ((pair, even), odd) in natural.as_chunks::<2>().0.iter().zip(even).zip(odd) {
@@ -225,7 +226,7 @@ fn split(natural: &[f32], even: &mut [f32], odd: &mut [f32]) {
     }
 }
 
-/// Columns together, added.
+/// Adds even and odd columns to a row.
 #[inline(always)]
 fn join(even: &[f32], odd: &[f32], onto: &mut [f32]) {
     for ((pair, even), odd) in onto.as_chunks_mut::<2>().0.iter_mut().zip(even).zip(odd) {

@@ -105,7 +105,8 @@ fn short_rings_agree_with_elimination() {
     agrees_with_elimination([3, 2], [Ends::High, Ends::Joined], &[true; 6], &right, shift).unwrap();
 }
 
-/// Gauss-Seidel with the goal held at 1 until nothing changes: another equation (a goal that is known) and another method.
+/// Solves by Gauss-Seidel relaxation until nothing changes, with the goal fixed at 1. Both the equation and the method
+/// differ from the solver's.
 fn relaxed(cells: [usize; 2], ends: [Ends; 2], free: &[bool], goal: usize) -> Vec<f64> {
     let around = around(cells, ends);
     let mut values = vec![0.0; free.len()];

@@ -1,4 +1,4 @@
-//! Bands of `q1` that joint 1 alone decides, because link 1 collides there.
+//! Bands: intervals of `q1` in which link 1 collides, whatever `q2` is.
 
 use super::slab::{CLOSED_FORM_ERROR, is_collision};
 use cplan_core::check::Cell;
@@ -7,10 +7,11 @@ use cplan_core::check::{Deviation, Posture};
 use cplan_core::model::{Contacts, on_axis};
 use cplan_geometry::{Vector, merge_in_place};
 
-/// Places in a band where a wall is searched, as shares of each pair's interval. Shapes usually overlap most in the middle.
+/// Places where a wall is sought, as shares of the interval of `q1` in which a pair collides. Shapes usually overlap
+/// most in the middle.
 const WALL_POSITIONS: [f64; 5] = [0.5, 0.25, 0.75, 0.1, 0.9];
 
-/// A stretch of joint 1's domain.
+/// A stretch of joint 1's domain in which link 1 has one state.
 pub(super) struct Stretch {
     pub from: f64,
     pub to: f64,
@@ -23,11 +24,11 @@ pub(super) enum Kind {
     Free,
     /// Link 1 is proven too near over some width within the stretch, so no path crosses the stretch.
     Wall(CollisionBox),
-    /// Neither certainly free nor certainly in collision.
+    /// It is not decided whether link 1 keeps its distance.
     Unknown,
 }
 
-/// Splits the domain of joint 1 into stretches, ascending. Takes `O(n log n)` in the contacts of link 1.
+/// Splits the domain of joint 1 into stretches, ascending. Takes `O(n log n)` for `n` contacts of link 1.
 pub(super) fn bands(contacts: &Contacts, clearance: f64) -> Vec<Stretch> {
     let scene = contacts.scene();
     let joint = &scene.arm().joints[0];
@@ -49,7 +50,7 @@ pub(super) fn bands(contacts: &Contacts, clearance: f64) -> Vec<Stretch> {
         }
         let within = of_pairs.iter().filter(|(_, i)| band[0] <= i[0] && i[1] <= band[1]);
         let wall = within.filter_map(|(index, interval)| wall(contacts, clearance, *index, *interval)).next();
-        // A band may be a single value, if shapes graze or at the end of the domain.
+        // A band may be a single value: where shapes graze, or at the end of the domain.
         if band[0] < band[1] || wall.is_none() {
             stretches.push(Stretch { from: band[0], to: band[1], kind: wall.map_or(Kind::Unknown, Kind::Wall) });
         }
@@ -70,7 +71,7 @@ fn wall(contacts: &Contacts, clearance: f64, index: usize, [from, to]: [f64; 2])
         let middle = from + (to - from) * share;
         let posture = Posture::new(scene, Vector::new(middle, (bottom + top) / 2.0));
         let depth = clearance - posture.greatest(pair, Deviation::Box([0.0, 0.0]));
-        // Half of the width that the depth allows. The rest is a margin for rounding in the checker.
+        // Use half of the width that the depth allows. The rest is a margin for rounding in the checker.
         let half = (depth / lever / 2.0).min(middle - from).min(to - middle);
         let cell = Cell { lower: [middle - half, bottom], upper: [middle + half, top] };
         let stands = cell.lower[0] < cell.upper[0] && bottom < top;

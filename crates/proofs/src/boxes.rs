@@ -60,7 +60,7 @@ pub(super) struct Portal {
     pub left: Configuration,
     /// The right end.
     pub right: Configuration,
-    /// Shift that places the other cell beside the first one: a whole turn, or nothing.
+    /// Shift of the other cell that places it beside the first one: a whole turn if they meet across a seam, or zero.
     pub shift: Configuration,
 }
 
@@ -80,22 +80,22 @@ pub(super) enum State {
     Colliding(Pair),
     /// These pairs are undecided. No other pair comes too near.
     Undecided(Vec<Pair>),
-    /// Undecided, and halving would not help: either only link 1 is undecided in a column of the finest width, or the
-    /// box has the finest size.
+    /// Undecided, and halving would not help: the box has the finest size, or it is in a column of the finest width and
+    /// only pairs of link 1 are undecided.
     Finest,
-    /// Replaced by two halves: the nodes of this index and the next.
+    /// Replaced by two halves, which are the nodes with this index and the next one.
     Split(u32),
 }
 
 pub(super) struct Node {
     pub cell: Cell,
     pub state: State,
-    /// Boxes that share a side with this one. Empty for a collision box or a split box.
+    /// Indices of the boxes that share a side with this one. Empty for a collision box or a split box.
     pub neighbors: Vec<u32>,
 }
 
 impl Node {
-    /// Returns true if it may contain a free configuration: it is neither a collision box nor split.
+    /// Returns true if the box is neither a collision box nor split, so that it may contain free configurations.
     pub fn is_open(&self) -> bool {
         matches!(self.state, State::Free | State::Undecided(_) | State::Finest)
     }
@@ -107,7 +107,7 @@ pub(super) struct Subdivision<'a> {
     topology: Topology,
     clearance: f64,
     pub nodes: Vec<Node>,
-    /// Number of boxes of the initial columns. They are halves of no other box.
+    /// Number of initial boxes. These come first in the list, and are halves of no other box.
     roots: usize,
 }
 
@@ -119,9 +119,9 @@ const INITIAL_COLUMNS: usize = 8;
 /// obstacle, needs fine columns.
 const MIN_COLUMN_WIDTH: f64 = 1e-8;
 
-/// Maximum number of undecided columns of one width that are halved in advance. Each end of a contact leaves a few
-/// undecided columns. Far more of them mean that link 1 slides along an obstacle at exactly the clearance, and halving
-/// would not help. The search then halves boxes of such columns only where it matters.
+/// Maximum number of undecided columns of one width that are halved before the search. Each end of a contact leaves a
+/// few undecided columns. If there are far more, link 1 slides along an obstacle at exactly the clearance, and halving
+/// would not help. Then the search halves boxes of such columns only where it needs to.
 const MAX_UNDECIDED_COLUMNS: usize = 512;
 
 /// Finest size of a box, as a share of the domain along each axis. Finer boxes would be within the rounding error of a
@@ -166,8 +166,8 @@ impl<'a> Subdivision<'a> {
         this
     }
 
-    /// Splits the domain of `q1` into intervals, ascending, on which link 1 is free, in collision, or (when halving
-    /// ends) undecided.
+    /// Splits the domain of `q1` into intervals, ascending, with the state of link 1: free, in collision, or undecided
+    /// after all halvings.
     fn columns(&self) -> Vec<(f64, f64, State)> {
         let (lower, upper) = self.topology.ranges[0].domain();
         let first: Vec<Pair> = self.scene.pairs().iter().copied().filter(|p| p.link == 0).collect();
@@ -316,8 +316,8 @@ fn index(at: usize) -> u32 {
     u32::try_from(at).unwrap_or(u32::MAX)
 }
 
-/// Computes the state of a box from the pairs that are undecided in a larger box. The `fixed` pairs stay undecided
-/// without a test.
+/// Computes the state of a box. `pairs` are the pairs to test, undecided in a larger box. The pairs `fixed` stay
+/// undecided without a test.
 fn judge(scene: &Scene, clearance: f64, cell: &Cell, pairs: &[Pair], fixed: &[Pair]) -> State {
     checkpoint();
     let posture = Posture::new(scene, cell.center());

@@ -1,8 +1,8 @@
 //! Chains of adjacent boxes.
 //!
-//! These are our own searches instead of petgraph's, for three reasons. Boxes are split between searches, so there is
-//! no graph to keep. Free boxes cost nothing, so a double-ended queue can replace a heap. And the cost of a path
-//! depends on where it enters a box.
+//! The searches are written here, rather than taken from petgraph, for three reasons. Boxes are split between searches,
+//! so a graph would have to be built again each time. Free boxes cost nothing, so a double-ended queue can replace a
+//! heap. And the cost of a path depends on where it enters a box.
 
 use super::boxes::portal;
 use cplan_core::check::Cell;
@@ -24,7 +24,7 @@ pub(super) enum Openness {
     Finest,
 }
 
-/// Numbered boxes that cover the domain side by side.
+/// Boxes that cover the domain side by side. Each has a number.
 pub(super) trait Mosaic {
     /// Returns an upper limit of the numbers of boxes.
     fn count(&self) -> usize;
@@ -43,10 +43,10 @@ pub(super) trait Mosaic {
     fn topology(&self) -> &Topology;
 }
 
-/// Goals within a box, with the number of the box.
+/// The number of a box, and a goal segment within that box.
 pub(super) type End = (u32, Segment);
 
-/// Returns the boxes with goals that are not collision boxes, and their goals, sorted by number.
+/// Returns the goals within boxes that are not collision boxes, sorted by the number of the box.
 pub(super) fn ends(boxes: &impl Mosaic, goals: &GoalSet) -> Vec<End> {
     let mut ends: Vec<End> = Vec::new();
     for piece in goals.wrapped(boxes.topology()) {
@@ -62,8 +62,9 @@ pub(super) fn ends_in(ends: &[End], index: u32) -> impl Iterator<Item = &Segment
     ends[first..].iter().take_while(move |end| end.0 == index).map(|end| &end.1)
 }
 
-/// Finds the chain of adjacent boxes from `from` to one of `ends` with the fewest undecided boxes. It uses boxes of the
-/// finest size only if `finest`. Breadth-first search in which free boxes cost nothing. Takes `O(boxes + adjacencies)`.
+/// Finds the chain of adjacent boxes from `from` to one of `ends` with the fewest undecided boxes. Boxes that halving
+/// would not decide are used only if `finest` is true. This is a breadth-first search in which free boxes cost nothing.
+/// It takes `O(boxes + adjacencies)`.
 pub(super) fn fewest_undecided(boxes: &impl Mosaic, from: u32, ends: &[End], finest: bool) -> Option<Vec<u32>> {
     let (_, parent, last) = search(boxes, &[from], ends, finest);
     last.map(|last| back(&parent, last))
@@ -80,7 +81,7 @@ pub(super) fn all_of_fewest_undecided(boxes: &impl Mosaic, from: u32, ends: &[En
     (0..here.len()).filter(mixed).filter(|&index| cost(index) == fewest).map(|index| index as u32).collect()
 }
 
-/// Returns the cost of passing a box: nothing if it is free. Returns `None` if it cannot be passed.
+/// Returns the cost of passing a box: 0 if it is free, 1 if it is undecided, `None` if it cannot be passed.
 fn cost_of(boxes: &impl Mosaic, index: u32, finest: bool) -> Option<u32> {
     match boxes.openness(index) {
         Some(Openness::Free) => Some(0),
@@ -90,8 +91,8 @@ fn cost_of(boxes: &impl Mosaic, index: u32, finest: bool) -> Option<u32> {
     }
 }
 
-/// Computes the cost of reaching each box from `starts`, including their own, and the box before it. Stops when one of
-/// `ends` is reached.
+/// Computes for each box the least cost of reaching it from `starts`, with the costs of both ends, and the box before
+/// it on that chain. Stops when one of `ends` is reached, and returns that box.
 fn search(boxes: &impl Mosaic, starts: &[u32], ends: &[End], finest: bool) -> (Vec<u32>, Vec<u32>, Option<u32>) {
     let mut cost = vec![u32::MAX; boxes.count()];
     let mut parent = vec![NO_BOX; boxes.count()];
@@ -121,13 +122,13 @@ fn search(boxes: &impl Mosaic, starts: &[u32], ends: &[End], finest: bool) -> (V
     (cost, parent, None)
 }
 
-/// Finds the chain of free boxes from the start, in box `from`, to a goal that gives the shortest polyline through the
-/// middles of the portals. It considers one entry point per box (Dijkstra), so the result is approximate. A chain must
-/// exist.
+/// Finds a chain of free boxes from the start, in box `from`, to a goal, with a short polyline through the middles of
+/// the portals. Dijkstra's search with one entry point per box makes this polyline approximately the shortest. A chain
+/// must exist.
 pub(super) fn shortest(boxes: &impl Mosaic, start: Configuration, from: u32, ends: &[End]) -> Vec<u32> {
     let topology = boxes.topology();
     let mut length = vec![f64::INFINITY; boxes.count()];
-    // The point where each box is entered, in the fundamental domain.
+    // The wrapped point where the chain enters each box.
     let mut entry = vec![topology.wrap(start); boxes.count()];
     let mut parent = vec![NO_BOX; boxes.count()];
     let mut open = OpenList::default();

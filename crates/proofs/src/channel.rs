@@ -1,4 +1,4 @@
-//! A chain of free boxes that contains paths.
+//! A chain of free boxes in which a path can be pulled taut.
 
 use super::boxes::{Portal, portal};
 use super::chain::{End, Mosaic, ends_in};
@@ -14,14 +14,15 @@ pub struct Channel {
 }
 
 impl Channel {
-    /// Computes the portals of a chain of boxes. The last box contains goals.
+    /// Makes the channel of a chain of boxes. The first box contains `start`, and the last box contains goals.
     pub(super) fn new(boxes: &impl Mosaic, chain: &[u32], start: Configuration, ends: &[End]) -> Self {
         let topology = boxes.topology();
-        // The shift from values in the fundamental domain to the turns of a path that continues from `start`.
+        // What to add to wrapped values so that they continue from `start`.
         let mut lift = start - topology.wrap(start);
         let mut portals = Vec::with_capacity(chain.len());
         for pair in chain.windows(2) {
             let [a, b] = [pair[0], pair[1]].map(|i| boxes.cell(i));
+            // Boxes that follow one another share a side, so there is always a portal.
             let Some(Portal { left, right, shift }) = portal(&a, &b, topology) else { continue };
             portals.push([left + lift, right + lift]);
             lift += shift;
@@ -33,26 +34,28 @@ impl Channel {
         Self { start, goals: nearest.unwrap_or(Segment::point(start)), portals }
     }
 
-    /// Returns its start.
+    /// Returns the path's start.
     #[must_use]
     pub fn start(&self) -> Configuration {
         self.start
     }
 
-    /// Returns the goals in its last box. On circles these may be copies of goals.
+    /// Returns the goal segment in the last box that is nearest to the middle of the last portal, or to the start if
+    /// there is no portal. For a continuous joint it may be a copy of a goal on another turn.
     #[must_use]
     pub fn goals(&self) -> &Segment {
         &self.goals
     }
 
-    /// Returns the shared side pieces between its boxes, in order, in unwrapped values. Each consists of its left and
-    /// its right end as seen in the direction of passage, with `q1` to the right and `q2` upwards.
+    /// Returns the pieces of sides that consecutive boxes share, in order, in unwrapped values. For each piece, the
+    /// first end is to the left of the direction of passage and the second to the right, as in a plot of `q2` over
+    /// `q1`.
     #[must_use]
     pub fn portals(&self) -> &[[Configuration; 2]] {
         &self.portals
     }
 
-    /// Returns the path through the middles of the portals.
+    /// Returns the path from the start through the middles of the portals to the goal segment.
     #[must_use]
     pub fn path(&self) -> Path {
         let middles = self.portals.iter().map(|[left, right]| (left + right) / 2.0);

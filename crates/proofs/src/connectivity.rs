@@ -17,12 +17,12 @@ pub enum Connectivity {
     Disconnected(Disconnection),
     /// A chain of free boxes from the start to a goal.
     Connected(Channel),
-    /// Undecided when this many boxes were reached or could not be separated any further.
+    /// Boxes did not decide: the budget was spent, or halving did not help.
     Undecided {
         /// Number of boxes examined.
         boxes: usize,
-        /// True if no chain of boxes that may be free connects start and goal, but boxes cannot prove it, or the proof
-        /// would need too many.
+        /// True if the search found that no path exists, but a proof by boxes would need too many of them, or rounding
+        /// prevents it.
         closed: bool,
     },
 }
@@ -38,25 +38,25 @@ pub enum Occupancy {
     Undecided,
 }
 
-/// An answer, and the subdivision that led to it.
+/// An answer, and the boxes that led to it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Exploration {
-    /// A path, a proof, or neither.
+    /// The answer: a channel, a proof, or neither.
     pub answer: Connectivity,
     /// Boxes that cover the domain, side by side.
     pub boxes: Vec<(Cell, Occupancy)>,
-    /// Number of pairs of boxes that share a side and are not both stuck.
+    /// Number of pairs of boxes that share a side and are not both collision boxes.
     pub adjacencies: usize,
 }
 
 /// Decides whether a motion from `start` to one of `goals` keeps more than zero and at least `clearance` from every
 /// obstacle, with at most `max_boxes` boxes.
 ///
-/// Soft subdivision search (Wang, Chiang, Yap 2015): boxes are free, in collision, or undecided. While free and
-/// undecided boxes together connect start and goal, the undecided boxes on the connection with the fewest of them are
-/// halved. If they do not connect, there is no path. If free boxes alone connect, there is a path. The search is
-/// complete up to the resolution that `max_boxes` allows. A path with free space around it is found. A passage that is
-/// closed by overlaps of some depth is proven closed.
+/// Soft subdivision search (Wang, Chiang, Yap 2015): boxes are free, in collision, or undecided. If free boxes alone
+/// connect start and goal, there is a path. If free and undecided boxes together do not connect them, there is no path.
+/// Otherwise the search takes a connection with the fewest undecided boxes, and halves these. The search is complete up
+/// to the resolution that `max_boxes` allows: it finds a path with free space around it, and proves that a passage is
+/// closed if shapes overlap there by some depth.
 #[must_use]
 pub fn connectivity(
     scene: &Scene,
@@ -68,8 +68,8 @@ pub fn connectivity(
     proven(scene, |scene| decide(&mut Subdivision::new(scene, clearance), start, goals, max_boxes))
 }
 
-/// Decides with the outer shapes first, which contain the exact ones: a path among them is valid. If they prove that
-/// there is no path and the inner shapes differ, the question is decided again with the inner shapes.
+/// Decides first with the outer shapes, which contain the exact ones: a path among them is valid. If there is no path
+/// among them, decides again with the inner shapes, unless these are the same: a proof with them is valid.
 pub(super) fn proven(scene: &Scene, decide: impl Fn(&Scene) -> Connectivity) -> Connectivity {
     match (decide(scene), scene.inner()) {
         (Connectivity::Disconnected(proof), Cow::Owned(inner)) => match decide(&inner) {
@@ -104,10 +104,9 @@ pub fn explore(scene: &Scene, start: Configuration, goals: &GoalSet, clearance: 
     }
 }
 
-/// Number of boxes below which only one chain is refined at a time: a search is then cheap compared with the boxes that
-/// it saves. Above it, all chains with the fewest undecided boxes are refined at once. Otherwise a passage that is
-/// closed along a curve, which boxes cannot prove, would need a search for every few boxes along the curve, and so
-/// quadratic time.
+/// Number of boxes from which all chains with the fewest undecided boxes are refined at once. Below it, one chain is
+/// refined at a time: a search is then cheap compared with the boxes that it saves. Above it, that would take quadratic
+/// time in a passage that is closed along a curve, with a search for every few boxes along the curve.
 const MIN_BATCH_BOXES: usize = 512;
 
 fn decide(boxes: &mut Subdivision, start: Configuration, goals: &GoalSet, max_boxes: usize) -> Connectivity {

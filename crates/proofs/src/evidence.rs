@@ -1,10 +1,11 @@
 //! Evidence that no motion is shorter than a bound, for a checker.
 //!
-//! The evidence is a set of straight segments of configurations, each with a pair of shapes that is too near all along
-//! it. *Walls* lie on slices, where joint 1 stays at one value. *Barriers* cross the strips between two slices. No
-//! motion crosses any of them, so no motion is shorter than the shortest path around all of them. Each segment is
-//! tested again, independently of the search that found it, and cut to its proven part. The test (`held`) computes
-//! depths from the Minkowski difference step by step, where each depth covers a part of the segment. The checker of
+//! The evidence is a set of straight segments of configurations. On each segment, a pair of shapes is too near
+//! everywhere. *Walls* lie on slices, where joint 1 stays at one value. *Barriers* cross the strips between two slices.
+//! No motion crosses a segment, so no motion is shorter than the shortest path around all segments.
+//!
+//! Each segment is tested again, independently of the search that found it, and cut to its proven part. The test
+//! (`held`) computes overlap depths from the Minkowski difference, step by step along the segment. The checker of
 //! certificates judges the segments in exact arithmetic.
 
 mod blocked_part;
@@ -17,9 +18,9 @@ use cplan_interrupt::checkpoint;
 /// Values of joint 2 on a slice at which a pair collides.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Wall {
-    /// Least value.
+    /// Least value of joint 2.
     pub lower: f64,
-    /// Greatest value. On a circle it lies beyond the domain if the wall crosses the seam.
+    /// Greatest value of joint 2. For a continuous joint it lies beyond the domain if the wall crosses the seam.
     pub upper: f64,
     /// The pair that is too near.
     pub pair: Pair,
@@ -34,22 +35,22 @@ pub(crate) struct Barrier {
     pub pair: Pair,
 }
 
-/// A value of joint 1, with the walls there and the barriers across the strip up to the next slice. On a circle the
-/// first slice follows the last.
+/// A value of joint 1, with the walls there and the barriers across the strip up to the next slice. For a continuous
+/// joint, the first slice follows the last.
 #[derive(Debug, Clone)]
 pub(crate) struct Slice {
     /// Value of joint 1.
     pub q1: f64,
     /// Walls on the slice.
     pub walls: Vec<Wall>,
-    /// Barriers across the strip after it.
+    /// Barriers across the strip after the slice.
     pub barriers: Vec<Barrier>,
 }
 
 /// A straight segment of configurations along which a pair is proven too near.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ClosedSegment {
-    /// Ends of the segment. On a circle they lie beyond the domain if the segment crosses the seam.
+    /// Ends of the segment. They lie beyond the domain of a continuous joint if the segment crosses its seam.
     pub ends: [Configuration; 2],
     /// The pair that is too near.
     pub pair: Pair,
@@ -58,21 +59,21 @@ pub struct ClosedSegment {
 /// Walls and barriers found by a search for a lower bound; see [`bound_evidence`](crate::bound_evidence).
 #[derive(Debug, Clone)]
 pub struct BoundEvidence {
-    /// Slices, ascending, over the whole domain of joint 1. If the domain has ends, these are slices.
+    /// Slices, ascending, over the whole domain of joint 1. If joint 1 has limits, there are slices at both limits.
     pub(crate) slices: Vec<Slice>,
 }
 
-/// Shifts to try for a barrier that is not proven in its place, in either direction, radians or metres.
+/// Shifts of `q2`, radians or metres, that are tried one after the other for a barrier that is not proven in its place.
 const BARRIER_SHIFTS: [f64; 9] = [0.0, 1e-7, -1e-7, 1e-6, -1e-6, 1e-5, -1e-5, 1e-4, -1e-4];
 
-/// Overlap of barriers and walls beyond a seam, radians. It ensures that they overlap their continuation despite
-/// rounding.
+/// Length by which barriers and walls are extended beyond a seam, radians. It ensures that they overlap their
+/// continuation despite rounding.
 const SEAM_OVERLAP: f64 = 1e-7;
 
 impl BoundEvidence {
-    /// Returns the proven parts of the walls, and the proven barriers, with up to `looks` tests along each in either
-    /// direction. A barrier that is barely in collision is shifted slightly. Segments that end at a seam are extended
-    /// slightly beyond it.
+    /// Returns the proven parts of the walls, and the proven barriers. Each is tested at up to `looks` places in either
+    /// direction from its middle. A barrier that is barely in collision is shifted slightly. Segments that end at a
+    /// seam are extended slightly beyond the seam.
     #[must_use]
     pub fn segments(&self, scene: &Scene, clearance: f64, looks: usize) -> Vec<ClosedSegment> {
         let (scene, mut closed) = (&*scene.inner(), Vec::new());

@@ -1,6 +1,6 @@
 //! Search for proofs and bounds: slabs and boxes decide whether a path exists, and lower bounds limit how short a path
-//! can be. The results pass [`cplan_core::check`], which shares no code with this crate except the kernels of geometry
-//! and [`cplan_core::check::Deviation`].
+//! can be. The results pass [`cplan_core::check`], which shares with this crate only the kernels of geometry and its
+//! bounds on distances ([`cplan_core::check::Posture`], [`cplan_core::check::Deviation`]).
 //!
 //! The question goes to [`slab_connectivity`] first. Within a slab of `q1`, contact angles with obstacles grown by the
 //! slab's motion give the values of joint 2 that are free all over the slab. Contact angles with shapes eroded by that

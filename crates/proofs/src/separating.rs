@@ -8,8 +8,8 @@ use cplan_core::space::{Configuration, GoalSet};
 /// Selects the collision boxes that separate start and goals. The boxes of the subdivision that may be free must not
 /// connect them.
 ///
-/// The region that these boxes connect with the start is bounded by sides that it shares with collision boxes, or by
-/// the limits. So these collision boxes alone separate it from everything else.
+/// The boxes that may be free and are connected with the start form a region. Its sides are shared with collision
+/// boxes, or are limits of joints. So these collision boxes alone separate the start from the goals.
 pub(super) fn separating(boxes: &Subdivision, start: Configuration, goals: &GoalSet) -> Disconnection {
     let (here, there) = (around(boxes, &start.into()), around(boxes, goals));
     let fewer = if there.len() < here.len() { there } else { here };
@@ -20,8 +20,9 @@ pub(super) fn separating(boxes: &Subdivision, start: Configuration, goals: &Goal
     Disconnection::new(stuck.collect())
 }
 
-/// Returns the collision boxes, ascending, that share a side with the region connected to any of the places, and those
-/// that contain places themselves. If there is only a single place, the latter count only if no other box contains it.
+/// Returns the collision boxes, ascending, that share a side with the region connected to any of the places. Also
+/// returns the collision boxes that contain places. A single place that another box contains as well is exempt from
+/// this.
 fn around(boxes: &Subdivision, places: &GoalSet) -> Vec<u32> {
     let mut reached = vec![false; boxes.nodes.len()];
     let mut waiting = Vec::new();

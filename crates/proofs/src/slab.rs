@@ -11,20 +11,21 @@ use cplan_core::model::{CarriedPart, Contacts, Pair, Scene, on_axis};
 use cplan_geometry::{Convex, Features, Hits, Point, ROUNDING, Vector};
 use cplan_interrupt::checkpoint;
 
-/// Assumed error of closed forms, metres: twice their stated error. This also covers the addition of a few numbers of
-/// the arm's size, and of angles to whole turns.
+/// Assumed error of closed forms, metres: twice their stated error. The rest covers the rounding of a few sums of
+/// lengths and of angles with whole turns.
 pub(super) const CLOSED_FORM_ERROR: f64 = 2.0 * ROUNDING;
 
-/// Required overlap, as a multiple of the slab's motion. The excess allows joint 2 to move within the boxes that state
-/// the proof: at the ends of a colliding interval, about as far as joint 1 moves over a quarter of the slab.
+/// Required overlap, as a multiple of the motion over half a slab. The excess lets the boxes of a proof have some
+/// height at the ends of a colliding interval, where joint 2 moves shapes by a quarter of that motion.
 const REQUIRED_OVERLAP: f64 = 1.25;
 
 /// A part of link 2, or the static piece in one of its pairs.
 struct PairShape {
-    /// Greatest depth of a point within the shape, metres.
+    /// Greatest depth of any point of the shape, metres.
     depth: f64,
-    /// For each level of slabs requested so far: the deeper shape of a pair, eroded. The inner `None` means that
-    /// nothing is left. It is stored with the part if it is the same for all of the part's pieces.
+    /// For each level of slabs so far, this shape eroded, if it is the deeper one of a pair. The outer `None` means
+    /// that it has not been computed, the inner `None` that nothing is left. An eroded part is stored only if it is the
+    /// same for all pieces.
     eroded: Vec<Option<Option<ErodedShape>>>,
 }
 
@@ -38,12 +39,12 @@ impl PairShape {
 pub(super) enum ErodedShape {
     Part(CarriedPart),
     Piece(Features),
-    /// No erosion: the clearance exceeds the required overlap by this much.
+    /// Not eroded but grown by this length, metres, because the clearance exceeds the required overlap.
     Grown(f64),
 }
 
 impl ErodedShape {
-    /// Erodes the deeper of the two shapes by `overlap` less `clearance`. Returns `None` if nothing is left.
+    /// Erodes the deeper of the two shapes by `overlap - clearance`. Returns `None` if nothing is left.
     pub fn new(part: &CarriedPart, piece: &Convex, overlap: f64, clearance: f64) -> Option<Self> {
         if part.shape().depth() > piece.depth() {
             Self::part(part, piece, overlap, clearance)
@@ -69,7 +70,8 @@ impl ErodedShape {
         piece.eroded(-grow).map(|shape| Self::Piece(Features::new(&shape)))
     }
 
-    /// Finds the values of the joint at which the pair's shapes overlap by at least the erosion of one of them.
+    /// Finds the values of the joint at which the eroded shape touches or overlaps the other shape of the pair. There
+    /// the shapes overlap by at least the erosion.
     pub fn hits(
         &self,
         part: &CarriedPart,
@@ -86,31 +88,31 @@ impl ErodedShape {
     }
 }
 
-/// Returns how much a piece must grow until its radius is zero. Beyond that, a distance from the piece is a distance
-/// from its core.
+/// Returns by how much a piece with a negative radius must grow until its radius is zero; 0 for other pieces. Only for
+/// a radius of at least zero does a distance from the core give a distance from the piece.
 fn lacking(piece: &Convex) -> f64 {
     (-piece.radius()).max(0.0)
 }
 
-/// Link 2 and everything it can collide with, for slabs of joint 1.
+/// Link 2 and the obstacles with which it can collide, prepared for slabs of joint 1.
 pub(super) struct SecondLink<'a> {
     contacts: Contacts<'a>,
     clearance: f64,
     /// The parts of link 2.
     parts: Vec<PairShape>,
-    /// The pieces of its pairs.
+    /// The pieces of obstacles in the pairs of link 2.
     pieces: Vec<PairShape>,
     scratch: Vec<[f64; 2]>,
     near: Vec<u32>,
 }
 
-/// The forbidden values of joint 2 in a slab, within the domain. Each list is ordered by pair, numbered as in
+/// The colliding values of joint 2 in a slab, within the domain. Each list is ordered by pair. Pairs are numbered as in
 /// [`Contacts`].
 #[derive(Default)]
 pub(super) struct Verdicts {
     /// Outside these intervals, no pair comes too near anywhere in the slab.
     pub outer: Vec<[f64; 2]>,
-    /// Within each of these intervals, its pair is too near all over the slab.
+    /// Pairs by number, each with an interval in which it is too near all over the slab.
     pub inner: Vec<(usize, [f64; 2])>,
 }
 
@@ -178,8 +180,8 @@ impl<'a> SecondLink<'a> {
         (self.scratch, self.near) = (scratch, near);
     }
 
-    /// Finds the values of joint 2 at which the shapes of a pair overlap by more than `overlap` less the clearance. The
-    /// value of `overlap` must depend only on the part and the level.
+    /// Finds the values of joint 2 at which the shapes of a pair overlap by more than `overlap` minus the clearance.
+    /// Eroded shapes are stored, so `overlap` must depend only on the part and the level.
     fn collision_boxes(
         &mut self,
         index: usize,
@@ -193,7 +195,7 @@ impl<'a> SecondLink<'a> {
         let part = &mut self.parts[self.contacts.part_of(index) - self.contacts.second_link_parts().start];
         let piece = &mut self.pieces[index - self.contacts.second_link_pairs().start];
         let of_part = part.depth > piece.depth;
-        // In this case the eroded part is the same for all pieces.
+        // Then the eroded part is the same for all pieces.
         let shared = of_part && lacking(shape) == 0.0;
         let known = if shared { &mut part.eroded } else { &mut piece.eroded };
         if known.len() <= level {

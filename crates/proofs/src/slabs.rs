@@ -18,18 +18,20 @@ use cplan_core::model::Scene;
 use cplan_core::space::{Configuration, GoalSet, Segment, Topology};
 use cplan_geometry::merge_in_place;
 
-/// Number of initial slabs over the domain; those beside a band of link 1 are narrower. Later slabs are repeated halves
-/// of these. At least three, so that across a seam no slab is its own neighbour.
+/// Number of initial slabs over the domain. Slabs beside a band of link 1 are narrower. All later slabs are made by
+/// halving. There must be at least three, so that across a seam no slab is its own neighbour.
 const INITIAL_SLABS: usize = 16;
 
-/// Maximum number of times that a slab is halved. Finer slabs would move link 2 by less than the rounding error.
+/// Maximum number of times that a slab is halved. Within finer slabs, link 2 would move by less than the rounding
+/// error.
 const MAX_HALVINGS: usize = 26;
 
-/// Number of slabs from which all connections with the fewest undecided spans are refined at once. Refining one at a
-/// time, the searches would dominate the time.
+/// Number of slabs from which all connections with the fewest undecided spans are refined at once. With more slabs, a
+/// search for each single connection would take most of the time.
 const MIN_BATCH_SLABS: usize = 512;
 
-/// Tolerance for slabs of the same level, as a share of their width. It is far greater than the rounding of their ends.
+/// Difference of widths, as a share, up to which slabs count as slabs of the same level. It is far greater than the
+/// rounding of their ends.
 const LEVEL_TOLERANCE: f64 = 1e-6;
 
 /// A stretch of `q1` and its spans.
@@ -38,14 +40,14 @@ struct Slab {
     from: f64,
     to: f64,
     level: usize,
-    /// True if link 1 is free all over the slab. Otherwise no span counts as free, but spans in which link 2 collides
-    /// do count.
+    /// True if link 1 is free all over the slab. If false, no span counts as free, but spans in which link 2 collides
+    /// still count as colliding.
     clear: bool,
     /// True if link 2 was judged. Before that, the whole slab is one undecided span.
     judged: bool,
     /// Index of the first span, and one past the last.
     spans: [u32; 2],
-    /// Index into the walls, if the slab is a wall.
+    /// Index into the walls, if link 1 closes the slab; otherwise `None`.
     wall: Option<u32>,
 }
 
@@ -72,10 +74,9 @@ struct Slabs<'a> {
 /// Decides whether a motion from `start` to one of `goals` keeps more than zero and at least `clearance` from every
 /// obstacle, with at most `max_slabs` slabs of joint 1 and a proof of at most `max_boxes` boxes.
 ///
-/// This is the same question as [`super::connectivity`], usually answered in a small part of the time: a slab decides
-/// all of `q2` at once, in `O(m log m)` for `m` contacts. The answer is undecided if shapes without any inner disc
-/// (segments) touch other such shapes, or if only some nanometres of free space remain. Its proofs consist of the same
-/// kind of boxes.
+/// This answers the same question as [`super::connectivity`], usually in a small part of the time: a slab decides all
+/// values of `q2` at once, in `O(m log m)` for `m` contacts. Proofs consist of the same kind of boxes. The answer is
+/// undecided if shapes without area touch each other, or if only some nanometres of free space remain.
 #[must_use]
 pub fn slab_connectivity(
     scene: &Scene,
@@ -109,7 +110,7 @@ fn decide(
     max_slabs: usize,
     max_boxes: usize,
 ) -> Connectivity {
-    // A joint that cannot move leaves no area to cut.
+    // If a joint cannot move, the domain has no area to cut.
     if slabs.topology.ranges.iter().any(|axis| axis.extent() <= 0.0) {
         return Connectivity::Undecided { boxes: 0, closed: false };
     }
@@ -181,8 +182,8 @@ impl<'a> Slabs<'a> {
         this
     }
 
-    /// Adds slabs for a stretch, not judged yet. They are cut where the initial slabs end, so that all slabs of a level
-    /// have the same widths.
+    /// Adds slabs for a stretch of `q1`, without judging them. The stretch is cut where initial slabs end, so that all
+    /// slabs of a level have the same width.
     fn lay(&mut self, from: f64, to: f64, clear: bool) {
         let (lower, upper) = self.topology.ranges[0].domain();
         let at = |i: usize| lower + (upper - lower) * i as f64 / INITIAL_SLABS as f64;
@@ -206,7 +207,7 @@ impl<'a> Slabs<'a> {
 
     /// Adds a slab and judges it.
     fn add(&mut self, from: f64, to: f64, clear: bool) {
-        // The finest level whose slabs are at least as wide. The ends of the initial slabs are rounded.
+        // Find the finest level whose slabs are at least as wide. The ends of the initial slabs are rounded.
         let fits = |&level: &usize| (to - from) / 2.0 <= half_of_level(&self.topology, level) * (1.0 + LEVEL_TOLERANCE);
         let level = (0..=MAX_HALVINGS).take_while(fits).last().unwrap_or(0);
         self.second.judge(
@@ -229,7 +230,7 @@ impl<'a> Slabs<'a> {
         });
     }
 
-    /// Converts the verdicts to spans.
+    /// Adds the spans that the verdicts on a slab leave.
     fn cut(&mut self, level: usize, clear: bool) {
         let (bottom, top) = self.topology.ranges[1].domain();
         let Verdicts { outer, inner } = &mut self.verdicts;

@@ -5,12 +5,13 @@ use cplan_core::check::{CheckedProof, CollisionBox, Disconnection};
 /// Number of boxes up to which proofs are not reduced.
 const MAX_UNREDUCED_BOXES: usize = 256;
 
-/// Tolerance: a proof may exceed the smallest sufficient number of largest boxes by one part in this many.
+/// Inverse of the tolerance: a proof may have one part in this many more boxes than the smallest sufficient number.
 const EXCESS_DIVISOR: usize = 8;
 
-/// Reduces a proof to about the fewest of its largest boxes, by their extent in `q2`, that still separate start and
-/// goal. `check` judges a selection of boxes. Returns `None` if it refuses even all boxes together. Slabs need
-/// thousands of boxes where an obstacle's edge is grazed; a wall through the obstacle's middle needs some dozens.
+/// Reduces a proof to its tallest boxes (by their extent in `q2`): about the fewest that still separate start and goal.
+/// Proofs of up to 256 boxes are not reduced. `check` judges a selection of boxes. Returns `None` if it refuses all
+/// boxes together. Where shapes graze an obstacle's edge, slabs give thousands of boxes, but some dozens through the
+/// obstacle's middle suffice.
 ///
 /// More boxes never separate less, so doubling and bisection find the number. Takes `O(log n)` calls of `check`.
 pub fn slimmed(proof: &Disconnection, check: impl Fn(Disconnection) -> Option<CheckedProof>) -> Option<CheckedProof> {

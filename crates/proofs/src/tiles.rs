@@ -1,17 +1,17 @@
 //! Collision boxes for the colliding intervals of slabs, as few as possible.
 //!
-//! A colliding interval of a slab is cut into boxes. Each box is as high as the overlap of its shapes allows, so boxes
-//! get lower towards the ends of the interval: some dozens per interval. Narrow slabs, needed in one place, would
-//! repeat all these boxes everywhere else. Therefore adjacent slabs share boxes: a rectangle of slabs and values of
-//! joint 2 that does not collide everywhere is halved across the joint that moves the shapes more.
+//! A colliding interval of a slab needs some dozens of boxes. Each box is as high as the overlap of its shapes allows,
+//! so boxes get lower towards the ends of the interval. If one place needs narrow slabs, all these boxes would be
+//! repeated for each of them. Therefore adjacent slabs share boxes: a rectangle over several slabs is one box if it
+//! collides everywhere, and is halved otherwise, across the joint that moves the shapes more.
 
 use super::slab::is_collision;
 use cplan_core::check::{Cell, CollisionBox, Deviation, Posture};
 use cplan_core::model::{Pair, Scene};
 use cplan_interrupt::checkpoint;
 
-/// Maximum number of boxes for a colliding interval of a slab. Shallow ends need boxes about as high as the slab is
-/// wide.
+/// Maximum number of boxes for a colliding interval of a slab. Where shapes overlap little, boxes must be about as low
+/// as the slab is narrow.
 const MAX_TILES_PER_INTERVAL: usize = 4096;
 
 /// A slab `from <= q1 <= to` with its collisions: the pair, and the interval of joint 2.
@@ -22,7 +22,7 @@ pub(super) struct SlabCollision {
 }
 
 /// Adds boxes that cover all collisions of adjacent slabs, within the range of joint 2. Returns false if the bounds
-/// that judge boxes cannot confirm a box, or if there are more than `most` boxes.
+/// that judge boxes do not confirm a box, or if there are more than `most` boxes.
 pub(super) fn lay(
     scene: &Scene,
     clearance: f64,
@@ -71,8 +71,8 @@ pub(super) fn lay(
     true
 }
 
-/// Adds boxes that state a collision of a pair for `q2` in `interval`, all over the slab `from <= q1 <= to`. Returns
-/// false if the bounds that judge boxes cannot confirm one.
+/// Adds boxes that together cover the slab `from <= q1 <= to` for `q2` in `interval`, where a pair collides. Returns
+/// false if the bounds that judge boxes do not confirm a box.
 pub(super) fn tile(
     scene: &Scene,
     clearance: f64,

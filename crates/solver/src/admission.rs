@@ -1,8 +1,8 @@
-//! Starts and goals that are free, but nearer to an obstacle than a representation grown by a margin allows.
+//! Starts and goals that are free, but blocked in a space whose obstacles are grown by a margin.
 //!
-//! Shrinking the margin everywhere would multiply corners. Instead, such an end is replaced by a stand-in: a
-//! configuration that is free in the representation, at the end of a short, certified straight motion. The planner's
-//! path is completed by that motion and then judged as a whole, like any other path.
+//! A smaller margin everywhere would give many more corners. Instead, a *stand-in* replaces such a start or goal: a
+//! configuration that is free in the space, at the end of a short, certified straight motion. That motion completes the
+//! planner's path, and the result is judged as a whole, like any other path.
 
 use cplan_core::check::certify;
 use cplan_core::cspace::{Grid, Regions, ZonedGrid, free_stretches};
@@ -11,7 +11,7 @@ use cplan_core::planner::Query;
 use cplan_core::space::{Configuration, Path, Segment, Topology};
 use std::f64::consts::TAU;
 
-/// A representation that may block ends which are free.
+/// A space that may block a start or goal which is free.
 pub(super) trait EndAdmission {
     /// Returns true if a planner can begin or end at `q`.
     fn admits(&self, q: Configuration) -> bool;
@@ -35,13 +35,14 @@ impl EndAdmission for ZonedGrid {
     }
 }
 
-/// Number of directions tried.
+/// Number of directions in which a stand-in is sought.
 const STAND_IN_DIRECTIONS: usize = 64;
 
 /// Number of steps tried in each direction, the shortest first. Each is twice as long as the one before.
 const STEPS_PER_DIRECTION: usize = 13;
 
-/// Shortest step, radians or metres. Far smaller than the steps that a margin of a thousandth of the reach requires.
+/// Shortest step, radians or metres. It is far shorter than the steps that the default margin, a thousandth of the
+/// reach, requires.
 const SHORTEST_STEP: f64 = 1e-4;
 
 /// Returns `q` if the space admits it. Otherwise returns the end of the shortest certified straight motion from `q` to
@@ -77,18 +78,19 @@ const MAX_STRETCHES: usize = 8;
 pub(super) struct Ends {
     topology: Topology,
     start: Configuration,
-    /// Pairs of a stand-in and its goal, as copies near the start.
+    /// Pairs of a stand-in and its true goal, on the turns near the start.
     stand_ins: Vec<[Configuration; 2]>,
     /// The query for the planner.
     pub query: Query,
 }
 
-/// Distance below which two ends are copies of each other: far above rounding, far below any distance that matters.
+/// Distance below which two configurations, wrapped, count as the same: far above rounding, and far below any distance
+/// that matters. Radians or metres.
 const COPY_DISTANCE: f64 = 1e-9;
 
 impl Ends {
-    /// Replaces single goals that the space does not admit. The space usually admits some part of a goal segment.
-    /// A free stretch without such a part gets a stand-in for its middle.
+    /// Finds stand-ins for the start and for single goals that the space does not admit. Of a goal segment, the space
+    /// usually admits some part. If it admits no part of a free stretch, the stretch's middle gets a stand-in.
     pub fn new(problem: &MotionProblem, space: &impl EndAdmission) -> Self {
         let (scene, start) = (problem.scene(), problem.start());
         let topology = scene.arm().topology();
@@ -125,8 +127,8 @@ impl Ends {
         self.join(path.waypoints(), self.goal_reached(path))
     }
 
-    /// Completes the path without visiting the stand-ins, which saves the detour if the direct motion is free. Returns
-    /// `None` if the path has no stand-ins to skip.
+    /// Completes the planner's path, but leaves out the stand-ins, which is shorter if the direct motion is free.
+    /// `None` if the path has no stand-ins.
     pub fn past_stand_ins(&self, path: &Path) -> Option<Path> {
         let (inner, goal) = (path.waypoints(), self.goal_reached(path));
         let (first, last) = (self.start != path.start(), goal != path.goal());
@@ -134,7 +136,7 @@ impl Ends {
         (inner.len() > 1 && (first || last)).then(past)
     }
 
-    /// Returns the true goal, as the copy that the path leads to.
+    /// Returns the true goal that the path leads to, on the turn where the path ends.
     fn goal_reached(&self, path: &Path) -> Configuration {
         let end = path.goal();
         let of = |[stand_in, goal]: &[Configuration; 2]| {
@@ -148,8 +150,7 @@ impl Ends {
     }
 }
 
-/// Returns the goals of a segment in the domain that must be queried one by one: the middles of free stretches that the
-/// space does not admit anywhere.
+/// Returns the middles of the free stretches of a segment that the space admits nowhere. Each needs a stand-in.
 fn middles_unknown(scene: &Scene, space: &impl EndAdmission, piece: &Segment) -> Vec<Configuration> {
     let knows = |stretch: &Segment| {
         (0..SAMPLES_PER_STRETCH).any(|k| space.admits(stretch.at(k as f64 / (SAMPLES_PER_STRETCH - 1) as f64)))

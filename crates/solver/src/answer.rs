@@ -1,4 +1,4 @@
-//! The outcome of a planner, and how the planner came to it.
+//! The outcome of a planner's search, with the steps that led to it.
 
 use super::{Bound, Method, Space, Stages};
 use cplan_core::check::{CertifiedPath, CheckedProof};
@@ -9,8 +9,8 @@ use std::borrow::Cow;
 use std::cmp::Ordering;
 use std::fmt;
 
-/// The outcome of a single motion, and how the planner came to it. [`solve`](super::solve) finds a path,
-/// `plan` of the engine also computes the motion along it; `F` is the type of the result.
+/// The outcome of planning a single motion, with the steps that led to it. `F` is the type of a success:
+/// [`solve`](super::solve) gives a path, and `plan` of the engine a motion along the path.
 #[derive(Debug, Clone)]
 pub struct Answer<F = BoundedPath> {
     /// The planner.
@@ -21,9 +21,9 @@ pub struct Answer<F = BoundedPath> {
     pub path_kind: PathKind,
     /// Results of all attempts except the last, from coarse to fine, in words.
     pub history: Vec<String>,
-    /// The planner's last run.
+    /// The planner's last run, including its trace.
     pub run: Run,
-    /// The space that the planner worked on.
+    /// The space of that run.
     pub space: Space,
     /// Time spent in each stage.
     pub stages: Stages,
@@ -34,7 +34,8 @@ pub struct Answer<F = BoundedPath> {
 pub struct BoundedPath {
     /// The path.
     pub certified: CertifiedPath,
-    /// Bounds on the optimum. `None` if the planner does not look for it.
+    /// Bounds on the length of the shortest path. `None` if the planner does not look for it, or if bounds were not
+    /// requested.
     pub bound: Option<Bound>,
 }
 
@@ -43,13 +44,13 @@ pub struct BoundedPath {
 pub struct Unknown {
     /// The reason, in words.
     pub reason: String,
-    /// A path that slabs or boxes found, but that the method's own space does not show. It proves that a path exists,
-    /// but the requested method did not find it.
+    /// A certified path that slabs or boxes found. It proves that a path exists, although the requested planner found
+    /// none in its own space.
     pub witness: Option<CertifiedPath>,
 }
 
 impl BoundedPath {
-    /// Returns the path itself.
+    /// Returns the waypoints of the path.
     #[must_use]
     pub fn path(&self) -> &Path {
         self.certified.path()

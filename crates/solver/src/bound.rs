@@ -1,4 +1,4 @@
-//! Upper bound on a path's distance from the optimum.
+//! Upper bound on how much longer a path is than the shortest one.
 
 use super::rungs::extent;
 use cplan_core::cspace::inner_regions;
@@ -7,7 +7,7 @@ use cplan_core::planner::{Planner as _, Proposal, Query, Visibility};
 use cplan_core::space::{Metric, Path};
 use cplan_proofs::{BoundEvidence, MotionQuery, bound_evidence, least_length};
 
-/// The length of a path, and a proven lower bound on the length of every other path.
+/// The length of a path, and a proven lower bound on the length of all paths for the same problem.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bound {
     /// The metric in which lengths are measured.
@@ -26,7 +26,8 @@ impl Bound {
         if self.upper <= self.lower { 0.0 } else { self.upper / self.lower - 1.0 }
     }
 
-    /// Finds anew what closes ways that are shorter than was stated.
+    /// Searches for evidence of the lower bound: walls and barriers that close all shorter paths. This repeats the
+    /// search, because the first one does not keep them.
     #[must_use]
     pub fn evidence(&self, problem: &MotionProblem) -> BoundEvidence {
         let gap = (self.gap() * EVIDENCE_GAP_SHARE).clamp(MIN_EVIDENCE_GAP, 1.0);
@@ -35,25 +36,25 @@ impl Bound {
 }
 
 /// Returns bounds for `path`; see [`least_length`], and [`inner_regions`] for gantries. Refines the lower bound until
-/// the gap is known to be below `gap` (0.001 for a thousandth), or cannot be. Usually takes milliseconds.
+/// the gap is below `gap` (0.001 for a thousandth), or until the bound cannot be improved. Usually takes milliseconds.
 #[must_use]
 pub fn bound(problem: &MotionProblem, path: &Path, metric: Metric, gap: f64) -> Bound {
     let upper = metric.length(path);
     Bound { metric, lower: lower_bound(&motions(problem, metric), upper, gap, &[]), upper }
 }
 
-/// Loss of the polygons against the obstacles, as a share of the gap times the arm's extent. A corner shortens a path
-/// by about that much.
+/// Largest distance of a gantry's polygons from the borders of the C-obstacles that contain them, as a share of the gap
+/// times the arm's extent. At each corner, a path among the polygons is shorter by about this distance.
 const POLYGON_LOSS: f64 = 0.02;
 
-/// Smallest such loss, as a share of the extent: far above rounding.
+/// Least value of this distance, as a share of the arm's extent. It is far greater than rounding errors.
 const MIN_POLYGON_LOSS: f64 = 1e-9;
 
-/// Largest number of pairs of a gantry whose polygons are united. At this resolution, that many take some tenths of a
-/// second. A few times as many overlapping ones take a minute.
+/// Largest number of pairs of shapes of a gantry for which the polygons are united. At the resolution of
+/// [`POLYGON_LOSS`], this many pairs take some tenths of a second. A few times as many that overlap take a minute.
 pub(super) const MAX_UNITED_PAIRS: usize = 512;
 
-/// Share that rounding may add to a length.
+/// Share of a length that rounding may add to it.
 const ROUNDING: f64 = 1e-9;
 
 /// Computes a lower bound on the lengths of motions. For gantries it is the length of the shortest path past the exact
@@ -78,14 +79,14 @@ fn past_polygons(motions: &MotionQuery, gap: f64) -> Option<f64> {
     Some(metric.length(&path) * (1.0 - ROUNDING))
 }
 
-/// Share of the stated gap that the evidence may leave open: it is found in another way than the bound was, from fewer slices that
-/// are known beforehand.
+/// Gap at which the search for evidence ends, as a share of the stated gap. That search does not begin with the slices
+/// that the first one knew, so it must aim closer to prove as much.
 const EVIDENCE_GAP_SHARE: f64 = 0.05;
 
-/// Smallest gap for which evidence is sought.
+/// Smallest gap at which the search for evidence ends, for any stated gap.
 const MIN_EVIDENCE_GAP: f64 = 1e-9;
 
-/// Returns all motions that answer a problem.
+/// Returns the query whose answers are all motions that solve a problem.
 pub(super) fn motions(problem: &MotionProblem, metric: Metric) -> MotionQuery<'_> {
     let scene = problem.scene();
     let clearance = scene.workspace().clearance;

@@ -27,7 +27,7 @@ impl CellCounts {
         Self([n; 2])
     }
 
-    /// Describes, in words, the error in the counts. `None` if they are valid.
+    /// Describes the first count that is out of range, in words. `None` if both are valid.
     #[must_use]
     pub fn error(self) -> Option<String> {
         self.0.into_iter().find_map(|n| wrong_number("cells", n, &ALLOWED_CELLS))
@@ -89,7 +89,7 @@ mod tests {
             let written = serde_json::to_string(&counts).unwrap();
             assert_eq!(serde_json::from_str::<CellCounts>(&written).unwrap(), counts);
         }
-        // The format from the time when both counts were equal.
+        // Equal counts are written as one number, as in older files.
         assert_eq!(serde_json::to_string(&CellCounts::square(64)).unwrap(), "64");
         assert_eq!(CellCounts([8, 7]).error(), Some("cells: 7 must be from 8 to 2048".to_owned()));
     }

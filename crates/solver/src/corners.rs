@@ -1,4 +1,4 @@
-//! Removal of corners: the path becomes a little longer, and smoother to drive.
+//! Removal of corners, which makes a path a little longer and the motion along it faster.
 //!
 //! Shortest paths follow obstacles in many short pieces. Where a path turns to the same side at both ends of a piece,
 //! the pieces before and after it are extended until they meet. The new corner lies away from the obstacle, and the
@@ -9,17 +9,19 @@ use cplan_core::model::Scene;
 use cplan_core::space::{Configuration, Metric, Path, Topology};
 use cplan_geometry::OpenList;
 
-/// Number of attempts. After each one, pieces that came too near to an obstacle are kept, and the rest is certified
-/// again.
+/// Largest number of attempts. After a refused attempt, the pieces whose removal leads too near to an obstacle are kept
+/// in the next one.
 const MAX_ATTEMPTS: usize = 6;
 
-/// Longest extension of a piece, as a multiple of the length of the piece that it replaces. Without it, pieces that
-/// meet at a small angle would grow without limit.
+/// Longest extension of a piece, as a multiple of the length of the removed piece. Without this limit, pieces that meet
+/// at a small angle would be extended very far.
 const MAX_EXTENSION: f64 = 8.0;
 
-/// Returns `path` with fewer corners, longer by at most `budget`, and certified. `None` if no corner can be removed.
+/// Returns a certified path with fewer corners that is longer than `path` by at most `budget`. `None` if no corner can
+/// be removed.
 ///
-/// The cheapest pieces go first. Costs `O(n log n)` for `n` corners, and one certificate per attempt.
+/// Pieces whose removal adds the least length go first. Costs `O(n log n)` for `n` corners, and one certificate per
+/// attempt.
 pub(super) fn fewer_corners(scene: &Scene, path: &Path, metric: Metric, budget: f64) -> Option<CertifiedPath> {
     let topology = scene.arm().topology();
     let mut too_near = Vec::new();
@@ -46,7 +48,8 @@ struct Piece {
     gone: bool,
 }
 
-/// Returns the remaining waypoints. Keeps every piece whose extension would cover a configuration that came `too_near`.
+/// Removes pieces and returns the remaining waypoints. Keeps every piece whose removal would lead past a configuration
+/// in `too_near`.
 fn drawn_out(
     topology: &Topology,
     waypoints: &[Configuration],
@@ -108,8 +111,8 @@ fn drawn_out(
     (0..n).filter(|&i| !left[i].gone).map(|i| at[i]).collect()
 }
 
-/// Returns the point where the lines through the first two and through the last two of four waypoints meet, beyond the
-/// second and the third. `None` if they do not meet, or only far away.
+/// Returns the point where the lines `a b` and `d c` meet, beyond `b` and beyond `c`. `None` if they do not meet there,
+/// or only far away.
 fn meeting([a, b, c, d]: [Configuration; 4]) -> Option<Configuration> {
     let (first, second, base) = (b - a, c - d, c - b);
     let cross = |u: Configuration, v: Configuration| u[0] * v[1] - u[1] * v[0];
@@ -161,9 +164,9 @@ mod tests {
         for budget in [1e-5, 1e-4, 1e-3, 1e-2] {
             let fewer = drawn_out(&WIDE, &arc, Metric::Euclidean, budget, &[]);
             assert!(length(&fewer) <= length(&arc) + budget + 1e-12, "{budget}: {}", length(&fewer));
-            // Tangents that span `a` radians each are longer than the arc by about a^3 / 12. So the least number n
-            // within the budget satisfies (pi / 2)^3 / (12 n^2) = budget. Merging the cheapest pieces first leaves less
-            // than twice that many.
+            // A tangent that spans `a` radians is longer than its arc by about a^3 / 12. So the least number n of
+            // tangents within the budget satisfies (pi / 2)^3 / (12 n^2) = budget. Removing the cheapest pieces first
+            // leaves fewer than twice as many.
             let least = (FRAC_PI_2.powi(3) / 12.0 / budget).sqrt();
             assert!((fewer.len() as f64) < 2.0 * least + 4.0 && fewer.len() < before, "{budget}: {}", fewer.len());
             before = fewer.len();

@@ -7,48 +7,53 @@ use cplan_core::check::{CertifiedPath, CheckedProof, Disconnection};
 use cplan_core::model::{MotionProblem, Outcome, Pair};
 use cplan_proofs::{Connectivity, connectivity, slab_connectivity, slimmed};
 
-/// Number of slabs that decide all but contrived questions. A few thousand take some milliseconds.
+/// Largest number of slabs; enough for all but contrived questions. A few thousand slabs take some milliseconds.
 const MAX_SLABS: usize = 10_000;
 
-/// Initial budgets of slabs and boxes, before both get their full budgets. Either may need ten times as many where the
-/// other succeeds soon: slabs along a slanted passage that is narrowly closed, boxes in a narrow passage.
+/// Budgets (slabs, boxes) of a first round that tries both methods. Each may need ten times as much as the other: slabs
+/// along a slanted passage that is narrowly closed, and boxes in a narrow passage.
 const INITIAL_BUDGETS: [usize; 2] = [1000, 4000];
 
-/// A proof of more boxes than this is large: where slabs have only such a one, boxes that are halved need fewer, as where obstacles overlap little all
-/// along a slanted line, which slabs tile with boxes as narrow as themselves.
+/// Largest number of boxes of a proof by slabs in the first attempt. If slabs need more, subdivision into boxes is
+/// tried. It needs fewer, for example where obstacles overlap little along a slanted line: slabs cover such a line by
+/// boxes that are as narrow as the slabs.
 pub const LARGE_PROOF_BOXES: usize = 10_000;
 
-/// Largest number of boxes of a proof, if no smaller proof is found.
+/// Largest number of boxes of a proof by slabs, if subdivision finds no smaller proof.
 const MAX_PROOF_BOXES: usize = 200_000;
 
-/// Least number of boxes in the search for a smaller proof than that of slabs: twice the most that any of some thousand
-/// random proofs took.
+/// Least budget of boxes of a subdivision that looks for a smaller proof than slabs have. It is twice the largest
+/// number that some thousand random proofs needed.
 const MIN_BOXES_FOR_SMALLER_PROOF: usize = 100_000;
 
-/// With more pairs of shapes than this, questions are first decided with fewer of them: ...
+/// Number of pairs of shapes above which a question is first decided with fewer pieces of obstacles.
 const MANY_PAIRS: usize = 4096;
 
-/// ... with those that a lattice leaves whose spacing is this share of the arm's reach, one lattice after the other.
+/// Spacings of the lattices that select these pieces, as shares of the arm's reach, in the order in which they are
+/// tried.
 const LATTICE_SPACINGS: [f64; 2] = [1.0 / 128.0, 1.0 / 1024.0];
 
-/// Largest product of pairs and slabs, and of pairs and boxes, in such a scene: about a second of work each.
+/// Largest product of pairs and slabs, and largest product of pairs and boxes, in scenes of more than [`MANY_PAIRS`]
+/// pairs. Each product takes about a second of work.
 const MAX_WORK_PER_SEARCH: [usize; 2] = [4_000_000, 40_000_000];
 
-/// Decides `problem` by [`slab_connectivity`], and if slabs leave it undecided by [`connectivity`], with at most
-/// `boxes` boxes and no more slabs. The answer is a path, pulled taut in the channel of free boxes, or a proof. Both
-/// have passed a check that shares no code with the search.
+/// Decides `problem` by [`slab_connectivity`], with at most `boxes` slabs and never more than 10 000. If slabs leave it
+/// undecided, decides it by [`connectivity`], with at most `boxes` boxes. The answer is a path, pulled taut in the
+/// channel of free boxes, or a proof. Both have passed the judge, which shares only kernels of geometry and its bounds
+/// on distances (`Posture`, `Deviation`) with the search.
 ///
-/// Slabs may show that there is no path, but need too many boxes to state it. Then up to 100 000 boxes are tried, even
-/// if `boxes` is less, unless it is less than 4000.
+/// Slabs may show that there is no path, but need more than 10 000 boxes to state it. If `boxes` is at least 4000,
+/// subdivision then looks for a smaller proof, with a budget of at least 100 000 boxes (fewer in scenes of more than
+/// 4096 pairs).
 ///
 /// The path is rarely the shortest: the first channel that is found suffices. Slabs answer most questions in a small
 /// part of the time. Boxes also handle shapes without thickness, and need fewer boxes for some proofs.
 ///
-/// Among thousands of pieces, the question is first decided with some of them: if these block all paths, so do all
-/// pieces, and a path among them is judged among all.
+/// In scenes of more than 4096 pairs of shapes, the question is first decided with fewer pieces of obstacles. If these
+/// block all paths, so do all pieces. If these leave a path, the path is judged among all pieces.
 ///
-/// An unknown answer is not final: [`super::solve`] has other methods, and more boxes may decide it. With thousands of
-/// pieces more boxes do not help, because no more than a second's work of each is done.
+/// An unknown answer is not final: [`super::solve`] has other methods, and more boxes may decide it. In scenes of more
+/// than 4096 pairs, more boxes do not help, because slabs and boxes get about a second of work each.
 #[must_use]
 pub fn decide(problem: &MotionProblem, boxes: usize) -> Outcome<CertifiedPath, CheckedProof> {
     let pairs = |problem: &MotionProblem| problem.scene().pairs().len();
@@ -57,13 +62,12 @@ pub fn decide(problem: &MotionProblem, boxes: usize) -> Outcome<CertifiedPath, C
         let limits = DecisionBudget { slabs: MAX_SLABS.min(boxes), boxes, for_smaller };
         return decide_within(problem, problem, &|pair| pair, limits);
     }
-    let limited = |decide_within: &MotionProblem| {
-        let [slabs, boxes] =
-            MAX_WORK_PER_SEARCH.map(|looks| boxes.min(MAX_SLABS).min(looks / pairs(decide_within).max(1)));
+    let limited = |thinned: &MotionProblem| {
+        let [slabs, boxes] = MAX_WORK_PER_SEARCH.map(|work| boxes.min(MAX_SLABS).min(work / pairs(thinned).max(1)));
         DecisionBudget {
             slabs,
             boxes,
-            for_smaller: Some(MIN_BOXES_FOR_SMALLER_PROOF.min(MAX_WORK_PER_SEARCH[1] / pairs(decide_within).max(1))),
+            for_smaller: Some(MIN_BOXES_FOR_SMALLER_PROOF.min(MAX_WORK_PER_SEARCH[1] / pairs(thinned).max(1))),
         }
     };
     for lattice in LATTICE_SPACINGS {
@@ -82,23 +86,25 @@ pub fn decide(problem: &MotionProblem, boxes: usize) -> Outcome<CertifiedPath, C
 struct DecisionBudget {
     slabs: usize,
     boxes: usize,
-    /// Number of boxes for a smaller proof, if slabs find a large one. `None` if the caller cannot wait for that.
+    /// Budget of boxes for a smaller proof, used if slabs need more than [`LARGE_PROOF_BOXES`] boxes. `None` if the
+    /// caller's own budget is too small for this.
     for_smaller: Option<usize>,
 }
 
-/// Decides `some`, which is `problem` or has some of its pieces, by slabs and boxes. `original_pair` maps its pairs to those
-/// of `problem`.
+/// Decides `thinned`, which is `problem` or lacks some of its pieces, by slabs and boxes. `original_pair` maps pairs of
+/// `thinned` to pairs of `problem`.
 fn decide_within(
     problem: &MotionProblem,
-    some: &MotionProblem,
+    thinned: &MotionProblem,
     original_pair: &dyn Fn(Pair) -> Pair,
     limits: DecisionBudget,
 ) -> Outcome<CertifiedPath, CheckedProof> {
-    let (scene, start, goals) = (some.scene(), some.start(), some.goals());
+    let (scene, start, goals) = (thinned.scene(), thinned.start(), thinned.goals());
     let clearance = scene.workspace().clearance;
     let by_boxes =
         |boxes: usize| checked_answer(problem, original_pair, connectivity(scene, start, goals, clearance, boxes));
     let by_slabs = |slabs: usize, most: usize| slab_connectivity(scene, start, goals, clearance, slabs, most);
+    // A small budget also limits the proof: to four boxes for each box of the budget.
     let proof = if limits.for_smaller.is_some() { LARGE_PROOF_BOXES } else { LARGE_PROOF_BOXES.min(4 * limits.boxes) };
     let either = |slabs: usize, boxes: usize| match (by_slabs(slabs, proof), limits.for_smaller) {
         // There is no path, but slabs need too many boxes to state it.
@@ -118,7 +124,7 @@ fn decide_within(
     }
 }
 
-/// Checks a search's answer.
+/// Checks the answer of a search among the thinned pieces, against all pieces of `problem`.
 fn checked_answer(
     problem: &MotionProblem,
     original_pair: &dyn Fn(Pair) -> Pair,
@@ -139,12 +145,12 @@ fn checked_answer(
     }
 }
 
-/// Returns the proof without superfluous boxes, if it passes the independent check.
+/// Returns the proof if the judge accepts it, with fewer boxes if it has more than 256.
 pub(super) fn checked(problem: &MotionProblem, proof: Disconnection) -> Option<CheckedProof> {
     slimmed(&proof, |some| if_checked(problem, some))
 }
 
-/// Returns the proof, if it passes the independent check.
+/// Returns the proof if the judge accepts it.
 fn if_checked(problem: &MotionProblem, proof: Disconnection) -> Option<CheckedProof> {
     let clearance = problem.scene().workspace().clearance;
     proof.checked(problem.scene(), problem.start(), problem.goals(), clearance).ok()

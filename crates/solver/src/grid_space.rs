@@ -6,14 +6,14 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum GridSpace {
-    /// Exact slices: first cells that are free throughout, then cells whose centres are free
-    /// ([`Proves`](cplan_core::cspace::Proves) says which).
+    /// Exact slices. Each size of cells is tried twice: the first time, free cells are free throughout, and the second
+    /// time, their centres are ([`Proves`](cplan_core::cspace::Proves) says which).
     #[default]
     Rows,
-    /// Exact slices: cells whose centres are free, from the first attempt on, as grids in the literature do.
+    /// Exact slices. Free cells are those with free centres, from the first attempt on, as usual in the literature.
     Centers,
-    /// Collision checks of parry2d at the centres ([`Proves::Sampled`](cplan_core::cspace::Proves::Sampled)), as other
-    /// libraries do, for comparison. Slower than slices by the number of cells per slice.
+    /// Collision checks by parry2d at the centres of cells ([`Proves::Sampled`](cplan_core::cspace::Proves::Sampled)),
+    /// for comparison with other libraries. Slower than slices by the number of cells per slice.
     Sampled,
 }
 
@@ -31,7 +31,7 @@ impl GridSpace {
         }
     }
 
-    /// Returns the number of attempts until cells become smaller. Slices decide cells of one size by two methods.
+    /// Returns the number of attempts with cells of one size.
     #[must_use]
     pub fn levels_per_size(self) -> usize {
         match self {
@@ -40,7 +40,7 @@ impl GridSpace {
         }
     }
 
-    /// Returns the name for results. `None` for the default.
+    /// Returns the name that results report. `None` for the default.
     #[must_use]
     pub fn reported_name(self) -> Option<&'static str> {
         (self != Self::Rows).then(|| self.name())

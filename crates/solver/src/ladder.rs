@@ -1,4 +1,4 @@
-//! The ladder of refinement.
+//! The ladder of refinement: a planner tries finer and finer spaces until its path is certified and good enough.
 
 use super::admission::{EndAdmission, Ends};
 use super::bound::{Bound, bound};
@@ -18,15 +18,15 @@ use cplan_text::percent;
 /// and is cheap compared with a finer attempt if it is not.
 pub(super) const FIRST_BOXES: usize = 20_000;
 
-/// Lower bounds are refined until the path is known to be within this share of the optimum, or cannot be.
+/// Gap below which a lower bound is not refined further: the path is then at most this share longer than the bound.
 pub(super) const CLOSE_GAP: f64 = 1e-4;
 
 /// Gap above which a path is planned again on finer levels, even if no gap was requested. A shorter path may lead
 /// through a passage that the first level closes. Such paths are rare: about one in a hundred.
 const WIDE_GAP: f64 = 0.05;
 
-/// The last level for that. Each level is four times finer, so it shows passages down to a five-thousandth of the arm's
-/// reach.
+/// Last level on which a path is planned again because of [`WIDE_GAP`]. Each level is four times finer, so this level
+/// shows passages down to a five-thousandth of the arm's reach.
 const LAST_LEVEL_FOR_GAP: usize = 2;
 
 /// Answers `problem` with the options' planner. Failed attempts are reported to `progress`.
@@ -62,7 +62,7 @@ pub(super) struct Request<'a> {
     pub progress: &'a mut dyn FnMut(&str),
 }
 
-/// Answers among polygons: `planner` makes the planner of a level from the settings.
+/// Answers with a planner that works among polygons. `planner` makes the planner of a level from the settings.
 pub(super) fn on_polygons<P>(request: Request, planner: impl Fn(&Settings, usize) -> P) -> Answer
 where
     P: Planner<Space = Regions>,
@@ -71,7 +71,7 @@ where
     climb(request, planner, |level| polygons(problem, margin, level))
 }
 
-/// Answers on the cells of a grid.
+/// Answers with a planner that works on the cells of a grid. `planner` makes the planner of a level from the settings.
 pub(super) fn on_cells<P>(request: Request, planner: impl Fn(&Settings, usize) -> P) -> Answer
 where
     P: Planner<Space = Grid>,
@@ -80,7 +80,8 @@ where
     climb(request, planner, |level| grid_cells(problem, space, cells, level))
 }
 
-/// Answers on the cells of a grid with the world's preferences.
+/// Answers with a planner that works on the cells of a grid with the world's preferences. `planner` makes the planner
+/// of a level from the settings.
 pub(super) fn on_zoned_cells<P>(request: Request, planner: impl Fn(&Settings, usize) -> P) -> Answer
 where
     P: Planner<Space = ZonedGrid>,
@@ -95,8 +96,9 @@ pub(super) fn by_visibility(request: Request) -> Answer {
     on_polygons(request, |s, _| Visibility { metric, search: s.search, graph: s.graph })
 }
 
-/// Plans level after level, until a path is good enough or a proof is found. The arguments make the planner and the
-/// space of each level.
+/// Plans level after level, until a path is good enough or a proof is found. `planner` makes the planner of a level,
+/// and
+/// `build` its space; `None` if there is no finer space.
 fn climb<P: Planner>(
     Request { problem, options, progress }: Request,
     planner: impl Fn(&Settings, usize) -> P,
@@ -131,7 +133,7 @@ where
         // A field on a finer grid takes even more sweeps.
         let takes_more = matches!((&run.outcome, &run.note), (Proposal::GaveUp(_), Some(Note::Unconverged { .. })));
         let failure = climb.judge(&ends, &run.outcome).map(|failure| format!("{}: {failure}", space.describe()));
-        // Exact polygons were requested for display, so they are kept whatever space the path needs.
+        // Exact polygons were requested for display, so the answer keeps them even if the path needs another space.
         if level == 0 || !keeps_first {
             last = Some((run, space));
         }
@@ -182,13 +184,12 @@ struct Climb<'a> {
     metric: Metric,
     level: usize,
     stages: Stages,
-    /// The best certified path so far, with the bound of all levels.
+    /// The shortest certified path so far. Its lower bound holds on all levels.
     path: Option<BoundedPath>,
 }
 
 impl Climb<'_> {
-    /// Judges a level's outcome. Returns the reason for trying a finer level, in words, or `None` if there is no
-    /// reason.
+    /// Judges a level's outcome. Returns the reason, in words, for trying a finer level. `None` if there is no reason.
     fn judge(&mut self, ends: &Ends, outcome: &Proposal) -> Option<String> {
         let proposal = match outcome {
             Proposal::Found(path) => path,
@@ -198,6 +199,7 @@ impl Climb<'_> {
         match self.certified(ends, proposal) {
             Ok(path) => {
                 self.keep(path);
+                // Without a bound there is no reason to refine, so the message always has a number.
                 let excess = self.bound().map_or_else(String::new, |bound| percent(bound.gap()));
                 self.reason_to_refine(format!("its path is longer than the bound by {excess}"))
             }
@@ -208,8 +210,9 @@ impl Climb<'_> {
         }
     }
 
-    /// Returns `failure`, unless there is a path and its gap is small enough: below the requested gap, or else not
-    /// wide.
+    /// Returns `failure` if a finer level must be tried: no path is known, or the gap of the best path is too large.
+    /// The largest gap is the requested one. If none was requested, it is [`WIDE_GAP`] before level
+    /// [`LAST_LEVEL_FOR_GAP`], and unlimited from there on.
     fn reason_to_refine(&self, failure: String) -> Option<String> {
         let gap = self.options.planner.gap().or((self.level < LAST_LEVEL_FOR_GAP).then_some(WIDE_GAP));
         // A search that does not optimise accepts this path.
@@ -218,7 +221,8 @@ impl Climb<'_> {
         (self.path.is_none() || wants_more).then_some(failure)
     }
 
-    /// Returns the certified path from start to goal along a proposal between their stand-ins.
+    /// Certifies a proposed path. Where the proposal begins or ends at a stand-in, the path is completed to the true
+    /// start and goal: directly if that can be certified, or else through the stand-in.
     fn certified(&mut self, ends: &Ends, proposal: &Path) -> Result<CertifiedPath, Rejection> {
         let clock = Instant::now();
         let judge = |path| certify(self.problem.scene(), path, self.problem.scene().workspace().clearance);
@@ -228,12 +232,13 @@ impl Climb<'_> {
         certified
     }
 
-    /// Returns the bounds of the best path.
+    /// Returns the bounds of the best path. `None` if there is no path, or if bounds are not computed.
     fn bound(&self) -> Option<Bound> {
         self.path.as_ref().and_then(|path| path.bound)
     }
 
-    /// Keeps a path if it is the best so far. Bounds it if the method looks for the optimum.
+    /// Keeps a path if it is the shortest so far, with its bounds. Keeps every path, without bounds, if the method does
+    /// not look for the optimum or bounds were not requested.
     fn keep(&mut self, certified: CertifiedPath) {
         if !self.options.bounded || !self.options.planner.method().optimizes() {
             self.path = Some(certified.into());
@@ -255,8 +260,8 @@ impl Climb<'_> {
     }
 }
 
-/// Returns the run whose completed path is the shortest. A planner measures to the stand-in of a goal, not to the goal.
-/// If that makes a difference, each goal is planned for separately.
+/// Returns the run whose path, completed to the true goal, is the shortest. A planner measures lengths to the stand-in
+/// of a goal. So if there are several goals and some have stand-ins, each goal is planned for separately.
 fn shortest_of_all(ends: &Ends, metric: Metric, query: impl Fn(&Query) -> Run) -> Run {
     if ends.query.goals.pieces().len() < 2 || !ends.has_goal_stand_ins() {
         return query(&ends.query);
@@ -271,7 +276,7 @@ fn shortest_of_all(ends: &Ends, metric: Metric, query: impl Fn(&Query) -> Run) -
     shortest.unwrap_or_else(|| query(&ends.query))
 }
 
-/// Decides whether there is a path at all, independent of a planner's space. `None` if that is not known.
+/// Decides whether there is a path at all, independent of a planner's space. `None` if the question stays undecided.
 fn decide_feasibility(
     problem: &MotionProblem,
     boxes: usize,

@@ -1,4 +1,4 @@
-//! Planning options: the planner with its settings, the drive, and the content of the output files.
+//! Planning options: the planner with its settings, the settings for driving, and the content of the output files.
 
 use super::{Method, Planner};
 use cplan_core::model::{Arm, Joint};
@@ -7,7 +7,7 @@ use cplan_motion::{Drive, MIN_INTERVAL};
 use serde::{Deserialize, Serialize};
 use std::ops::RangeInclusive;
 
-/// Allowed numbers of attempts.
+/// Allowed values of [`Options::levels`].
 pub const ALLOWED_LEVELS: RangeInclusive<usize> = 1..=12;
 
 /// Joints that ROS 2 messages name.
@@ -21,7 +21,7 @@ pub enum NamedJoints {
     Planned,
 }
 
-/// Options in addition to the problem.
+/// Options for solving a problem.
 ///
 /// ```
 /// use cplan_solver::{Method, Options, Planner};
@@ -86,7 +86,8 @@ impl From<Method> for Options {
 }
 
 impl Options {
-    /// Replaces the limits of the joints by those that are given here.
+    /// Replaces the arm's jerk limits by those of these options. If the options or the arm ask for it, motions must
+    /// also respect the joints' efforts.
     pub fn override_limits(&self, arm: &mut Arm) {
         Joint::override_jerks(&mut arm.joints, self.jerk);
         if self.drive.torque || arm.dynamics.is_some_and(|dynamics| dynamics.limits) {
@@ -94,7 +95,8 @@ impl Options {
         }
     }
 
-    /// What makes no sense, by name. `has_steps` says whether they are for a sequence of steps.
+    /// Describes the first option that is invalid, by name. `None` if all are valid. `has_steps` is true if the options
+    /// are for a sequence of steps.
     pub fn error(&self, has_steps: bool) -> Option<String> {
         let Drive { period, blend, tip_speed, optimize: _, torque: _ } = self.drive;
         let jerks = self.jerk.into_iter().flatten().flatten();

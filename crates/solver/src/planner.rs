@@ -10,8 +10,8 @@ use serde::ser::SerializeMap;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use serde_json::Value;
 
-/// A planner with the settings that it reads. In JSON, its name, or name and settings as in `{"trapezoid": {"path":
-/// "taut", ...}}`. Missing settings have their defaults.
+/// A planner with the settings that it reads. In JSON it is the planner's name, or the name with settings, as in
+/// `{"trapezoid": {"path": "taut", ...}}`. Missing settings have their defaults.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Planner {
     method: Method,
@@ -37,7 +37,8 @@ impl Planner {
         &self.settings
     }
 
-    /// Returns the same planner after `change` has modified this setting, if the planner reads it.
+    /// Returns the same planner after `change` has modified `setting`. Returns it unchanged if it does not read that
+    /// setting.
     #[must_use]
     pub fn with(mut self, setting: Setting, change: impl FnOnce(&mut Settings)) -> Self {
         if self.method.reads(setting) {
@@ -94,61 +95,62 @@ impl Planner {
         self.with(Setting::Space, |settings| settings.space = space)
     }
 
-    /// Returns the kind of path that it gives.
+    /// Returns the kind of the planner's paths.
     #[must_use]
     pub fn path_kind(&self) -> PathKind {
         self.settings.path
     }
 
-    /// Returns true if the exact polygons of a gantry are requested: in files and pictures, and for the first attempt.
+    /// Returns true if the exact polygons of a gantry are requested, for files, pictures and the first attempt.
     #[must_use]
     pub fn is_exact(&self) -> bool {
         self.settings.margin == 0.0
     }
 
-    /// Returns the first numbers of cells along the axes, if they are given.
+    /// Returns the numbers of cells along the axes on the first level. `None` if they are not given.
     #[must_use]
     pub fn cells(&self) -> Option<CellCounts> {
         self.settings.cells
     }
 
-    /// Returns the visibility graph that it searches, if it does.
+    /// Returns which visibility graph the planner searches. `None` if it searches none.
     #[must_use]
     pub fn graph(&self) -> Option<VisibilityGraph> {
         self.if_read(Setting::Graph, self.settings.graph)
     }
 
-    /// Returns the metric in which it measures paths of an arm.
+    /// Returns the metric in which the planner measures paths of an arm.
     #[must_use]
     pub fn metric(&self, arm: &Arm) -> Metric {
         self.settings.criterion.metric(arm)
     }
 
-    /// Returns the requested gap of a planner that optimises.
+    /// Returns the requested gap. `None` if none was requested, or if the planner does not optimise.
     #[must_use]
     pub fn gap(&self) -> Option<f64> {
         self.settings.gap
     }
 
-    /// Returns how it searches its roadmap, if it has one.
+    /// Returns how the planner searches its roadmap. `None` if it has no roadmap.
     #[must_use]
     pub fn search(&self) -> Option<RoadmapSearch> {
         self.if_read(Setting::Search, self.settings.search)
     }
 
-    /// Returns true if its search looks for the optimum.
+    /// Returns true if the planner's search looks for the optimum.
     #[must_use]
     pub fn optimizes(&self) -> bool {
         self.method.optimizes() && self.settings.search.order.is_optimal()
     }
 
-    /// Returns how the cells of its grid are decided, if it has one.
+    /// Returns how the cells of the planner's grid are decided. `None` if it has no grid.
     #[must_use]
     pub fn space(&self) -> Option<GridSpace> {
         self.if_read(Setting::Space, self.settings.space)
     }
 
-    /// Returns the field that it follows, if it is not the plain harmonic one.
+    /// Returns the field that the planner follows. `None` for the plain harmonic field, and for planners without a
+    /// field.
     #[must_use]
     pub fn field(&self) -> Option<&FieldPlanner> {
         self.settings.field.as_ref()

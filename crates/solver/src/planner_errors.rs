@@ -8,7 +8,7 @@ use cplan_fields::{EquationChoice, FieldChoice};
 use std::ops::RangeInclusive;
 
 impl Planner {
-    /// Reports preferences that its field needs and the world lacks, with a hint.
+    /// Reports the first preference that the planner's field needs and the world lacks, with a hint.
     #[must_use]
     pub fn lack(&self, preferences: &[Preference]) -> Option<String> {
         let FieldChoice::Relaxed { equation, .. } = self.field()?.field else { return None };
@@ -31,7 +31,7 @@ impl Planner {
         preferences.is_empty().then(needs)
     }
 
-    /// Reports the first invalid setting, by name.
+    /// Describes the first invalid setting, by name. `None` if all are valid.
     pub(super) fn error(&self) -> Option<String> {
         if self.path_kind() == PathKind::Middles && !self.method().descriptor().paths.contains(&PathKind::Middles) {
             return Some(format!("path: middles needs the planner trapezoid, not {}", self.method()));
@@ -67,7 +67,7 @@ fn not_positive(name: &str, value: f64) -> Option<String> {
     (!value.is_finite() || value <= 0.0).then(|| format!("{name}: {value} must be finite and positive"))
 }
 
-/// Reports a number that lies outside its range.
+/// Describes a number that lies outside its range. `None` if it lies within.
 pub(super) fn wrong_number(name: &str, n: usize, range: &RangeInclusive<usize>) -> Option<String> {
     (!range.contains(&n)).then(|| format!("{name}: {n} must be from {} to {}", range.start(), range.end()))
 }

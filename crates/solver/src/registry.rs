@@ -13,33 +13,35 @@ use cplan_roadmaps::{Prm, Triangles, Voronoi};
 use std::fmt;
 use std::str::FromStr;
 
-/// A planner's own description. The rest of the program knows nothing else about it.
+/// Everything that the rest of the program knows about a planner.
 #[derive(Debug)]
 pub struct Descriptor {
     /// Name on the command line.
     pub name: &'static str,
     /// Description of the planner, as a line of the help.
     pub summary: &'static str,
-    /// The family of planners that work alike.
+    /// Family to which the planner belongs.
     pub family: Family,
-    /// Paths that it can give.
+    /// Kinds of paths that the planner can give.
     pub paths: &'static [PathKind],
-    /// Settings that it reads, in their order in JSON. A planner that reads [`Setting::Gap`] looks for the optimum, and
-    /// bounds its path's distance from it. One that reads [`Setting::Margin`] plans among polygons, one that reads
-    /// [`Setting::Search`] on a roadmap, and one that reads [`Setting::Space`] on a grid.
+    /// Settings that the planner reads, in their order in JSON. Some of them imply how it works:
+    /// - [`Setting::Gap`]: it looks for the optimum, and bounds its path's distance from it.
+    /// - [`Setting::Margin`]: it plans among polygons.
+    /// - [`Setting::Search`]: it plans on a roadmap.
+    /// - [`Setting::Space`]: it plans on a grid.
     pub settings: &'static [Setting],
     /// Default settings.
     pub(super) defaults: fn() -> Settings,
-    /// Builds the space that it plans in, level after level, and answers.
+    /// Function that answers a request with this planner.
     pub(super) solve: fn(Request) -> Answer,
 }
 
 /// A family of planners that work alike.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Family {
-    /// A graph over the polygons of free space.
+    /// Planners that search a graph among polygons.
     Roadmap,
-    /// Values on a grid's cells.
+    /// Planners that compute values on the cells of a grid.
     Field,
     /// Planners that judge the scene itself: by exact slices, slabs, boxes.
     Exact,
@@ -49,7 +51,7 @@ impl Family {
     /// All families, in the order of the tables.
     pub const ALL: [Family; 3] = [Family::Roadmap, Family::Field, Family::Exact];
 
-    /// Returns the name of its planners, in the plural.
+    /// Returns the name of the family's planners, in the plural.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -61,7 +63,7 @@ impl Family {
 }
 
 impl Method {
-    /// Returns its name on the command line.
+    /// Returns the planner's name on the command line.
     #[must_use]
     pub fn name(self) -> &'static str {
         self.descriptor().name
@@ -73,7 +75,7 @@ impl Method {
         self.descriptor().settings.contains(&setting)
     }
 
-    /// Returns the kind of path that it gives by default.
+    /// Returns the kind of path that the planner gives by default.
     #[must_use]
     pub fn path_kind(self) -> PathKind {
         (self.descriptor().defaults)().path

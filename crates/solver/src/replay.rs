@@ -1,8 +1,8 @@
 //! Replays of a planner's run in phases, for animated pages and pictures.
 //!
-//! Most of the data is in the run's [`Trace`], in chronological order. A phase states which part of it is shown. Data
-//! that runs do not keep is recomputed for the replay: the final boxes of slabs, values of a field between its sweeps,
-//! and the path before it was pulled taut. So plans without a replay cost nothing extra.
+//! Most of the data is in the run's [`Trace`], in chronological order. A phase states which part of the trace is shown.
+//! Runs do not keep the final boxes of slabs, the values of a field between its sweeps, and the path before it was
+//! pulled taut. These are computed again for the replay, so plans without a replay cost nothing extra.
 
 use super::admission::Ends;
 use super::ladder::FIRST_BOXES;
@@ -35,8 +35,8 @@ pub struct Phase {
     pub events: usize,
 }
 
-/// The content of a phase, shown event by event. Without data of its own, it is a part of the drawn [`Trace`], in its
-/// order.
+/// The content of a phase, shown event by event. A variant without a field stands for a part of the drawn [`Trace`], in
+/// the trace's order.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Shows {
     /// Configurations, in the order in which edges reach them.
@@ -54,7 +54,7 @@ pub enum Shows {
     Expanded,
     /// Slices that the path crosses.
     Slices,
-    /// Cells of a grid, by their labels or as they were expanded.
+    /// Cells of a grid, in the order of their labels or of their expansion.
     Wave,
     /// Equipotentials from the goal outwards.
     Levels,
@@ -64,7 +64,7 @@ pub enum Shows {
     Slabs(SlabBoxes),
     /// Values of a field between its sweeps.
     Sweeps(Sweeps),
-    /// A path other than that of the answer: before it was pulled taut.
+    /// The answer's path before it was pulled taut.
     Own(Path),
     /// The answer's path.
     Path,
@@ -83,16 +83,17 @@ pub struct SlabBoxes {
     pub mixed: Vec<[Configuration; 2]>,
 }
 
-/// A field between its sweeps, at some cells of the grid.
+/// A field after some of its sweeps, at some cells of the grid.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sweeps {
     /// Number of cells along each axis.
     pub cells: [usize; 2],
-    /// Number of sweeps and the values after them: natural logarithms, or minus infinity where the field is still zero.
+    /// For each frame, the number of sweeps so far and the natural logarithms of the values, which are minus infinity
+    /// where the field is still zero.
     pub frames: Vec<(usize, Vec<f64>)>,
 }
 
-/// Largest number of slabs, and of pairs of shapes, for a replay: some tens of milliseconds of work.
+/// Largest number of slabs in a replay. With the limit on pairs of shapes, this takes some tens of milliseconds.
 const MAX_REPLAY_SLABS: usize = 2_000;
 const MAX_REPLAY_PAIRS: usize = 4096;
 

@@ -8,36 +8,38 @@ use cplan_core::cspace::{
 };
 use cplan_core::model::{Arm, MotionProblem};
 
-/// Largest number of cells along an axis: with more than 2048 x 2048 cells, fields take minutes.
+/// Largest number of cells along an axis on levels after the first. With more than 2048 x 2048 cells, fields take
+/// minutes.
 const MAX_CELLS: usize = 2048;
 
-/// Largest number of collision checks of a sampled grid, some ten seconds of work. Finer grids that need more do not
-/// exist.
+/// Largest number of collision checks of a sampled grid, some ten seconds of work. A level after the first that needs
+/// more has no grid.
 const MAX_CHECKS: usize = 1 << 30;
 
-/// Share of a sliding joint's stroke that counts as reach if the arm's reach is smaller, as for a gantry's slender
-/// tool.
+/// Share of a prismatic joint's stroke that replaces the arm's reach where the reach is smaller, as for a gantry with a
+/// slender tool.
 const STROKE_SHARE: f64 = 0.1;
 
-/// Number of turns of the universal cover on either side of the start in which planning takes place.
+/// Number of whole turns of continuous joints, on either side of the start, that polygons cover.
 const TURNS_PER_SIDE: usize = 1;
 
-/// Largest number of pairs of shapes from which polygons are made on the first level: one or two seconds of work. With
-/// more, the margin is increased ...
+/// Number of pairs of shapes from which polygons are made on the first level, one or two seconds of work. With more
+/// pairs, [`MARGIN_INCREASE`] applies.
 const MAX_FIRST_PAIRS: usize = 6144;
 
-/// ... by this factor, at most this number of times.
+/// Factor by which the margin grows above [`MAX_FIRST_PAIRS`] pairs, and how often at most. A greater margin joins
+/// shapes.
 const MARGIN_INCREASE: (f64, usize) = (2.0, 6);
 
-/// Largest number of pairs of shapes on finer levels. With more, the level does not exist.
+/// Largest number of pairs of shapes on levels after the first. A level with more has no polygons.
 const MAX_PAIRS: usize = 16_384;
 
-/// The first margin after exact polygons, as a share of the arm's reach. Paths among exact polygons usually touch them,
-/// and these paths must be within the usual gap of the shortest.
+/// Margin of the level after exact polygons, as a share of the arm's reach. Paths among exact polygons usually touch
+/// them and are refused. With this margin, paths are still within the usual gap (1e-4) of the shortest.
 const MARGIN_AFTER_EXACT: f64 = 4e-5;
 
-/// Returns the polygons of a level. With a first margin of 0, the first level has the exact polygons, if the arm has
-/// any; all others are grown. `None` if there is no finer level.
+/// Returns the polygons of a level. If `first`, the first margin, is 0 and the arm is a gantry, the first level has the
+/// exact polygons. All other polygons are grown. `None` if there is no finer level.
 pub(super) fn polygons(problem: &MotionProblem, first: f64, level: usize) -> Option<Regions> {
     if first > 0.0 {
         return grown_polygons(problem, first, level);
@@ -48,8 +50,8 @@ pub(super) fn polygons(problem: &MotionProblem, first: f64, level: usize) -> Opt
     }
 }
 
-/// Returns polygons grown by the level's margin. The first margin is a share of the arm's reach, and each level's
-/// margin is a quarter of that of the level before. `None` if there is no finer level.
+/// Returns polygons grown by the level's margin. `first`, the margin of level 0, is a share of the arm's extent. Each
+/// level has a quarter of the margin of the level before. `None` if there is no finer level.
 fn grown_polygons(problem: &MotionProblem, first: f64, level: usize) -> Option<Regions> {
     let scene = problem.scene();
     let few = |margin: f64, most: usize| scene.pairs().len() <= most || traced_pairs(scene, margin) <= most;
@@ -69,23 +71,26 @@ fn margin(problem: &MotionProblem, first: f64, level: usize) -> f64 {
     first * extent(problem.scene().arm()) * 0.25_f64.powi(level as i32)
 }
 
-/// Returns the length to which margins are relative: the arm's reach, or a share of a sliding joint's stroke.
+/// Returns the arm's extent, metres, to which margins are relative: the arm's reach, or a share of a prismatic joint's
+/// stroke if that is greater.
 pub(super) fn extent(arm: &Arm) -> f64 {
     let strokes = arm.joints.iter().filter(|joint| !joint.joint_type.is_revolute()).map(|joint| joint.range.extent());
     strokes.map(|stroke| STROKE_SHARE * stroke).fold(arm.reach(), f64::max)
 }
 
-/// Ratio of the axes' ranges up to which a field's cells are square. Beyond it, the axis with the smaller range would
-/// get too few cells.
+/// Largest ratio of the two joints' ranges for which a field's cells are square. With a larger ratio, the axis with the
+/// smaller range would get too few square cells.
 const MAX_SQUARE_RATIO: f64 = 16.0;
 
-/// Returns the cells of a level. Their number along each axis doubles with every second level. On the first of two
-/// levels of one size, the free cells are free throughout. If these are too few, the second level uses cells with free
-/// centres, which show passages some three cells wider. The certificate judges the path among them. That takes a
-/// sixteenth of the time of cells that are free throughout the same passage.
+/// Returns the cells of a level. `None` if the level is too fine. `first` gives the numbers of cells on level 0.
 ///
-/// If no number is given, cells are square in joint space, where a radian is as long as a metre. Then a field's
-/// equation is that of the configuration space, and does not depend on the grid.
+/// With [`GridSpace::Rows`], the number along each axis doubles with every second level. On the first of two levels of
+/// one size, free cells are free throughout. On the second, free cells have a free centre, so passages look some three
+/// cells wider. The path is certified in either case. To show the same passage, cells that are free throughout would
+/// take sixteen times as long.
+///
+/// If `first` is `None`, cells are square in joint space, where a radian is as long as a metre. Then a field's equation
+/// is that of the configuration space, and does not depend on the grid.
 pub(super) fn grid_cells(
     problem: &MotionProblem,
     space: GridSpace,
@@ -97,14 +102,14 @@ pub(super) fn grid_cells(
     Some(grid(problem, space, level, shape))
 }
 
-/// Returns the numbers of cells along the axes, `n * n` in total, that make cells square.
+/// Returns the numbers of cells along the axes, about `n * n` in total, that make cells square.
 fn square_in_joint_space(problem: &MotionProblem, n: f64) -> [usize; 2] {
     let [a, b] = problem.scene().arm().topology().ranges.map(|axis| axis.extent());
     let ratio = (a / b).clamp(1.0 / MAX_SQUARE_RATIO, MAX_SQUARE_RATIO).sqrt();
     [n * ratio, n / ratio].map(|cells| cells.round().max(1.0) as usize)
 }
 
-/// Returns the cells of a level with the workspace's preferences.
+/// Returns the cells of a level, with the preferences of the workspace's zones.
 pub(super) fn zoned_cells(
     problem: &MotionProblem,
     space: GridSpace,
@@ -114,7 +119,8 @@ pub(super) fn zoned_cells(
     grid_cells(problem, space, first, level).map(|grid| ZonedGrid::new(grid, problem.scene()))
 }
 
-/// Returns the numbers of cells along the axes. `None` if the level is too fine.
+/// Returns the numbers of cells along the axes on a level; `first` gives those of level 0. `None` if the level is too
+/// fine.
 fn finer(problem: &MotionProblem, space: GridSpace, CellCounts(first): CellCounts, level: usize) -> Option<[usize; 2]> {
     let (finer, checks) = match space {
         GridSpace::Rows => (level / 2, 0),

@@ -15,28 +15,28 @@ use std::ops::RangeInclusive;
 /// Upper limit of margins, as a share of the arm's reach. The lower limit is 0.
 pub const MAX_MARGIN: f64 = 0.1;
 
-/// Default of the first number of cells along an axis.
+/// Default number of cells along an axis on the first level.
 pub const DEFAULT_CELLS: usize = 256;
 
-/// Allowed first numbers of cells along an axis.
+/// Allowed numbers of cells along an axis on the first level.
 pub const ALLOWED_CELLS: RangeInclusive<usize> = 8..=2048;
 
-/// Allowed first numbers of samples.
+/// Allowed numbers of samples on the first level.
 pub const ALLOWED_SAMPLES: RangeInclusive<usize> = 1..=100_000;
 
 /// Allowed numbers of neighbours to which each sample is connected.
 pub const ALLOWED_NEIGHBORS: RangeInclusive<usize> = 1..=1000;
 
-/// Criterion for short paths.
+/// Definition of the length that planners minimise.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Criterion {
     /// Square root of the sum of squares. Radians and metres are added as numbers.
     #[default]
     Euclidean,
-    /// The same, with the joints' values multiplied by these weights, both positive.
+    /// Square root of the sum of squares after multiplying the joints' values by these weights, both positive.
     Weighted([f64; 2]),
-    /// Seconds at the joints' top speeds.
+    /// Travel time in seconds, with each joint at its top speed.
     Time,
 }
 
@@ -75,7 +75,7 @@ macro_rules! settings {
         }
 
         impl Setting {
-            /// Returns its key in JSON.
+            /// Returns the setting's key in JSON.
             #[must_use]
             pub fn key(self) -> &'static str {
                 match self {
@@ -104,15 +104,15 @@ macro_rules! settings {
 }
 
 settings! {
-    /// Criterion for short paths.
+    /// Definition of the length that the planner minimises.
     Criterion, criterion: Criterion = Criterion::Euclidean, "criterion";
-    /// Refine until the path is proven to be longer than the optimum by at most this share of it. A larger gap permits
-    /// faster motions. `None` means 1e-4 for the planner `shortest`, and for `visibility` the gap that the first margin
-    /// gives.
+    /// Largest gap: the path is refined until it is proven to be at most this share longer than the optimum. A larger
+    /// gap permits faster motions. With `None`, `shortest` uses 1e-4, and `visibility` accepts the gap that its first
+    /// margin gives.
     Gap, gap: Option<f64> = None, "gap";
-    /// First margin by which polygonal obstacles are grown, as a share of the arm's reach; quartered where needed. With
-    /// 0, the first attempt uses the exact polygons of a gantry. Paths that touch them are then planned again among
-    /// grown polygons.
+    /// Margin by which polygonal obstacles are grown on the first level, as a share of the arm's reach. Each finer
+    /// level has a quarter of it. With 0, the first level has the exact polygons of a gantry, and paths that touch them
+    /// are planned again among grown polygons.
     Margin, margin: f64 = 1e-3, "margin";
     /// Search of a roadmap.
     Search, search: RoadmapSearch = RoadmapSearch::default(), "search";
@@ -136,8 +136,8 @@ settings! {
     Neighborhood, neighborhood: waves::Neighborhood = waves::Neighborhood::default(), "neighborhood";
     /// Method that decides the cells of a grid.
     Space, space: GridSpace = GridSpace::default(), "space";
-    /// First numbers of cells along the axes; doubled where needed. With `None`, cells are square in joint space, and
-    /// their total is 256 x 256.
+    /// Numbers of cells along the axes on the first level; finer levels double them. With `None`, the first level has
+    /// about 256 x 256 cells, which are square in joint space.
     Cells, cells: Option<CellCounts> = None, "cells";
     /// The field that replaces the harmonic one. [`Settings::path`] applies to its path.
     Field, field: Option<FieldPlanner> = None, "field";

@@ -20,27 +20,27 @@ use cplan_interrupt::Instant;
 use cplan_proofs::{MotionQuery, ProposedPath, RefusalReason, short_motion};
 use std::time::Duration;
 
-/// Extra clearance to try, as fractions of the arm's reach times the gap, one after the other.
+/// Extra clearances to try, in this order, as fractions of the arm's reach times the gap.
 const CLEARANCE_FRACTIONS: [f64; 4] = [0.25, 0.06, 0.015, 0.004];
 
 /// Largest extra clearance, as a fraction of the arm's reach, for any gap.
 const MAX_EXTRA_CLEARANCE: f64 = 0.01;
 
-/// With more pairs of shapes than this there is only one attempt, ...
+/// Number of pairs of shapes up to which all extra clearances are tried. With more, only the first is.
 const MAX_PAIRS_FOR_RETRIES: usize = 1000;
 
-/// ... and with more than this there is no attempt.
+/// Number of pairs of shapes up to which slices look for a shorter path. With more, a visibility graph does.
 const MAX_PAIRS: usize = 20_000;
 
-/// Fraction of the gap that the bound may leave open.
+/// Fraction of the requested gap within which the lower bound is refined to the path's length. The rest allows
+/// corners to be removed.
 const BOUND_FRACTION: f64 = 0.5;
 
 /// Fraction of the remaining gap that removing corners may cost.
 const SLACK_FRACTION: f64 = 0.9;
 
-/// Answers a request with an approximately shortest path. A visibility graph plans as well if slabs leave it undecided
-/// whether there is a path, or if the path is not proven to be within the gap. Then the better of both paths is the
-/// answer.
+/// Answers a request with an approximately shortest path. If slabs do not decide whether there is a path, or if the
+/// path is not proven to be within the gap, a visibility graph plans as well, and the shorter path is the answer.
 pub(super) fn solve(Request { problem, options, progress }: Request) -> Answer {
     let metric = options.planner.metric(problem.scene().arm());
     let clock = Instant::now();
@@ -56,7 +56,7 @@ pub(super) fn solve(Request { problem, options, progress }: Request) -> Answer {
     let mut by_graph = || by_visibility(Request { problem, options, progress });
     let (own, by_graph) = match first {
         Outcome::Infeasible(_) => return answer(Method::Shortest, first, stages),
-        // With this many pieces polygons, which cover them by fewer, are the better method.
+        // Polygons unite many pieces, so with this many pieces the visibility graph is the faster method.
         Outcome::Found(_) if problem.scene().pairs().len() > MAX_PAIRS => {
             let by_graph = by_graph();
             let own = answer(Method::Shortest, first, stages);
@@ -88,12 +88,13 @@ pub(super) fn solve(Request { problem, options, progress }: Request) -> Answer {
     best
 }
 
-/// The first margin of gantries' polygons, as a share of the gap, unless the planner's is smaller. Paths farther from
-/// corners give faster motions. If the margin is too large for the gap, it is quartered.
+/// Largest first margin of a gantry's polygons, a share of the arm's reach, as a fraction of the gap. The planner's own
+/// margin applies if it is smaller. Paths farther from corners give faster motions. If the margin is too large for the
+/// gap, it is quartered.
 const MARGIN_FRACTION: f64 = 0.4;
 
-/// Answers for a gantry, whose C-obstacles are polygons: with the shortest path among polygons grown so little that it
-/// is within the gap. `None` if it is not.
+/// Answers for a gantry, whose C-obstacles are polygons: finds the shortest path among slightly grown polygons. `None`
+/// if no path is proven to be within the gap.
 fn among_polygons(problem: &MotionProblem, options: &Options, stages: Stages) -> Option<Answer> {
     let (scene, gap) = (problem.scene(), options.planner.gap().unwrap_or(CLOSE_GAP));
     let planner =
@@ -120,7 +121,7 @@ fn meets_gap(answer: &Answer, options: &Options) -> bool {
     !options.bounded || answer.bound().is_some_and(|bound| bound.gap() <= options.planner.gap().unwrap_or(CLOSE_GAP))
 }
 
-/// Returns the answer that starts from a first path, and replaces it by a shorter one if one is found and certified.
+/// Returns the answer with the path `first`, or with a shorter path if one is found and certified.
 fn shorter(problem: &MotionProblem, options: &Options, first: CertifiedPath, mut stages: Stages) -> Answer {
     let (scene, planner) = (problem.scene(), options.planner);
     let (metric, gap) = (planner.metric(scene.arm()), planner.gap().unwrap_or(CLOSE_GAP));
@@ -184,12 +185,12 @@ fn shorter(problem: &MotionProblem, options: &Options, first: CertifiedPath, mut
     answer
 }
 
-/// The lower bound on the shortest path known so far.
+/// The best lower bound so far on the length of the shortest path.
 struct PathBounding<'a> {
     motions: MotionQuery<'a>,
     /// The gap to reach.
     gap: f64,
-    /// True if a bound is requested. If false, the lower bound stays 0.
+    /// True if the options request a bound. If false, the lower bound stays 0.
     is_asked: bool,
     /// Lower bound on the lengths of all motions.
     lower: f64,
@@ -200,8 +201,8 @@ struct PathBounding<'a> {
 }
 
 impl PathBounding<'_> {
-    /// Computes a bound for a path of length `upper`, unless that path is known to be close, or its bound was computed
-    /// before.
+    /// Improves the lower bound, up to the length `upper` of a path. Does nothing if that path is already known to be
+    /// within the gap, or if the bound was last computed for the same length.
     fn bound(&mut self, upper: f64, slices: &[f64]) {
         if self.is_asked && upper != self.beside && !self.is_close(upper) {
             let clock = Instant::now();
@@ -216,14 +217,14 @@ impl PathBounding<'_> {
         Bound { metric: self.motions.metric, lower: self.lower, upper }.gap() <= self.gap
     }
 
-    /// Returns by how much a path of length `upper` may become longer.
+    /// Returns by how much a path of length `upper` may become longer to remove corners.
     fn room(&self, upper: f64) -> f64 {
         room(upper, self.is_asked.then_some(self.lower), self.gap)
     }
 }
 
-/// Returns by how much a path of length `upper` may become longer to remove corners. Without a lower bound, a share of
-/// the requested gap.
+/// Returns by how much a path of length `upper` may become longer to remove corners. Without a lower bound, this is a
+/// share of the requested gap.
 fn room(upper: f64, lower: Option<f64>, gap: f64) -> f64 {
     SLACK_FRACTION * lower.map_or(gap / 2.0 * upper, |lower| lower * (1.0 + gap) - upper)
 }

@@ -11,9 +11,10 @@ use cplan_core::space::{Configuration, Path, Portal, funnel_path, nearest_end};
 use cplan_interrupt::Instant;
 use cplan_proofs::{Channel, Connectivity, Exploration, Occupancy, explore};
 
-/// Answers a request by [`explore`]: with a path through free boxes, pulled taut unless their own path is requested,
-/// with a proof, or with neither within [`Options::boxes`](super::Options::boxes). There are no further attempts, since
-/// the search itself refines the boxes where needed.
+/// Answers a request by [`explore`]: with a path, with a proof, or with neither if
+/// [`Options::boxes`](super::Options::boxes) boxes do not decide. The path leads through free boxes. It is pulled taut,
+/// unless the path through the middles of the portals is requested. There is only one attempt, since the search itself
+/// refines boxes where needed.
 pub(super) fn solve(Request { problem, options, progress }: Request) -> Answer {
     let scene = problem.scene();
     let clearance = scene.workspace().clearance;
@@ -65,8 +66,8 @@ pub(super) fn solve(Request { problem, options, progress }: Request) -> Answer {
     }
 }
 
-/// Returns the shortest path through the channel. If rounding spoils that path where it touches the sides, returns the
-/// one through the middles.
+/// Certifies the shortest path through the channel. That path touches the sides of boxes, where rounding may spoil it.
+/// Then this certifies the path through the middles of the portals.
 pub(super) fn certified(problem: &MotionProblem, channel: &Channel) -> Result<CertifiedPath, Rejection> {
     let clearance = problem.scene().workspace().clearance;
     certify(problem.scene(), taut(channel), clearance).or_else(|_| certify(problem.scene(), channel.path(), clearance))

@@ -1,4 +1,4 @@
-//! Problems with fewer pieces of obstacles. A problem that has no path then has none with all pieces either.
+//! Problems with fewer pieces of obstacles. If there is no path past fewer pieces, there is none past all pieces.
 
 use cplan_core::model::{MotionProblem, Obstacle, Pair};
 use cplan_geometry::{Convex, Point};
@@ -6,17 +6,18 @@ use std::collections::HashMap;
 
 /// A problem with some of the pieces of its obstacles.
 pub(super) struct ThinnedProblem {
-    /// The problem.
+    /// The problem with the remaining pieces.
     pub problem: MotionProblem,
     /// For each obstacle, the original indices of its remaining pieces, and the original number of pieces.
     kept: Vec<(Vec<usize>, usize)>,
 }
 
 impl ThinnedProblem {
-    /// Keeps only the largest of the pieces whose bounds are equal on a lattice with this spacing, metres, and that
-    /// lean the same way.
+    /// Keeps one of all pieces that are alike: the one with the greatest depth. Two pieces are alike if their bounding
+    /// boxes are equal after rounding to a lattice with this spacing, metres, and if they lie along the same diagonal.
     ///
-    /// The omitted pieces lie near remaining ones. Omitting them is safe, because fewer obstacles block less. `O(n)`.
+    /// The omitted pieces lie near remaining ones. A proof without them holds with them, because more obstacles block
+    /// more. Takes `O(n)` for `n` pieces.
     pub fn new(problem: &MotionProblem, lattice: f64) -> Self {
         let kept: Vec<(Vec<usize>, usize)> = problem
             .scene()
@@ -34,17 +35,17 @@ impl ThinnedProblem {
         Self { problem: MotionProblem::trusted(scene, problem.start(), problem.goals().clone()), kept }
     }
 
-    /// Returns the original pair for a pair of the thinned scene.
+    /// Returns the pair of the original scene for a pair of the scene with fewer pieces.
     pub fn original_pair(&self, pair: Pair) -> Pair {
         // Links of the robot keep all their pieces.
         let Some((kept, all)) = self.kept.get(pair.obstacle) else { return pair };
-        // Shapes derived from the pieces for a level payload are numbered after them, once or several times for each
-        // piece.
+        // For a payload that stays level, more shapes are derived from the pieces. They are numbered after the pieces,
+        // one or several times in the same order.
         Pair { piece: pair.piece / kept.len() * all + kept[pair.piece % kept.len()], ..pair }
     }
 }
 
-/// Returns the indices of the pieces that are kept, ascending.
+/// Returns the indices of the deepest of each group of alike pieces, ascending.
 fn largest_alike(obstacle: &Obstacle, lattice: f64) -> Vec<usize> {
     let mut largest: HashMap<[i64; 5], (f64, usize)> = HashMap::new();
     for (number, piece) in obstacle.pieces.iter().enumerate() {
@@ -59,7 +60,8 @@ fn largest_alike(obstacle: &Obstacle, lattice: f64) -> Vec<usize> {
     kept
 }
 
-/// Returns the bounds on a lattice, and the diagonal along which the piece mostly lies.
+/// Returns the bounding box rounded down to lattice cells, and the diagonal along which the piece mostly lies: 1 if it
+/// rises, 0 if it falls.
 fn place(piece: &Convex, lattice: f64) -> [i64; 5] {
     let [lower, upper] = piece.bounds();
     let on = |v: f64| (v / lattice).floor() as i64;

@@ -1,4 +1,4 @@
-//! `xacro:insert_block`.
+//! The directive `xacro:insert_block`.
 
 use crate::document::{Element, Node};
 use crate::error::{Error, Fault};
@@ -31,7 +31,7 @@ impl Expander<'_> {
     }
 }
 
-/// Bytes that a node becomes, about.
+/// Returns about how many bytes a node has in the output.
 fn size(node: &Node) -> usize {
     match node {
         Node::Text(text, _) => text.len(),

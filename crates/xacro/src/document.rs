@@ -1,4 +1,4 @@
-//! XML files as trees whose elements know their places.
+//! XML files as trees. Each element has its place in the file.
 
 use crate::error::Error;
 use crate::limits::MAX_DEPTH;
@@ -8,15 +8,15 @@ use std::path::{Path, PathBuf};
 use std::rc::Rc;
 use std::sync::Arc;
 
-/// Elements and texts of one file: more than any robot has.
+/// Largest number of elements and texts in one file. No robot has as many.
 const MAX_NODES: u32 = 1_000_000;
 
 /// A file that was read.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct File {
-    /// Its path.
+    /// Path of the file.
     pub path: PathBuf,
-    /// Its text.
+    /// Text of the file.
     pub text: Arc<str>,
 }
 
@@ -31,9 +31,9 @@ impl File {
 /// A part of a file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Place {
-    /// Index of the file, in the order in which they were read.
+    /// Index of the file, in the order in which files were read.
     pub file: usize,
-    /// Bytes of its text.
+    /// Range of bytes in the file's text.
     pub range: Range<usize>,
 }
 
@@ -53,7 +53,7 @@ impl Node {
     }
 }
 
-/// An element, its name with the prefix that the file gives it.
+/// An element. Its name has the prefix that it has in the file.
 #[derive(Debug)]
 pub(crate) struct Element {
     pub name: String,
@@ -95,7 +95,7 @@ fn is_ours(uri: &str) -> bool {
 }
 
 pub(crate) fn uses_xacro(text: &str) -> bool {
-    // Only then is it worth the time.
+    // Parse the text only if it may use xacro.
     if !text.contains("xacro") && !text.contains("${") && !text.contains("$(") {
         return false;
     }
@@ -207,14 +207,14 @@ fn element(text: &str, node: XmlNode, file: usize) -> Rc<Element> {
     })
 }
 
-/// Returns the byte of a line and a column, counted from 1.
+/// Returns the byte offset of a line and a column, both counted from 1.
 fn offset(text: &str, at: roxmltree::TextPos) -> usize {
     let line: usize = text.split_inclusive('\n').take((at.row as usize).saturating_sub(1)).map(str::len).sum();
     let inside = text[line.min(text.len())..].chars().take((at.col as usize).saturating_sub(1));
     line + inside.map(char::len_utf8).sum::<usize>()
 }
 
-/// Reads a text file, without a byte order mark.
+/// Reads a text file, and removes a byte order mark.
 pub(crate) fn text(path: &Path, read: fn(&Path) -> std::io::Result<Vec<u8>>) -> Result<String, String> {
     let bytes = read(path).map_err(|error| format!("cannot be read: {error}"))?;
     let text = String::from_utf8(bytes).map_err(|_| "is not UTF-8 text".to_owned())?;

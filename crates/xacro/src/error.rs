@@ -4,10 +4,10 @@ use crate::document::{File, Place};
 use std::fmt;
 use std::path::PathBuf;
 
-/// Why a file is not expanded.
+/// Reason why a file is not expanded.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Error {
-    /// The file that is wrong.
+    /// Path of the file with the error.
     pub path: PathBuf,
     /// The file and the place of the error, if it has a place.
     pub place: Option<Box<(File, Place)>>,
@@ -33,9 +33,9 @@ impl std::error::Error for Error {}
 /// An error in an expression or a substitution, before its place is known.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) enum Fault {
-    /// Wrong where it stands: the message, and what to do.
+    /// The text itself is wrong: the message, and a hint.
     Here(String, Option<String>),
-    /// Wrong in another place: a property whose value is only computed here.
+    /// The error is in another place: in a property whose value is computed only when the text uses it.
     Elsewhere(Box<Error>),
 }
 

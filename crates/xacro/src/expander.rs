@@ -1,4 +1,4 @@
-//! Walks elements and writes their expansion.
+//! Expands the elements of a file.
 
 use crate::document::{self, Attribute, Element, File, Node, Place};
 use crate::error::{Error, Fault};
@@ -10,7 +10,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 use std::rc::Rc;
 
-/// Directives of old xacro, which it took without the prefix.
+/// Directives that old versions of xacro accepted without the prefix.
 const OLD_DIRECTIVES: [&str; 3] = ["include", "macro", "property"];
 
 /// The state of an expansion.
@@ -19,13 +19,13 @@ pub(crate) struct Expander<'s> {
     pub files: Vec<File>,
     pub scopes: Scopes,
     pub budget: Budget,
-    /// Values from outside, by name.
+    /// Values of arguments from the settings, by name.
     pub given: BTreeMap<String, String>,
     /// Values of the arguments that are declared.
     pub arguments: BTreeMap<String, String>,
-    /// Arguments that were asked for.
+    /// Names of the arguments that the files use.
     pub asked_arguments: BTreeSet<String>,
-    /// Folders of packages, by name and file.
+    /// Folders of packages, by the name of the package and the index of the file that refers to it.
     pub packages: BTreeMap<(String, usize), String>,
     /// Files that are being included.
     pub open_files: Vec<PathBuf>,
@@ -85,7 +85,7 @@ impl<'s> Expander<'s> {
         Ok(Expansion { text, spans, files: self.files, yaml: self.yaml, notes: self.notes })
     }
 
-    /// Reads a file; the inner error says why it cannot be.
+    /// Reads and parses a file. The inner error is the reason, in words, why the file cannot be read.
     pub fn open(&mut self, path: PathBuf) -> Result<Result<Rc<Element>, String>, Error> {
         let text = match document::text(&path, self.settings.read) {
             Ok(text) => text,
@@ -102,7 +102,7 @@ impl<'s> Expander<'s> {
         Ok(Ok(tree.root))
     }
 
-    /// Returns a fault as an error at a place.
+    /// Converts a fault to an error at a place.
     pub fn error(&self, place: &Place, fault: Fault) -> Error {
         let (message, hint) = match fault {
             Fault::Elsewhere(error) => return *error,
@@ -136,7 +136,7 @@ impl<'s> Expander<'s> {
         Ok(attributes)
     }
 
-    /// Expands content.
+    /// Expands nodes and appends the result to `out`.
     pub fn nodes(&mut self, nodes: &[Node], scope: usize, out: &mut Vec<Node>) -> Result<(), Error> {
         for node in nodes {
             match node {
@@ -170,7 +170,7 @@ impl<'s> Expander<'s> {
         Ok(())
     }
 
-    /// Refuses what only old versions of xacro take for directives.
+    /// Refuses elements that are directives only in old versions of xacro.
     fn check_prefix(&self, element: &Element) -> Result<(), Error> {
         let is_old = match element.name.as_str() {
             "include" => element.attribute("filename").is_some(),
@@ -208,7 +208,10 @@ impl<'s> Expander<'s> {
             }
             "element" | "attribute" => {
                 let message = format!("cplan does not read xacro:{name}");
-                Err(self.error(&element.place, Fault::with_hint(message, "write the final element under xacro:if")))
+                Err(self.error(
+                    &element.place,
+                    Fault::with_hint(message, "write the resulting element itself, inside xacro:if"),
+                ))
             }
             "call" => {
                 let [called] = self.required(element, ["macro"])?;
@@ -219,7 +222,10 @@ impl<'s> Expander<'s> {
         }
     }
 
-    /// Attributes that an element must have.
+    /// Returns the attributes that an element must have.
+    ///
+    /// # Errors
+    /// If one of them is missing.
     pub fn required<const N: usize>(&self, element: &Element, names: [&str; N]) -> Result<[Attribute; N], Error> {
         let missing = names.iter().find(|name| element.attribute(name).is_none());
         if let Some(name) = missing {

@@ -1,4 +1,4 @@
-//! `xacro:include`.
+//! The directive `xacro:include`.
 
 use crate::beside;
 use crate::document::{Element, Node};

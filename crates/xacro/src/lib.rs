@@ -18,7 +18,7 @@
 //!
 //! # Supported elements
 //!
-//! | element or word | what it does |
+//! | element or word | meaning |
 //! |---|---|
 //! | `xacro:property` | a value, or a block of elements; with `default`, `scope` (`parent` or `global`), `lazy_eval`, `remove` |
 //! | `xacro:arg` | a value that [`Settings::arguments`] may replace |
@@ -62,12 +62,12 @@ pub use writer::Span;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// The inputs of an expansion besides the files.
+/// Settings of an expansion.
 #[derive(Debug, Clone)]
 pub struct Settings {
-    /// Names and values of arguments. Of two with the same name the last counts.
+    /// Names and values of arguments. If a name occurs twice, the last value counts.
     pub arguments: Vec<(String, String)>,
-    /// Reads a file: the robot, an included file, or a YAML file.
+    /// Function that reads a file: the robot, an included file, or a YAML file.
     pub read: fn(&Path) -> io::Result<Vec<u8>>,
 }
 
@@ -77,7 +77,7 @@ impl Default for Settings {
     }
 }
 
-/// A plain URDF, and where its parts come from.
+/// A plain URDF, with the places in files from which its parts come.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Expansion {
     /// The URDF.
@@ -86,15 +86,16 @@ pub struct Expansion {
     pub files: Vec<File>,
     /// Paths of the YAML files that were read, in order.
     pub yaml: Vec<PathBuf>,
-    /// The parts of the text, in ascending order of their beginnings. An attribute follows the start tag that it lies in.
+    /// The start tags and attributes of the text, in ascending order. An attribute follows the start tag that contains
+    /// it.
     pub spans: Vec<Span>,
     /// Notes for the user about omitted parts.
     pub notes: Vec<String>,
 }
 
 impl Expansion {
-    /// Returns the source of a byte of the text: the place of the attribute, or else of the start tag, in or after
-    /// which it lies.
+    /// Returns the place from which a byte of the text comes: the place of the attribute that contains it, or else that
+    /// of the last start tag that begins at or before it.
     #[must_use]
     pub fn place(&self, offset: usize) -> Option<&Place> {
         let begun = self.spans.partition_point(|span| span.range.start <= offset);
@@ -106,11 +107,10 @@ impl Expansion {
     }
 }
 
-/// Expands a file. It need not use xacro.
+/// Expands a file, which may also be a plain URDF.
 ///
-/// # Errors
-/// A file that cannot be read or is no XML; what xacro itself refuses; what this reader does not know; what goes beyond its
-/// bounds.
+/// # Errors If a file cannot be read or is not XML, if xacro itself would refuse it, if it uses something that this
+/// crate does not support, or if the expansion exceeds the limits on its size.
 pub fn expand(path: &Path, settings: &Settings) -> Result<Expansion, Error> {
     expander::Expander::new(settings).run(path.to_owned())
 }

@@ -1,21 +1,22 @@
-//! Bounds on the size of an expansion.
+//! Limits on the size of an expansion.
 
 use crate::error::Fault;
 
-/// Levels of elements, macros, includes and properties within one another. Robots need about 20; a macro that calls itself needs two a
-/// turn.
+/// Largest depth of nested elements, macro calls, includes and properties. Robots need about 20 levels. A macro that
+/// calls itself needs two levels per call.
 pub(crate) const MAX_DEPTH: usize = 320;
 
-/// Levels of parentheses and operators in one expression.
+/// Largest depth of nested parentheses and operators in one expression.
 pub(crate) const MAX_EXPRESSION_DEPTH: usize = 40;
 
-/// Steps of an expansion: elements, attributes and parts of expressions. The largest public robots need some 100 000.
+/// Largest number of steps of an expansion: elements, attributes and parts of expressions. The largest public robots
+/// need some 100 000 steps.
 pub(crate) const MAX_STEPS: usize = 3_000_000;
 
-/// Bytes of the expanded text, and of all values that are computed on the way.
+/// Largest number of bytes of the expanded text and all computed values together.
 pub(crate) const MAX_TEXT_BYTES: usize = 64 << 20;
 
-/// Items of a list.
+/// Largest number of items in a list.
 pub(crate) const MAX_LIST_ITEMS: usize = 100_000;
 
 /// The resources that an expansion has used so far.
@@ -29,7 +30,7 @@ pub(crate) struct Budget {
 const RECURSION_HINT: &str = "a macro or include may repeat without end; end it by a condition (xacro:if)";
 
 impl Budget {
-    /// Counts a step that makes a text of so many bytes.
+    /// Counts a step that makes a text of this many bytes.
     pub fn spend(&mut self, bytes: usize) -> Result<(), Fault> {
         self.steps += 1;
         self.bytes = self.bytes.saturating_add(bytes);
@@ -45,7 +46,7 @@ impl Budget {
         Ok(())
     }
 
-    /// Goes one level down.
+    /// Enters a level of nesting.
     pub fn enter(&mut self) -> Result<(), Fault> {
         if self.depth >= MAX_DEPTH {
             let message =
@@ -56,7 +57,7 @@ impl Budget {
         Ok(())
     }
 
-    /// Comes back up.
+    /// Leaves a level of nesting.
     pub fn leave(&mut self) {
         self.depth -= 1;
     }

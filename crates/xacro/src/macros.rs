@@ -1,4 +1,4 @@
-//! `xacro:macro`, and its calls.
+//! The directive `xacro:macro`, and calls of macros.
 
 use crate::document::{Attribute, Element, Node, Place};
 use crate::error::{Error, Fault};
@@ -7,7 +7,7 @@ use crate::scope::{Block, Slot};
 use crate::value::Value;
 use std::rc::Rc;
 
-/// A macro.
+/// The definition of a macro.
 #[derive(Debug)]
 pub(crate) struct Macro {
     parameters: Vec<Parameter>,
@@ -16,7 +16,7 @@ pub(crate) struct Macro {
 
 #[derive(Debug, PartialEq, Eq)]
 struct Parameter {
-    /// The name with the stars of a block.
+    /// Name of the parameter, with the stars if it is a block.
     name: String,
     default: Option<Default>,
 }
@@ -24,9 +24,9 @@ struct Parameter {
 /// The default of a parameter.
 #[derive(Debug, PartialEq, Eq)]
 struct Default {
-    /// True if the default is the caller's property of the same name.
+    /// True if the default is the caller's property of the same name, if there is one.
     is_forwarded: bool,
-    /// Otherwise this text, evaluated by the caller.
+    /// Text of the default, evaluated in the caller's scope. `None` if there is only the caller's property.
     text: Option<String>,
 }
 
@@ -71,7 +71,7 @@ fn words(text: &str) -> Vec<&str> {
 impl Expander<'_> {
     pub(crate) fn macro_element(&mut self, element: &Rc<Element>, scope: usize) -> Result<(), Error> {
         let [name] = self.required(element, ["name"])?;
-        // Some write the prefix in the definition, too.
+        // Some files also have the prefix in the definition's name.
         let name = name.value.strip_prefix("xacro:").unwrap_or(&name.value).to_owned();
         let params = element.attribute("params").map_or("", |params| params.value.as_str());
         let defined = Macro { parameters: parameters(params), body: Rc::clone(element) };
@@ -153,7 +153,7 @@ impl Expander<'_> {
         value.map(Some).map_err(|fault| self.error(defined, fault))
     }
 
-    /// Takes the elements of a call for the macro's blocks, in order. The caller evaluates them.
+    /// Assigns the elements in a call to the macro's blocks, in order. They are expanded in the caller's scope.
     fn blocks(
         &mut self,
         called: &Macro,

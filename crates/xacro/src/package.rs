@@ -3,24 +3,25 @@
 use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
 
-/// Number of parent folders of a file that are searched for packages: a package, its repository, and the workspace
-/// around it.
+/// Number of folders above a file that are searched for packages. They include the file's package, its repository, and
+/// the workspace around the repository.
 const SEARCHED_PARENTS: usize = 5;
 
-/// Levels of folders below each of those.
+/// Largest depth of the search below each of these folders.
 const SEARCHED_DEPTH: usize = 4;
 
-/// Folders that are looked into below each.
+/// Largest number of folders that are searched below each of these folders.
 const MAX_FOLDERS: usize = 1_000;
 
-/// Bytes of the largest `package.xml`.
+/// Largest size of a `package.xml`, bytes.
 const MAX_MANIFEST_BYTES: u64 = 1 << 20;
 
-/// Returns the folders that a package of this name may be in, as seen from a file, likeliest first.
+/// Returns the folders that may be the package with this name, for a reference in a file, the most likely first.
 ///
-/// A package is a folder whose `package.xml` has the name in `<name>`. The folders about the file come first, then those that lie
-/// below them (sibling packages, others of the same repository) and below `ROS_PACKAGE_PATH`. The search ends at the root of a Git
-/// repository. Folders that are merely called so follow, about the file and in `ROS_PACKAGE_PATH` and `AMENT_PREFIX_PATH`.
+/// A folder is the package if its `package.xml` has the name in `<name>`. Folders above the file come first. Then
+/// come folders below these, up to the root of a Git repository (sibling packages, and others of the same repository),
+/// and folders below `ROS_PACKAGE_PATH`. Last come folders that only have the package's name: above the file, and in
+/// `ROS_PACKAGE_PATH` and `AMENT_PREFIX_PATH`.
 pub fn packages(name: &str, file: &Path) -> impl Iterator<Item = PathBuf> + use<> {
     let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let folder = folder.canonicalize().unwrap_or_else(|_| folder.to_owned());

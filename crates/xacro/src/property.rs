@@ -1,4 +1,4 @@
-//! `xacro:property` and `xacro:arg`.
+//! The directives `xacro:property` and `xacro:arg`.
 
 use crate::document::Element;
 use crate::error::{Error, Fault};

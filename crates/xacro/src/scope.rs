@@ -6,36 +6,37 @@ use crate::value::Value;
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
-/// The meaning of a name.
+/// The value of a name, which may not be known yet.
 #[derive(Debug, Clone)]
 pub(crate) enum Slot {
-    /// A text that is evaluated on use, and its place.
+    /// A text that is evaluated when the name is used, with its place.
     Unevaluated(Rc<str>, Place),
-    /// A text that is being evaluated.
+    /// A text that is being evaluated. A use of the name at this time is an error.
     Evaluating,
     Value(Value),
 }
 
-/// Elements that go by a name.
+/// Elements with a name, which `xacro:insert_block` inserts.
 #[derive(Debug, Clone)]
 pub(crate) struct Block {
     pub nodes: Vec<Node>,
-    /// True if the nodes are evaluated where they are inserted: those of a property, not those of a parameter.
+    /// True if the nodes must be expanded where they are inserted. This is so for properties. The nodes of a macro's
+    /// parameter are expanded already.
     pub is_source: bool,
 }
 
-/// The names of a file, a macro's call, or a namespace.
+/// The names that belong to a file, a call of a macro, or a namespace.
 #[derive(Debug, Default)]
 pub(crate) struct Scope {
     parent: Option<usize>,
     slots: BTreeMap<String, Slot>,
-    /// Blocks by name with stars: `*a` is an element, `**a` its content.
+    /// Blocks by name, with stars: `*a` is an element, and `**a` its content.
     blocks: BTreeMap<String, Rc<Block>>,
     macros: BTreeMap<String, Rc<Macro>>,
     namespaces: BTreeMap<String, usize>,
 }
 
-/// All scopes. The first is the robot's own. The others refer to their parent by index.
+/// All scopes. The first is that of the robot's own file. The others refer to their parent by index.
 #[derive(Debug)]
 pub(crate) struct Scopes(Vec<Scope>);
 
@@ -84,7 +85,7 @@ impl Scopes {
         about.into_iter().find(|scope| self.0[*scope].slots.contains_key(name)).map(|scope| (scope, name))
     }
 
-    /// Returns the meaning of a name in exactly this scope.
+    /// Returns the value of a name in exactly this scope, without its parents.
     pub fn slot(&self, scope: usize, name: &str) -> Option<&Slot> {
         self.0[scope].slots.get(name)
     }
@@ -93,7 +94,7 @@ impl Scopes {
         self.0[scope].slots.insert(name.to_owned(), slot);
     }
 
-    /// Forgets a property and a block of this name.
+    /// Removes the property and the block with this name.
     pub fn remove(&mut self, scope: usize, name: &str) {
         self.0[scope].slots.remove(name);
         self.0[scope].blocks.remove(&format!("**{name}"));

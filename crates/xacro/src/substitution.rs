@@ -1,4 +1,4 @@
-//! Texts with `${...}` and `$(...)` in them.
+//! Evaluates texts that contain `${...}` and `$(...)`.
 
 use crate::document::Place;
 use crate::error::Fault;
@@ -13,18 +13,18 @@ use std::path::Path;
 /// The scope and the file in which a text is evaluated.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Context {
-    /// The names that it sees.
+    /// Index of the scope whose names the text can use.
     pub scope: usize,
-    /// The file that it stands in.
+    /// Index of the file that contains the text.
     pub file: usize,
 }
 
 /// A part of a text.
 enum Part<'t> {
     Text(&'t str),
-    /// `${...}`.
+    /// The expression in `${...}`.
     Expression(&'t str),
-    /// `$(...)`.
+    /// The substitution in `$(...)`.
     Extension(&'t str),
 }
 
@@ -43,7 +43,7 @@ fn parts(text: &str) -> Result<Vec<Part<'_>>, Fault> {
         let opens = rest[dollars..].starts_with(['{', '(']);
         if dollars > 1 || !opens {
             let end = if opens { dollars + 1 } else { dollars };
-            // One of the signs was there to say that the others are meant so.
+            // The first sign is the escape: omit it.
             parts.push(Part::Text(&rest[usize::from(opens)..end]));
             rest = &rest[end..];
             continue;
@@ -166,7 +166,7 @@ impl Expander<'_> {
     }
 }
 
-/// Adds the expression to a fault.
+/// Adds the expression's text to the message of a fault.
 fn about(expression: &str, fault: Fault) -> Fault {
     match fault {
         Fault::Here(message, hint) => {
@@ -177,7 +177,7 @@ fn about(expression: &str, fault: Fault) -> Fault {
     }
 }
 
-/// The environment of an expression in a context.
+/// The names that an expression can use in a context.
 struct ContextNames<'e, 's> {
     expander: &'e mut Expander<'s>,
     context: Context,

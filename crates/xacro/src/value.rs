@@ -15,7 +15,7 @@ pub(crate) enum Value {
     Dict(Rc<Vec<(Value, Value)>>),
 }
 
-/// A number, for arithmetic.
+/// A number in arithmetic: an integer or a float.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Number {
     Int(i64),
@@ -85,7 +85,8 @@ impl Value {
         }
     }
 
-    /// Converts a text that reads like a number or a truth value, as for properties and parameters.
+    /// Converts a text that looks like a number or a truth value to that value, as xacro does for properties and
+    /// parameters.
     pub fn literal(self) -> Self {
         let Self::Text(text) = &self else { return self };
         if text.len() >= 2 && text.starts_with('\'') && text.ends_with('\'') {
@@ -108,7 +109,7 @@ impl Value {
         }
     }
 
-    /// Returns the truth value of a condition, which a text must spell out.
+    /// Returns the truth value of a condition. A text must be `true` or `false`, or a number. `None` for other values.
     pub fn condition(&self) -> Option<bool> {
         let Self::Text(text) = self else { return Some(self.is_true()) };
         match text.trim() {
@@ -132,7 +133,7 @@ impl Value {
         }
     }
 
-    /// Orders numbers, or texts.
+    /// Compares two numbers or two texts. `None` for other values.
     pub fn compare(&self, other: &Self) -> Option<Ordering> {
         match (self, other) {
             (Self::Text(a), Self::Text(b)) => Some(a.cmp(b)),

@@ -1,4 +1,4 @@
-//! Writes elements as XML, and remembers where each part comes from.
+//! Writes elements as XML, and records the place from which each part comes.
 
 use crate::document::{Element, Node, Place};
 use std::ops::Range;
@@ -6,15 +6,15 @@ use std::ops::Range;
 /// A part of the written text.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Span {
-    /// Bytes of the text.
+    /// Range of bytes in the written text.
     pub range: Range<usize>,
     /// True for a start tag, false for an attribute.
     pub is_tag: bool,
-    /// The place that it comes from.
+    /// The place from which the part comes.
     pub place: Place,
 }
 
-/// Returns the text of an element with its content and the namespaces of its start tag, and the spans of its parts.
+/// Returns an element and its content as XML, with the spans of its parts. The start tag declares these namespaces.
 pub(crate) fn write(root: &Element, namespaces: &[(String, String)]) -> (String, Vec<Span>) {
     let mut writer = Writer { text: "<?xml version=\"1.0\"?>\n".to_owned(), spans: Vec::new() };
     writer.element(root, 0, namespaces);
@@ -72,7 +72,7 @@ impl Writer {
         self.text.extend(std::iter::repeat_n("  ", depth));
     }
 
-    /// Writes an attribute; returns where it begins.
+    /// Writes an attribute. Returns the position at which it begins.
     fn attribute(&mut self, name: &str, value: &str) -> usize {
         self.text.push(' ');
         let from = self.text.len();

@@ -1,4 +1,4 @@
-//! YAML files, which robots keep their numbers in.
+//! Reads YAML files, in which robots store their numbers.
 
 use crate::document;
 use crate::error::Fault;
@@ -9,7 +9,7 @@ use std::fmt;
 use std::io;
 use std::path::Path;
 
-/// Reads a file.
+/// Reads a YAML file as a value.
 pub(crate) fn load(path: &Path, read: fn(&Path) -> io::Result<Vec<u8>>) -> Result<Value, Fault> {
     let text = document::text(path, read).map_err(|why| {
         Fault::with_hint(

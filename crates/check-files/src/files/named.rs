@@ -10,10 +10,10 @@ use std::path::Path;
 const MAX_FILE_BYTES: u64 = 256 << 20;
 
 impl Files {
-    /// Returns the path of the URDF or the world. Other files lie relative to it.
+    /// Returns the path of the URDF or the world. Names of other files are relative to this path.
     ///
     /// # Errors
-    /// If it was given as a text.
+    /// If only the text was given, without a path.
     pub fn path(&self, of: Input) -> Result<&Path, CheckError> {
         let path = self.given[usize::from(of == Input::World)].as_deref();
         path.ok_or_else(|| CheckError::in_file(of, "it names other files, which only check_files reads"))

@@ -1,5 +1,5 @@
-//! Collada meshes: geometries, and the scene of nodes that places them, in the unit of the file. Coordinates are taken
-//! as in the file; the declared up axis has no effect.
+//! Reads Collada meshes: geometries, and the scene of nodes that places them. Coordinates are in the file's unit and
+//! frame; the declared up axis has no effect.
 
 use super::pose::{Pose, Vector, size};
 use cplan_check::decimal::Decimal;
@@ -8,12 +8,12 @@ use num_bigint::Sign;
 use roxmltree::{Document, Node, ParsingOptions};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Maximum depth of nested nodes, number of nodes in the scene, and number of visible vertices.
+/// Maximum depth of nested nodes. The two following constants limit the nodes in the scene and the visible vertices.
 const MAX_NODE_DEPTH: usize = 64;
 const MAX_NODES: usize = 1 << 16;
 const MAX_POINTS: usize = 1 << 22;
 
-/// Elements that place a node, and their maximum number per node.
+/// Elements that place a node. The following constant is their maximum number per node.
 const TRANSFORM_ELEMENTS: [&str; 6] = ["matrix", "translate", "rotate", "scale", "lookat", "skew"];
 const MAX_TRANSFORM_ELEMENTS: usize = 16;
 
@@ -56,7 +56,7 @@ pub fn vertices(bytes: &[u8]) -> Result<Vec<Vector>, String> {
     if let Some(shown) = shown {
         scene.show(shown, &to_file, 0)?;
     }
-    // Without a scene that shows anything, all meshes count, without placement.
+    // If the scene shows nothing, all meshes count, in their own coordinates.
     if scene.points.is_empty() {
         let meshes = named(root, "geometry").filter_map(|geometry| child(geometry, "mesh"));
         meshes.collect::<Vec<_>>().into_iter().try_for_each(|mesh| scene.positions(mesh, &to_file))?;
@@ -81,13 +81,14 @@ fn named<'a>(node: Node<'a, 'a>, name: &'static str) -> impl Iterator<Item = Nod
 }
 
 impl<'a> Scene<'a> {
-    /// Returns the element that another one refers to.
+    /// Returns the element to which a node refers by its URL.
     fn target(&self, node: Node<'a, 'a>) -> Option<Node<'a, 'a>> {
         let id = node.attribute("url").or(node.attribute("source"))?.strip_prefix('#')?;
         self.ids.get(id).copied()
     }
 
-    /// Adds everything that a node shows. The map converts its coordinates to those of the file.
+    /// Adds the vertices of everything that a node shows. `to_file` converts the coordinates of the node's parent to
+    /// those of the file.
     fn show(&mut self, node: Node<'a, 'a>, to_file: &Affine, depth: usize) -> Result<(), String> {
         self.nodes += 1;
         if depth > MAX_NODE_DEPTH || self.nodes > MAX_NODES {
@@ -166,7 +167,7 @@ impl<'a> Scene<'a> {
     }
 }
 
-/// Returns the input with a semantic.
+/// Returns the child `<input>` with a certain semantic.
 fn of_semantic<'a>(node: Node<'a, 'a>, semantic: &str) -> Option<Node<'a, 'a>> {
     node.children().find(|input| input.attribute("semantic") == Some(semantic))
 }
@@ -186,7 +187,8 @@ fn scaled(by: Vector) -> Affine {
     map
 }
 
-/// Returns the map from a node's coordinates to those of its parent: its transformations, the first of them outermost.
+/// Returns the map from a node's coordinates to those of its parent. It applies the node's transformations from the
+/// last to the first.
 fn placing(node: Node) -> Result<Affine, String> {
     let mut all = Pose::identity();
     let is_one = |part: &Node| TRANSFORM_ELEMENTS.contains(&part.tag_name().name());

@@ -1,4 +1,4 @@
-//! Meshes cut in layers at given heights.
+//! Cuts meshes into layers at given heights.
 
 use super::solid::Surface;
 use cplan_check::decimal::Decimal;
@@ -15,7 +15,7 @@ fn metres(digits: u32) -> BigInt {
     Interval::from(&Decimal::power_of_ten(digits)).lower
 }
 
-/// Sorts heights, and drops those that are too close to the one before.
+/// Sorts heights, and drops each height that is less than the least thickness of a layer above the one before.
 pub fn cuts(mut ends: Vec<BigInt>) -> Vec<BigInt> {
     let thinnest = metres(MIN_THICKNESS_DECIMALS);
     ends.sort();
@@ -24,10 +24,10 @@ pub fn cuts(mut ends: Vec<BigInt>) -> Vec<BigInt> {
 }
 
 impl Surface {
-    /// Cuts the surface, and returns the points and the heights of each layer, the lowest first. A layer is the convex
-    /// hull of its points.
+    /// Cuts the surface into layers. Returns for each layer the points whose convex hull it is, and its heights, the
+    /// lowest layer first.
     ///
-    /// The result is empty if no cut goes through the surface, or if the edges are unknown.
+    /// The result is empty if no cut goes through the surface, or if the edges of the surface are unknown.
     pub fn layers(&self, cuts: &[BigInt]) -> Vec<(Vec<Point>, [Interval; 2])> {
         let [low, high] = self.heights();
         let (thinnest, rounded) = (metres(MIN_THICKNESS_DECIMALS), metres(LAYER_TOLERANCE_DECIMALS));
@@ -56,8 +56,8 @@ impl Surface {
         layers
     }
 
-    /// Returns the points where edges cross a height. Omits an edge if both its ends belong to both layers: the ends
-    /// suffice.
+    /// Returns the points where edges cross the height of a cut. Omits edges whose ends are both within the tolerance
+    /// of the cut: these ends already belong to both layers.
     fn crossings(&self, cut: &BigInt, rounded: &BigInt) -> Vec<Point> {
         let [floor, top] = [cut - rounded, cut + rounded];
         let is_at = |height: &Interval| floor <= height.upper && height.lower <= top;

@@ -1,9 +1,9 @@
-//! Packages, identified by the name in their `package.xml`.
+//! Finds packages by the name in their `package.xml`.
 
 use roxmltree::Document;
 use std::path::{Path, PathBuf};
 
-/// Depth of the search below a folder.
+/// Maximum depth of the search below a folder.
 const MAX_FOLDER_DEPTH: usize = 4;
 
 /// Maximum number of folders searched below a folder.
@@ -21,7 +21,7 @@ pub fn declared(package: &str, folder: &Path) -> Vec<PathBuf> {
     found
 }
 
-/// Returns the package name that a folder declares.
+/// Returns the name in the `package.xml` of a folder.
 fn name(folder: &Path) -> Option<String> {
     let text = std::fs::read_to_string(folder.join("package.xml")).ok()?;
     let document = Document::parse(text.trim_start()).ok()?;

@@ -1,4 +1,4 @@
-//! Meshes: the corners of their faces, whose convex hull is used for collisions, and the edges between these corners.
+//! Reads meshes: the corners of their faces, whose convex hull is used for collisions, and the edges between corners.
 
 use super::pose::Vector;
 use super::solid::Mesh;
@@ -13,7 +13,8 @@ use roxmltree::Node;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-/// Bytes of a binary STL before its triangles, bytes per triangle, and bytes of a triangle's normal before its corners.
+/// Number of bytes of a binary STL before its triangles. The two following constants are the bytes per triangle, and
+/// the bytes of a triangle's normal, which precedes its corners.
 const STL_HEADER_BYTES: usize = 84;
 const STL_TRIANGLE_BYTES: usize = 50;
 const STL_NORMAL_BYTES: usize = 12;
@@ -21,11 +22,12 @@ const STL_NORMAL_BYTES: usize = 12;
 /// Number of folders above the URDF in which packages are searched.
 const MAX_PARENT_FOLDERS: usize = 5;
 
-/// A corner in single precision, as in STL.
+/// Coordinates of a corner as the bits of single-precision numbers, as in STL.
 type Single = [u32; 3];
 
 impl<'a> Tree<'a> {
-    /// Reads the surface of a `<mesh>`. The inner error is the reason why its file cannot be read.
+    /// Reads a `<mesh>`. The outer error is a mistake in the URDF. The inner error is the reason why the mesh's file
+    /// cannot be read.
     pub(super) fn mesh(&self, node: Node<'a, 'a>) -> ReadResult<ReadResult<Mesh>> {
         let is_scaled = node.has_attribute("scale");
         let scale = if is_scaled { self.vector(node, "scale")? } else { [1; 3].map(Interval::whole) };
@@ -37,7 +39,7 @@ impl<'a> Tree<'a> {
     }
 }
 
-/// Converts faces, each given by its corners, to the distinct corners and the edges around all faces.
+/// Returns the distinct corners of faces, and the edges around all faces as pairs of indices of corners.
 fn of_faces<T: Ord + Copy>(faces: &[Vec<T>]) -> (Vec<T>, Vec<[usize; 2]>) {
     let corners: BTreeSet<T> = faces.iter().flatten().copied().collect();
     let corners: Vec<T> = corners.into_iter().collect();
@@ -137,7 +139,7 @@ fn in_bytes(triangles: &[u8]) -> Vec<Vec<Single>> {
     triangles.chunks_exact(STL_TRIANGLE_BYTES).map(triangle).collect()
 }
 
-/// Reads consecutive solids of an STL in text form.
+/// Reads the triangles of all solids of an STL in text form. Returns `None` if the text is no such STL.
 fn as_text(text: &str) -> Option<Vec<Vec<Single>>> {
     let lines = text.lines().map(|line| line.split_whitespace().collect::<Vec<_>>());
     let mut lines = lines.filter(|words| !words.is_empty());
@@ -165,7 +167,7 @@ fn as_text(text: &str) -> Option<Vec<Vec<Single>>> {
     Some(triangles)
 }
 
-/// Returns the exact values of these single-precision numbers, which are dyadic.
+/// Returns the exact values of single-precision numbers. Returns `None` if one is infinite or not a number.
 fn exactly(corner: Single) -> Option<Vector> {
     let number = |bits: u32| {
         let (exponent, fraction) = (bits >> 23 & 0xff, bits & 0x7f_ffff);
@@ -178,9 +180,9 @@ fn exactly(corner: Single) -> Option<Vector> {
     Some([x?, y?, z?])
 }
 
-/// Returns the candidate paths of a mesh: relative to the URDF, or in a package. A package is a folder with the name in
-/// its `package.xml`, above the URDF or below one of the folders above it. Otherwise it is a folder with that name
-/// there, or in the folders of `ROS_PACKAGE_PATH` and `AMENT_PREFIX_PATH`.
+/// Returns the paths at which a mesh may be: relative to the URDF, or in a package. A folder is the package if its
+/// `package.xml` has the package's name. Such folders are searched above the URDF, and below the folders above it.
+/// Folders with the package's name also count, there and in the folders of `ROS_PACKAGE_PATH` and `AMENT_PREFIX_PATH`.
 fn candidates(name: &str, urdf: &Path) -> Vec<PathBuf> {
     let Some(rest) = name.strip_prefix("package://") else {
         return vec![urdf.with_file_name(name.strip_prefix("file://").unwrap_or(name))];

@@ -1,21 +1,22 @@
-//! Planar projections of cylinders that are not perpendicular to the plane.
+//! Planar projections of cylinders that are neither perpendicular to the plane nor in it.
 
 use cplan_check::interval::{BITS, Interval, Point, length, sum};
 use cplan_check::shapes::Outline;
 use num_bigint::Sign;
 
-/// Number of steps along half of the ellipse that a cylinder's end projects to.
+/// Number of sides of the polygon that replaces half of an ellipse, the projection of a cylinder's end.
 const ELLIPSE_STEPS: i32 = 16;
 
-/// Tolerance for simple projections, as one part in this many. An end that deviates from a disc by less is enclosed by
-/// a disc. An end that is flatter than this is enclosed by a rectangle.
+/// Inverse of the tolerance for simple projections, which is 0.5 %. If the projection of an end deviates from a disc by
+/// less, a disc replaces it. If it is flatter than this, a rectangle replaces the cylinder.
 const PROJECTION_TOLERANCE_DIVISOR: u32 = 200;
 
-/// A cylinder with an axis out of the plane by less than this power of a half counts as lying in it.
+/// Negative binary logarithm of the greatest slope of a cylinder's axis out of the plane that counts as none.
 const IN_PLANE_BITS: u64 = 44;
 
-/// Returns core and radius of the projection of an oblique cylinder: the hull of two ellipses at its ends, with
-/// half-axes `radius` across the projected axis and `radius * tilt` along it. The core is symmetric about the middle.
+/// Returns the core and the radius of the projection of an oblique cylinder. The projection is the convex hull of two
+/// ellipses, one for each end, with half-axes `radius` across the projected axis and `radius * tilt` along it. The core
+/// is symmetric about the middle.
 pub fn oblique(
     along: &Point,
     tilt: &Interval,

@@ -1,4 +1,4 @@
-//! The robot's own body: pairs of its links that must not collide.
+//! The robot's own body: finds the pairs of links that must not collide.
 
 use super::Robot;
 use super::layers::cuts;
@@ -14,7 +14,7 @@ use num_bigint::BigInt;
 use std::collections::{BTreeMap, BTreeSet};
 
 impl<'a> Tree<'a> {
-    /// Returns the links from the root to this one.
+    /// Returns the links from the root of the tree to `link`.
     fn chain(&self, link: &'a str) -> ReadResult<Vec<&'a str>> {
         let parents = self.above(link)?.into_iter().rev().map(|joint| self.parent(joint));
         parents.chain([Ok(link)]).collect()
@@ -30,9 +30,8 @@ fn are_neighbors(left: &[&str], right: &[&str], is_solid: impl Fn(&str) -> bool)
 }
 
 impl<'a> Robot<'a> {
-    /// Finds the last of the two joints that moves a link; `Some(None)` if neither does.
-    ///
-    /// Returns `None` below a joint of the rest of the robot, where the place of the link is unknown.
+    /// Finds the last of the two joints that moves a link. Returns `Some(None)` for a static link. Returns `None` if
+    /// another movable joint carries the link, because the position of the link is then unknown.
     pub(super) fn group(&self, link: &'a str) -> ReadResult<Option<Option<usize>>> {
         if let Some(last) = self.moved_by(link)? {
             return Ok(Some(Some(last)));
@@ -43,7 +42,8 @@ impl<'a> Robot<'a> {
         Ok(is_held.then_some(None))
     }
 
-    /// Cuts meshes into layers, and finds the moving shapes and those that are obstacles for others.
+    /// Cuts meshes into layers, and stores two lists in the arm: moving shapes, and shapes that are obstacles for other
+    /// links.
     ///
     /// # Errors
     /// If the world names a link that the robot does not have.
@@ -104,7 +104,7 @@ impl<'a> Robot<'a> {
     }
 }
 
-/// Places a shape of a static link, or of one that joint 1 carries, in the plane, with joint 1 at zero.
+/// Converts a shape of a static link, or of a link that joint 1 carries, to plane coordinates, with joint 1 at zero.
 fn at_zero(own: &CollisionShape, base: &Point) -> CollisionShape {
     let mut own = own.clone();
     if own.last.is_some() {

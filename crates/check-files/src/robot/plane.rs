@@ -1,4 +1,4 @@
-//! The plane that the arm moves in.
+//! The plane in which the arm moves.
 
 use super::pose::{Pose, Vector, cross, dot, size};
 use cplan_check::decimal::Decimal;
@@ -6,30 +6,31 @@ use cplan_check::interval::{Interval, Point};
 use cplan_check::polygon::Corner;
 use num_bigint::{BigInt, Sign};
 
-/// Directions within this angle of each other count as equal, radians: `10^-3`.
+/// Largest angle between directions that count as equal: `10^-3` rad.
 const ALIGNMENT_DECIMALS: u32 = 3;
 
-/// Directions within `10^-12` of each other differ by rounding only.
+/// Largest angle between directions that differ only by rounding: `10^-12` rad.
 const ROUNDING_DECIMALS: u32 = 12;
 
 /// The plane of two joints, in the root frame.
 pub struct Plane {
-    /// Directions of its two coordinates.
+    /// Directions of the two plane coordinates.
     pub across: [Vector; 2],
     /// Direction of heights.
     pub normal: Vector,
-    /// Sine of the greatest angle between the joints' axes and the normal, or between slides and the plane.
+    /// Sine of the greatest angle by which a revolute joint's axis is off the normal, or a prismatic joint's axis is
+    /// off the plane.
     pub off: BigInt,
 }
 
 impl Plane {
-    /// Finds the plane of two joints, given their axes of unit length and whether they slide. Returns `None` if there
-    /// is no such plane.
+    /// Finds the plane in which two joints move, given their axes of unit length and whether each is prismatic. Returns
+    /// `None` if there is no such plane.
     ///
-    /// Its normal is the axis of the first revolute joint, or else perpendicular to both slides. A normal along an axis
-    /// of the root frame is replaced by that axis, and the coordinates are the other two: (x, y) for z, (x, z) for y,
-    /// and (y, z) for x. Otherwise the first coordinate is the projection of x onto the plane, or of y if x is within
-    /// about half a radian of the normal. The second coordinate is a quarter turn further.
+    /// The normal is the axis of the first revolute joint, or else perpendicular to both axes. If it is along an axis
+    /// of the root frame, that axis replaces it, and the plane coordinates are the other two axes: (x, y) for z, (x, z)
+    /// for y, and (y, z) for x. Otherwise the first coordinate is the projection of x onto the plane, or of y if x is
+    /// within about half a radian of the normal. The second coordinate is a quarter turn to the left of the first.
     pub fn common(axes: &[Vector; 2], slides: [bool; 2]) -> Option<Self> {
         let [a, b] = axes;
         let aligned = &Interval::from(&Decimal::power_of_ten(ALIGNMENT_DECIMALS)).sin_cos()[0];
@@ -66,8 +67,8 @@ impl Plane {
         Some(Self { across, normal, off })
     }
 
-    /// Describes in words by how much the joints deviate from the plane in which they are assumed to move, if it is
-    /// more than rounding.
+    /// Describes in words by how much the joints deviate from the plane in which they are assumed to move. The text is
+    /// empty if the deviation is only rounding.
     pub fn idealized(&self) -> String {
         let is_within = |digits: &u32| Interval::from(&Decimal::power_of_ten(*digits)).lower >= self.off;
         match (0..=ROUNDING_DECIMALS).rev().find(is_within) {
@@ -84,12 +85,13 @@ impl Plane {
         self.across.each_ref().map(|along| dot(v, along))
     }
 
-    /// Returns the height of a vector.
+    /// Returns the coordinate of a vector along the normal.
     pub fn height(&self, v: &Vector) -> Interval {
         dot(v, &self.normal)
     }
 
-    /// Returns a direction in the plane, of unit length. Returns `None` if it is not known.
+    /// Returns the projection of an axis onto the plane, scaled to unit length. Returns `None` if the axis may be
+    /// perpendicular to the plane.
     pub fn direction(&self, axis: &Vector) -> Option<Point> {
         let flat = self.flat(axis);
         // A vector in the plane already has unit length.
@@ -100,7 +102,7 @@ impl Plane {
         (size.lower.sign() == Sign::Plus).then(|| flat.map(|c| c.divided(&size)))
     }
 
-    /// Returns the axis of rotations to the left.
+    /// Returns the axis about which positive angles turn to the left in the plane.
     pub fn left(&self) -> Vector {
         cross(&self.across[0], &self.across[1])
     }

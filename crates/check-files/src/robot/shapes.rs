@@ -9,21 +9,22 @@ use cplan_check::{CheckError, Input};
 use roxmltree::Node;
 use std::collections::BTreeSet;
 
-/// A whole shape at its place.
+/// A shape of a link, projected into the plane.
 pub struct PlacedShape<'a> {
     pub link: &'a str,
     pub whole: CollisionShape,
-    /// Its points and edges, if it can be cut into layers.
+    /// Points and edges of the shape, if it can be cut into layers.
     pub surface: Option<Surface>,
 }
 
 impl<'a> Robot<'a> {
-    /// Finds all shapes: the collision shapes of each link, or its visual shapes if it has none. If a part of the arm
-    /// has no shapes, or a mesh cannot be read, the world's bar replaces it.
+    /// Finds all shapes that count: the collision shapes of each link, or its visual shapes if it has no collision
+    /// shapes. If one of the two moving parts of the arm has no shapes, or one of its meshes cannot be read, the
+    /// world's bar replaces it.
     ///
     /// # Errors
-    /// If there are shapes that the checker does not know, regardless of the certificate. It omits only two kinds of
-    /// unreadable shapes: those of static links, and visual shapes if other links of the part have collision shapes.
+    /// If a shape cannot be read, even if the certificate does not refer to it. Only two kinds of unreadable shapes are
+    /// omitted: shapes of static links, and visual shapes if other links of the same part have collision shapes.
     pub(super) fn count(&mut self, world: &WorldFile) -> ReadResult<()> {
         let mut all = Vec::new();
         let still = world.robot.own_body.then_some(None);

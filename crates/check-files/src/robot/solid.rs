@@ -1,4 +1,4 @@
-//! Solids, and their projections onto the plane.
+//! Solids of the URDF, and their projections onto the plane.
 
 use super::Robot;
 use super::oblique::oblique;
@@ -11,13 +11,13 @@ use cplan_check::shapes::{Body, Outline};
 use num_bigint::{BigInt, Sign};
 use roxmltree::Node;
 
-/// Points of a solid. If its faces are known, also their edges as pairs of indices.
+/// Points of a solid. If the faces of the solid are known, also the edges of the faces, as pairs of indices of points.
 pub struct Mesh {
     pub points: Vec<Vector>,
     pub edges: Vec<[usize; 2]>,
 }
 
-/// A solid about its origin. Cylinders and capsules are along z.
+/// A solid in its own frame. The axis of cylinders and capsules is z.
 pub enum Solid {
     /// The convex hull of points.
     Hull(Mesh),
@@ -25,7 +25,7 @@ pub enum Solid {
         radius: Interval,
         half: Interval,
     },
-    /// `half` is half the distance between the centres of the caps: 0 for a sphere.
+    /// A capsule or a sphere. `half` is half the distance between the centres of the caps: 0 for a sphere.
     Capsule {
         radius: Interval,
         half: Interval,
@@ -39,8 +39,8 @@ impl Solid {
 }
 
 impl<'a> Tree<'a> {
-    /// Reads a solid of the URDF. Returns `None` if it has no size. The inner error is the reason why its mesh cannot
-    /// be read.
+    /// Reads a `<geometry>` of the URDF. Returns `None` if the solid has no size. The outer error is a mistake in the
+    /// URDF. The inner error is the reason why the solid's mesh cannot be read.
     pub fn solid(&self, node: Node<'a, 'a>) -> ReadResult<Option<ReadResult<Solid>>> {
         let half = |n: &Decimal| Interval::from(n).half();
         let read = |name: &str| self.number(node, name);
@@ -74,14 +74,15 @@ impl<'a> Tree<'a> {
     }
 }
 
-/// Points in the plane, relative to a joint, each with its height, and the edges of faces.
+/// The surface of a mesh: its points in plane coordinates relative to a joint, each with its height, and the edges of
+/// its faces.
 pub struct Surface {
     pub points: Vec<(Point, Interval)>,
     pub edges: Vec<[usize; 2]>,
 }
 
 impl Surface {
-    /// Computes its extent along the normal.
+    /// Computes the least and the greatest height of the points.
     pub fn heights(&self) -> [Interval; 2] {
         [Ord::min, Ord::max].map(|outer: fn(BigInt, BigInt) -> BigInt| {
             let of = |end: fn(&Interval) -> &BigInt| {
@@ -99,7 +100,8 @@ impl Surface {
 }
 
 impl Robot<'_> {
-    /// Returns the origin of the joint that moves a link last. Returns the plane's own origin for a static link.
+    /// Returns the origin of joint `last`, the last joint that moves a link, in plane coordinates. For a static link
+    /// (`None`) this is the origin of the plane.
     fn origin(&self, last: Option<usize>) -> Point {
         match last {
             None => [0, 0].map(Interval::whole),
@@ -108,7 +110,7 @@ impl Robot<'_> {
         }
     }
 
-    /// Places a mesh in the plane.
+    /// Projects a mesh into the plane, relative to the joint that moves it last.
     pub fn surface(&self, last: Option<usize>, pose: &Pose, mesh: &Mesh) -> Surface {
         let [across, beside] = &self.plane.across;
         let column = |k: usize| [0, 1, 2].map(|i| pose.rows[i][k].clone());
@@ -155,8 +157,9 @@ impl Robot<'_> {
     }
 }
 
-/// Computes an outer and an inner approximation of the hull of points. The corners of the hull are found exactly from
-/// the middles of the enclosures. The error is the greatest distance of a point from its middle.
+/// Computes an outer and an inner approximation of the convex hull of points. Both have the corners of the hull of the
+/// middles of the enclosures, which is exact. The outer one also has a radius, which covers the distances of points
+/// from their middles.
 pub fn bodies(last: Option<usize>, points: impl Iterator<Item = Point>, heights: &[Interval; 2]) -> [Body; 2] {
     let mut error = BigInt::ZERO;
     let middles = points.map(|p| {

@@ -16,13 +16,13 @@ use roxmltree::Node;
 /// Maximum depth to which an object may press into its support, as a share of the arm's reach: `10^-4`.
 const PENETRATION_DECIMALS: u32 = 4;
 
-/// Maximum distance of the tip from the wrist's axis, metres: `10^-6`. It allows for rounding.
+/// Maximum distance of the tip from the wrist's axis: `10^-6` m, for rounding in the URDF.
 const ON_AXIS_DECIMALS: u32 = 6;
 
 /// Tolerance of axes along the normal: the cosine of the angle between them is at least `1 - 10^-9`.
 const UPRIGHT_DECIMALS: u32 = 9;
 
-/// Returns a lower bound on the depth of a point in a shape, accurate to one part in some `10^12`. Returns 0 if the
+/// Returns a lower bound on the depth of a point in a shape, with a relative error of about `10^-12`. Returns 0 if the
 /// point is not certainly inside.
 fn depth(shape: &Shape, point: &Point) -> BigInt {
     let own = Shape { points: vec![point.clone()], radius: Interval::whole(0) };
@@ -36,15 +36,15 @@ fn depth(shape: &Shape, point: &Point) -> BigInt {
     depth
 }
 
-/// Depths are searched below `2^MAX_DEPTH_BITS` metres, one binary digit after another.
+/// Binary logarithm of the greatest depth, metres, that is found. The search finds one binary digit after another.
 const MAX_DEPTH_BITS: u32 = 10;
 const DEPTH_BITS: u32 = 60;
 
-/// Replaces a shape by discs: an outer disc that covers the shape in all orientations about a point, and an inner disc
-/// that all orientations cover.
+/// Replaces the two approximations of a shape by discs about a point. The outer disc covers the shape in all
+/// orientations. The shape covers the inner disc in all orientations.
 ///
 /// # Errors
-/// If the shape does not contain the point: then no disc is covered in all orientations.
+/// If the shape does not contain the point, because then there is no inner disc.
 fn turn_about(counted: &mut CollisionShape, axis: &Point) -> ReadResult<()> {
     let off = |point: &Point| length(&minus(point, axis));
     let shape = &counted.around.shape;
@@ -89,8 +89,8 @@ impl<'a> Robot<'a> {
         task.stroke.as_ref().map_or(Ok(()), |stroke| self.of_the_tool(&stroke.joint, "stroke").map(|_| ()))
     }
 
-    /// Returns a joint of the tool and the link that it carries. The joint must carry the tip, and move about the
-    /// plane's normal or along it. Joints that mimic it must not carry shapes or the tip.
+    /// Returns a joint of the tool and the link that it carries. The joint must carry the tip, and its axis must be
+    /// along the plane's normal. Joints that mimic it must not carry shapes or the tip.
     fn of_the_tool(&mut self, name: &str, what: &str) -> ReadResult<(Node<'a, 'a>, &'a str)> {
         let wrong = |why: &str| Err(CheckError::in_file(Input::World, format!("the {what}'s joint \"{name}\" {why}")));
         let found = self.tree.joints.iter().find(|(_, node)| node.attribute("name") == Some(name));
@@ -111,7 +111,7 @@ impl<'a> Robot<'a> {
         Ok((joint, carried))
     }
 
-    /// Returns true if the joint that lowers the tool carries a shape. For a bar, which ends at the tip, returns true
+    /// Returns true if `joint`, which lowers the tool, carries a shape. A bar ends at the tip, so the joint carries it
     /// if it carries the tip.
     ///
     /// # Errors
@@ -126,7 +126,7 @@ impl<'a> Robot<'a> {
 }
 
 /// Returns the depth to which objects may press into their supports: a share of the arm's reach. The reach is the
-/// distance from the first joint to the second, plus the distance from there to the shapes or the tip.
+/// distance from the first joint to the second, plus the greatest distance of a shape or the tip from the second joint.
 pub fn pressed(arm: &Arm) -> Interval {
     let greatest = |link: usize, first: Interval| {
         let own = arm.shapes.iter().map(|shape| &shape.around).filter(|body| body.link == link);
@@ -138,7 +138,7 @@ pub fn pressed(arm: &Arm) -> Interval {
     &(if near.lower > out.lower { near } else { out }) * &Interval::from(&Decimal::power_of_ten(PENETRATION_DECIMALS))
 }
 
-/// Extends a body to all heights between its own and those after lowering it by a length.
+/// Extends the heights of a body downwards, to all heights that it has while it is lowered by a length.
 pub fn lowered(body: &Body, by: &Decimal) -> Body {
     let by = Interval::from(by);
     let is_raised = by.lower.sign() == Sign::Minus;

@@ -11,10 +11,10 @@ use num_bigint::{BigInt, Sign};
 use roxmltree::{Document, Node};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Maximum range of a revolute joint. A longer range counts as no limits.
+/// Maximum range of a revolute joint, radians. A joint with a greater range counts as continuous.
 const MAX_TURN_RANGE: i32 = 1000;
 
-/// Limits this far away count as none, radians or metres.
+/// Least absolute value of a limit that counts as no limit, radians or metres.
 const MAX_LIMIT: i32 = 1_000_000;
 
 /// Maximum number of joints in a chain.
@@ -40,22 +40,22 @@ pub struct Tree<'a> {
 
 /// The limits of a joint.
 pub enum Limits {
-    /// Not specified.
+    /// The file states no limits.
     Unset,
-    /// No limits: a continuous joint.
+    /// The joint is continuous.
     Endless,
-    /// Lower and upper end, each enclosed in a range.
+    /// Enclosures of the lower and of the upper limit.
     Ends([Range; 2]),
 }
 
-/// Returns the children with a name, in the node's own namespace. Elements of other namespaces do not describe the
-/// robot.
+/// Iterates over the children of a node that have a name, in the node's own namespace. Elements of other namespaces do
+/// not describe the robot.
 pub fn children<'a>(node: Node<'a, 'a>, name: &'static str) -> impl Iterator<Item = Node<'a, 'a>> {
     let namespace = node.tag_name().namespace();
     node.children().filter(move |n| n.tag_name().name() == name && n.tag_name().namespace() == namespace)
 }
 
-/// Returns true if an element must be expanded by xacro first.
+/// Returns true if an element belongs to xacro, so that the file must be expanded first.
 fn is_xacro(node: &Node, robot: &Node) -> bool {
     let namespace = node.tag_name().namespace().filter(|namespace| Some(*namespace) != robot.tag_name().namespace());
     namespace.is_some_and(|namespace| namespace.ends_with("/xacro"))
@@ -66,16 +66,16 @@ pub fn child<'a>(node: Node<'a, 'a>, name: &'static str) -> Option<Node<'a, 'a>>
     children(node, name).next()
 }
 
-/// Returns true if a joint has a single value that can change.
+/// Returns true if a joint is movable and has a single value.
 pub fn moves(joint: &Node) -> bool {
     matches!(joint.attribute("type"), Some("revolute" | "continuous" | "prismatic"))
 }
 
 impl<'a> Tree<'a> {
-    /// Reads the tree, and returns it with the names of the joints that can move independently.
+    /// Reads the tree. Also returns the names of the joints that can move independently.
     ///
     /// # Errors
-    /// If it does not describe a robot.
+    /// If the document does not describe a robot.
     pub fn read(document: &'a Document<'a>, files: &'a Files) -> ReadResult<(Self, Vec<&'a str>)> {
         let (links, joints, named, values) = Default::default();
         let root = Pose::identity();
@@ -242,7 +242,7 @@ impl<'a> Tree<'a> {
         Ok(above)
     }
 
-    /// Reads a limit of a joint. Values beyond all limits become very large ones.
+    /// Reads a limit of a joint. Infinite values become very large numbers.
     fn limit(&self, limit: Node<'a, 'a>, name: &str) -> ReadResult<Decimal> {
         let endless = |sign: f64| Decimal::whole(10 * MAX_LIMIT * sign as i32);
         let Some(text) = limit.attribute(name) else {
@@ -276,7 +276,7 @@ impl<'a> Tree<'a> {
             let zero = || Ok(Decimal::whole(0));
             let end = |name| if soft.has_attribute(name) { self.limit(soft, name) } else { zero() };
             let ends = [end("soft_lower_limit")?, end("soft_upper_limit")?];
-            // Exporters write 0 for both if the joint has no soft limits.
+            // Exporters write 0 for both soft limits if the joint has none.
             if ends.iter().any(|end| end.sign() != Sign::NoSign) {
                 [low, high] = [low.max(ends[0].clone()), high.min(ends[1].clone())];
             }
@@ -300,7 +300,8 @@ impl<'a> Tree<'a> {
         Ok(Limits::Ends([[low.clone(), low], [high.clone(), high]]))
     }
 
-    /// Returns an outer and an inner enclosure of a joint's limits. Returns `None` for a continuous joint.
+    /// Returns two ranges of a joint's values: one that contains all values within the limits, and one that certainly
+    /// lies within them. Returns `None` for a continuous joint.
     pub fn ends(&self, joint: Node<'a, 'a>, world: &WorldFile) -> ReadResult<Option<[Range; 2]>> {
         let (name, turns) = (self.text(joint, "name")?, joint.attribute("type") != Some("prismatic"));
         match self.limits(joint, world)? {
@@ -317,7 +318,7 @@ impl<'a> Tree<'a> {
         }
     }
 
-    /// Returns the default value of a held joint: 0, or the limit nearest to 0.
+    /// Returns the default value of a joint that is held still: 0, or the limit nearest to 0.
     pub fn rest(&self, joint: Node<'a, 'a>, world: &WorldFile) -> ReadResult<Interval> {
         let zero = Interval::whole(0);
         let Limits::Ends(ends) = self.limits(joint, world)? else { return Ok(zero) };

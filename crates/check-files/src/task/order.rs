@@ -11,11 +11,11 @@ use std::slice::Iter;
 pub(super) struct MatchedStep<'a> {
     pub(super) step: &'a Step,
     pub(super) done: &'a ExecutedStep,
-    /// Objects that return to their initial poses before the step.
+    /// Objects, by number, that return to their initial poses before the step.
     pub(super) renewed: Vec<usize>,
 }
 
-/// The executed steps, matched with those of the world.
+/// The state while executed steps are matched with those of the world.
 pub(super) struct Order<'a> {
     pub(super) left: Peekable<Enumerate<Iter<'a, ExecutedStep>>>,
     pub(super) renewed: Vec<usize>,
@@ -64,8 +64,8 @@ impl<'a> Order<'a> {
     }
 }
 
-/// Returns the time that the arm rests after each step. Checks that it rests between steps, before the first and after
-/// the last.
+/// Returns the time that the arm rests after each step. Checks that the arm rests between steps, before the first step
+/// and after the last one.
 pub(super) fn stands(motion: &Motion, steps: &[MatchedStep]) -> Result<Vec<Decimal>, CheckError> {
     let knots = &motion.knots;
     let (mut last, mut all) = (0, Vec::new());

@@ -1,4 +1,4 @@
-//! Repeats the steps of a task.
+//! Checks a task by repeating its steps one after the other.
 
 mod held;
 
@@ -28,10 +28,10 @@ use std::ops::Range;
 #[derive(PartialEq)]
 enum ContactRule {
     Off,
-    /// It may press into a support up to the allowed depth.
+    /// The object may press into the obstacle, a support, up to the allowed depth.
     Pressed,
-    /// It must keep away in all orientations about the tip. This is for level objects beside links that joint 1
-    /// carries, which turn relative to them.
+    /// The object must keep away in all orientations about the tip. This applies to level objects and links that joint
+    /// 1 carries, because such links turn relative to the object.
     Round,
 }
 
@@ -42,29 +42,29 @@ pub(super) struct Replay<'a> {
     motion: &'a Motion,
     chain: Chain,
     tip: Point,
-    /// Shapes of the arm, and whether the stroke lowers them.
+    /// Shapes of the arm. The flag is true if the stroke lowers the shape.
     shapes: Vec<(&'a CollisionShape, Solid, bool)>,
-    /// Required distance of the shapes. `keeps` is its description in words.
+    /// Required distance of the shapes from obstacles; `keeps` describes it in words.
     kept: BigInt,
     keeps: String,
     /// Depth to which the carried object may press into its supports.
     pressed: Interval,
-    /// Obstacles and objects at their poses or on their trajectories, then moving obstacles, then links of the robot.
-    /// `None` for a carried object.
+    /// Obstacles and objects in their current state, then moving obstacles, then links of the robot. `None` stands for
+    /// the carried object.
     present: Vec<Option<PlacedObstacle>>,
-    /// All of them in their initial state.
+    /// The same obstacles and links, in their initial state.
     all: Vec<&'a Obstacle>,
     /// The last knot of the previous step.
     knot: usize,
     held: Option<HeldObject>,
-    /// The object that was released last, by its number among the obstacles.
+    /// Number of the object that was released last, among the obstacles. `None` if it must not be touched any more.
     released: Option<usize>,
-    /// The greatest deviation of anything from its required place.
+    /// Greatest deviation so far of an object or the tip from its required place.
     pub(super) off: BigInt,
 }
 
-/// The heights at which the shapes lowered by a stroke are checked: their own, or all heights of the stroke. `Lying`
-/// checks the carried object at its final pose.
+/// The heights at which shapes are checked: their own (`Raised`), or all heights of the stroke that lowers them. With
+/// `Lying`, the carried object is checked at its final pose.
 #[derive(Clone, Copy, PartialEq)]
 enum ToolHeights {
     Raised,
@@ -111,20 +111,20 @@ impl<'a> Replay<'a> {
         })
     }
 
-    /// Returns the motion from a knot to another; at least the rest at the first knot.
+    /// Returns the pieces of the motion from a knot to another. If both are the same, returns a motion at rest.
     fn pieces(&self, knots: Range<usize>) -> Result<Vec<Piece>, CheckError> {
         let until = &self.motion.knots[..=knots.end];
         let piece = |knot: usize| piece(self.arm, &self.motion.interpolation, until, knot);
         (knots.start..knots.end.max(knots.start + 1)).map(piece).collect()
     }
 
-    /// Executes a step.
+    /// Checks a step and updates the state. `after` are the steps that follow.
     pub(super) fn step(
         &mut self,
         MatchedStep { step, done, renewed }: &MatchedStep,
         after: &[MatchedStep],
     ) -> Result<(), CheckError> {
-        // An object to be renewed is still there while the arm is at rest.
+        // Objects return to their initial poses only after the arm has rested.
         if !renewed.is_empty() {
             let at = [1, 2].map(|k| Interval::from(&self.motion.knots[self.knot][k]));
             self.free(&self.pieces(self.knot..done.knots[0])?, &at, None, ToolHeights::Raised)?;
@@ -138,7 +138,7 @@ impl<'a> Replay<'a> {
                 return CheckError::fails("a moving object cannot be renewed");
             }
             self.present[number] = Some(PlacedObstacle::new(&self.chain, self.all[number].clone())?);
-            // Another object, which may now be touched.
+            // A renewed object counts as another object, so the exemption for the released one ends.
             self.released = self.released.filter(|released| *released != number);
         }
         // The arm stays where a step ends until its next motion begins.
@@ -217,7 +217,7 @@ impl<'a> Replay<'a> {
         })
     }
 
-    /// Returns the parts of the carried object.
+    /// Returns the parts of the carried object that must keep away from obstacles.
     fn hanging<'h>(&'h self, held: &'h HeldObject, solids: &'h [Vec<Solid>; 2], tool: ToolHeights) -> Vec<Part<'h>> {
         let all = 0..self.present.len();
         let part = |solid, keeps, manner: ContactRule| {
@@ -232,8 +232,8 @@ impl<'a> Replay<'a> {
         others.iter().map(|solid| part(solid, &*self.keeps, ContactRule::Off)).chain(supported).chain(round).collect()
     }
 
-    /// Checks that no obstacle is initially inside the carried object, and no support inside the part of it that must
-    /// keep away from supports.
+    /// Checks that no obstacle is inside the carried object when its motion begins, and that no support is inside the
+    /// part of the object that must keep away from supports.
     fn require_outside(
         &self,
         held: &HeldObject,
@@ -260,7 +260,7 @@ impl<'a> Replay<'a> {
     }
 
     /// Checks that the arm, with its load, is free on pieces that begin in a configuration. The second link may touch
-    /// the object released last, and the obstacle `also`.
+    /// the object that was released last, and the obstacle with the number `also`.
     fn free(&self, pieces: &[Piece], from: &Point, also: Option<usize>, tool: ToolHeights) -> Result<(), CheckError> {
         let stroke = match (tool, &self.task.stroke, &self.held) {
             (ToolHeights::Raised | ToolHeights::Lying, ..) => None,

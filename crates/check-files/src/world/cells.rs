@@ -1,4 +1,4 @@
-//! Occupancy maps: the dark squares of a picture.
+//! Occupancy maps: the dark pixels of a picture are solid squares.
 
 use super::picture::{self, Picture};
 use crate::files::Files;
@@ -13,22 +13,23 @@ use std::path::Path;
 /// The squares of a picture, as closed sets.
 pub struct Cells {
     size: [usize; 2],
-    /// Row by row from below.
+    /// For each square, true if it is solid; row by row from below.
     solid: Vec<bool>,
     /// Length of a square's side.
     side: Decimal,
-    /// Position of the picture's lower left corner; `turn` holds sine and cosine of the rotation about it.
+    /// Position of the picture's lower left corner; `turn` holds the sine and cosine of the rotation about that corner.
     at: Point,
     turn: [Interval; 2],
 }
 
-/// Maximum number of border pieces. This many take some gigabyte.
+/// Maximum number of border pieces. This many need about a gigabyte of memory.
 const MAX_PIECES: usize = 1 << 18;
 
-/// Darkness, of 255, that means unknown, regardless of the thresholds: ROS's map savers write it for unseen cells.
+/// Darkness, from 0 to 255, of pixels that are unknown whatever the thresholds are. ROS's map savers write this value
+/// for unseen cells.
 const UNSEEN_DARKNESS: i32 = 50;
 
-/// A map description: the YAML of ROS's map server. Numbers are kept as written; keys of other programs are ignored.
+/// The description of a map, as in the YAML file of ROS's map server. Numbers are exact. Unknown keys are ignored.
 #[derive(Deserialize)]
 struct Description {
     image: String,
@@ -90,21 +91,21 @@ impl Cells {
         Ok(Self { size, solid, side, at: [&x, &y].map(Interval::from), turn: Interval::from(&yaw).sin_cos() })
     }
 
-    /// Returns true if a square exists and is solid.
+    /// Returns true if there is a square at these indices, and it is solid.
     fn is_solid(&self, x: i64, y: i64) -> bool {
         let inside = |k: usize, n: i64| usize::try_from(n).ok().filter(|n| *n < self.size[k]);
         let (Some(x), Some(y)) = (inside(0, x), inside(1, y)) else { return false };
         self.solid[y * self.size[0] + x]
     }
 
-    /// Returns the position of a corner of squares in the frame of the obstacle.
+    /// Returns the position of a corner of squares, given its indices, in the frame of the obstacle.
     fn corner(&self, [x, y]: [i64; 2]) -> Point {
         let along =
             [x, y].map(|n| Interval::from(&(&self.side * &Decimal::whole(i32::try_from(n).expect("few squares")))));
         sum(&self.at, &turned(&along, &self.turn))
     }
 
-    /// Converts a point of the obstacle's frame to the frame of the squares, in which sides are 1.
+    /// Converts a point of the obstacle's frame to the frame of the squares, in which a square's side is 1.
     fn counted(&self, p: &Point) -> Point {
         let [sine, cosine] = &self.turn;
         let from_there = minus(p, &self.at);

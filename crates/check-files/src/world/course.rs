@@ -7,14 +7,14 @@ use cplan_check::obstacle::{ObstacleTrajectory, point};
 use cplan_check::overlap::Shape;
 use num_bigint::{BigInt, Sign};
 
-/// Uniform straight motion from stop to stop. The obstacle waits at the first stop until its time, and leaves the last
-/// one at a constant velocity.
+/// Uniform straight motion from stop to stop. The obstacle waits at the first stop until that stop's time. It leaves
+/// the last stop at a constant velocity.
 pub struct StopTrajectory {
     stops: Vec<Stop>,
     velocity: Point,
 }
 
-/// Position of the frame's origin at a time, and orientation of the frame.
+/// A time, with the position of the frame's origin and the orientation of the frame at that time.
 struct Stop {
     time: Decimal,
     at: Point,
@@ -68,7 +68,7 @@ impl ObstacleTrajectory for StopTrajectory {
 }
 
 impl Reader<'_> {
-    /// Reads the `motion` of an obstacle. Position and angle are the defaults of its stops.
+    /// Reads the `motion` of an obstacle. `at` and `angle` are the defaults for its stops.
     pub(super) fn course(&self, value: &Value, at: &Point, angle: &Interval) -> ReadResult<StopTrajectory> {
         let table = self.table(value)?;
         if let Some((key, _)) = table.iter().find(|(key, _)| !["stops", "velocity"].contains(&&**key.get_ref())) {

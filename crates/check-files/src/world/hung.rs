@@ -9,15 +9,15 @@ use cplan_check::polygon::{Corner, edges, is_convex, side, surrounds};
 use cplan_check::{CheckError, Input};
 use num_bigint::Sign;
 
-/// Lower bound `2^-MIN_SINE_BITS` on the sines of half the corner angles, and on the side lengths, of objects that press
-/// into supports.
+/// Negative binary logarithm of two lower limits for objects that press into supports: for the sine of half the angle
+/// at each corner, and for the length of each side, metres.
 const MIN_SINE_BITS: u64 = 30;
 
-/// Corners that turn inwards are moved by slightly less than others: by this power of a half of the length.
+/// Negative binary logarithm of the share by which corners that turn inwards are moved less than other corners.
 const REFLEX_CORNER_BITS: u32 = 30;
 
-/// Returns the obstacle as convex shapes at its place: itself if it is convex, or else its sides. A set that stays off
-/// them is off the obstacle, provided that neither contains the other.
+/// Returns convex shapes at the obstacle's place: the obstacle itself if it is convex, or else its sides. A set that
+/// does not touch these shapes does not touch the obstacle, provided that neither contains the other.
 ///
 /// # Errors
 /// Same as [`Obstacle::sides`].
@@ -28,9 +28,9 @@ pub fn solids(obstacle: &Obstacle) -> ReadResult<Vec<Shape>> {
     }
 }
 
-/// Returns the part of an object that must keep away from its supports. Each corner is moved inwards by a length,
-/// halfway between its sides, or by up to `2^-30` of that less. A disc gets a radius smaller by the length, or becomes
-/// its centre.
+/// Returns the part of an object that must keep away from its supports. Each corner is moved inwards by the length
+/// `by`, or by up to `2^-30` of that less, along the bisector of its angle. The radius of a disc is reduced by this
+/// length, at most to 0.
 ///
 /// # Errors
 /// If the object has no interior, or is too thin.
@@ -90,8 +90,8 @@ fn bent(ring: &[Corner]) -> Vec<Corner> {
     ring
 }
 
-/// Moves the corners of a ring by a length, halfway between its sides: inwards, or outwards. Returns `None` if that
-/// turns the ring over, or if corners are too sharp to decide. The order of the ring stays.
+/// Moves the corners of a ring by a length along the bisectors of their angles, inwards or outwards. The order of the
+/// corners stays the same. Returns `None` if the result turns the other way round, or if corners are too sharp.
 fn inset(mut ring: Vec<Corner>, outwards: bool, by: &Interval) -> Option<Vec<Corner>> {
     let turns_left = |ring: &[Corner]| {
         let doubled = edges(ring).map(|([a, b], [c, d])| &(a * d) - &(b * c));
@@ -109,8 +109,8 @@ fn inset(mut ring: Vec<Corner>, outwards: bool, by: &Interval) -> Option<Vec<Cor
     let corner = |k: usize| {
         let to = |other: usize| along(&minus(&points[other % points.len()], &points[k]));
         let [x, y] = minus(&to(k + 1)?, &to(k + points.len() - 1)?);
-        // The difference is perpendicular to the bisector; turned, it points to the left of both sides. A corner that
-        // turns inwards must stay off the lines of others despite rounding.
+        // The difference of the sides' directions is perpendicular to the bisector. Turned, it points to the left of
+        // both sides. A corner that turns inwards must stay off the lines of other sides despite rounding.
         let [last, next] = [points.len() - 1, 1].map(|other| &ring[(k + other) % ring.len()]);
         let is_reflex = side(last, &ring[k], next) == Sign::Minus;
         let by = if is_reflex { by - &by.in_halves(REFLEX_CORNER_BITS) } else { by.clone() };

@@ -1,4 +1,4 @@
-//! Line maps, and the goals of a preference file.
+//! Reads line maps, and the goals of a preference file.
 
 use super::{ReadResult, Reader, Value, origin};
 use crate::files::Files;
@@ -24,7 +24,8 @@ impl Unit {
 }
 
 impl Reader<'_> {
-    /// Reads `[map]`. Its walls follow the obstacles. Its goal applies if the world has neither a goal nor steps.
+    /// Reads `[map]`. Adds the map's walls after the obstacles. The map's goal applies if the world has neither a goal
+    /// nor steps.
     pub(super) fn map(&self, value: &Value, has_steps: bool, world: &mut World) -> ReadResult<()> {
         let (mut file, mut wishes, mut is_framed, mut heights) = (None, None, true, None);
         let mut unit = Unit { scale: Decimal::power_of_ten(3), offset: origin() };
@@ -53,7 +54,7 @@ impl Reader<'_> {
     }
 }
 
-/// The meaningful lines of a file, and its name.
+/// The remaining lines of a file without comments, and the file's name.
 struct Text<'a> {
     name: &'a str,
     lines: Vec<(usize, &'a str)>,
@@ -85,7 +86,7 @@ impl<'a> Text<'a> {
         self.lines.get(self.next).is_some_and(|(_, line)| line.starts_with(key))
     }
 
-    /// Reads numbers; after a key and a colon if there is a key.
+    /// Reads a line of numbers, which follow a key and a colon unless `key` is empty.
     fn numbers<const N: usize>(&mut self, key: &str) -> Result<[Decimal; N], CheckError> {
         let line = self.lines.get(self.next).map(|(_, line)| *line);
         let after = |line: &'a str| match key {

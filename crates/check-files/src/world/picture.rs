@@ -1,4 +1,4 @@
-//! Grey pictures: PGM and PNG.
+//! Reads pictures in shades of grey: PGM and PNG.
 
 use png::{BitDepth, ColorType, Decoder, DecodingError, Transformations};
 use std::io::Cursor;
@@ -9,9 +9,9 @@ const MAX_PIXELS: usize = 1 << 26;
 /// The brightness of pixels.
 pub struct Picture {
     pub size: [usize; 2],
-    /// Shade of white. The shade of black is 0.
+    /// Shade that stands for white. Black is 0.
     pub white: u32,
-    /// Row by row from above; `None` for a pixel that is not opaque.
+    /// Shade of each pixel, row by row from above; `None` for a pixel that is not opaque.
     pub shades: Vec<Option<u32>>,
 }
 

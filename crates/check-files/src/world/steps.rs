@@ -13,14 +13,14 @@ use toml::de::{DeTable, DeValue};
 /// Maximum number of places on a pallet.
 const MAX_PLACES: usize = 10_000;
 
-/// Places in rows and columns.
+/// A pallet: places in rows and columns.
 struct Pallet {
-    /// Row and column as in names, and the position.
+    /// For each place, its row and column as they appear in names, and its position.
     places: Vec<(String, Point)>,
     turn: Point,
 }
 
-/// The things that steps refer to.
+/// Everything to which steps can refer.
 struct Steps<'r, 'w> {
     reader: &'r Reader<'r>,
     world: &'w World,
@@ -31,7 +31,7 @@ struct Steps<'r, 'w> {
 }
 
 impl Reader<'_> {
-    /// Reads the objects of a world and, if it has any, its steps.
+    /// Reads the objects and the steps of a world. Returns `None` if it has no steps.
     pub(super) fn task(&self, table: &DeTable, world: &mut World) -> ReadResult<Option<Task>> {
         let list = |key: &str| table.get(key).map_or(Ok(Vec::new()), |value| self.list(value));
         let mut pallets = BTreeMap::new();
@@ -129,7 +129,8 @@ impl Reader<'_> {
         Ok((self.text(name)?, Pallet { places: places.map(|(row, column)| place(row, column)).collect(), turn }))
     }
 
-    /// Reads an object, or those of a pallet. Adds them to `objects`, and to the obstacles at their initial poses.
+    /// Reads an object, or one object for each place of a pallet. Adds them to `objects`, and returns them as obstacles
+    /// at their initial poses.
     fn object(
         &self,
         value: &Value,
@@ -175,8 +176,7 @@ impl Reader<'_> {
         Ok(places)
     }
 
-    /// Returns the numbers of the named obstacles and objects. A name may stand for all objects on a pallet that share
-    /// it.
+    /// Returns the numbers of the named obstacles and objects. A name may stand for all objects of a pallet.
     fn supports(&self, list: &Value, world: &World, first: usize, objects: &[Object]) -> ReadResult<Vec<usize>> {
         let mut all = Vec::new();
         for value in self.list(list)? {
@@ -198,7 +198,7 @@ impl Reader<'_> {
 const SHARED_STEP_KEYS: [&str; 4] = ["repeat", "order", "speed", "dwell"];
 
 impl Steps<'_, '_> {
-    /// Reads a list of steps as one group. The table `manner` has its repetitions and order.
+    /// Reads a list of steps as one group. The table `manner` states the group's repetitions and order.
     fn group(&mut self, list: &Value, manner: Option<&DeTable>, dwell: &Decimal) -> ReadResult<Group> {
         let reader = self.reader;
         let mut nodes = Vec::new();
@@ -309,7 +309,7 @@ impl Steps<'_, '_> {
         Ok(Action::Place { at, angle: self.angle(table)?, supports: self.supports(table)? })
     }
 
-    /// Returns picks and places of all objects on a pallet that share a name, one after the other.
+    /// Reads a transfer: returns a pick and a place for each object of a pallet, one after the other.
     fn transfer(&self, value: &Value) -> ReadResult<Vec<Action>> {
         let (reader, table) = (self.reader, self.reader.table(value)?);
         let (Some(name), Some(to)) = (table.get("objects"), table.get("to")) else {

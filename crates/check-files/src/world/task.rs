@@ -1,4 +1,4 @@
-//! The content of a task: objects, pallets and steps.
+//! The content of a task: objects and steps.
 
 use cplan_check::decimal::Decimal;
 use cplan_check::domain::Range;
@@ -12,7 +12,7 @@ pub const RESTING_DECIMALS: u32 = 6;
 
 /// The task that the steps of a world describe.
 pub struct Task {
-    /// Number of the first object among the world's obstacles. The others follow.
+    /// Number of the first object among the world's obstacles. The other objects follow it.
     pub first: usize,
     pub objects: Vec<Object>,
     pub steps: Group,
@@ -22,25 +22,25 @@ pub struct Task {
 
 /// Properties of an object beyond its initial pose.
 pub struct Object {
-    /// Name, without row and column on a pallet.
+    /// Name of the object, without its row and column on a pallet.
     pub(super) family: String,
-    /// Distance that it is raised while it is carried.
+    /// Distance by which the object is raised while it is carried, metres.
     pub lift: Decimal,
-    /// True if a wrist keeps it level. Otherwise it turns with the second link.
+    /// True if a wrist keeps the object's orientation. If false, the object turns with the second link.
     pub is_level: bool,
     /// The point of the object to which the tip moves.
     pub(super) grasp: Corner,
-    /// Obstacles that it may touch where it is picked and placed, by number.
+    /// Numbers of the obstacles that the object may touch where it is picked and placed.
     pub supports: Vec<usize>,
     pub(super) renews: bool,
 }
 
-/// The wrist that keeps and turns level objects, with its joint if the world names one.
+/// The wrist that keeps the orientation of level objects and turns them, with its joint if the world names one.
 pub struct Wrist {
     pub joint: Option<String>,
 }
 
-/// The joint that lowers the tool, and the distance. `None`: as far as objects are lifted.
+/// The joint that lowers the tool, and the distance. If the distance is `None`, it is as far as objects are lifted.
 pub struct Stroke {
     pub joint: String,
     pub travel: Option<Decimal>,
@@ -64,19 +64,19 @@ pub enum Node {
 
 /// A step of the file.
 pub struct Step {
-    /// From 1, in the order of the file.
+    /// Number of the step, from 1, in the order of the file.
     pub number: usize,
     pub action: Action,
-    /// Time that the arm rests afterwards.
+    /// Time that the arm rests after the step, seconds.
     pub dwell: Decimal,
 }
 
-/// Time and place at which a moving object is to be picked, as far as the step states them.
+/// Time and place at which a moving object must be picked, as far as the step states them.
 #[derive(Default)]
 pub struct MovingPick {
-    /// Seconds after the task began.
+    /// Range of allowed times, seconds after the task began.
     pub window: Option<Range>,
-    /// Position of its origin at that time.
+    /// Required position of the object's origin at the time of the pick.
     pub at: Option<Point>,
 }
 
@@ -102,7 +102,7 @@ pub enum Action {
 pub struct CarryRules {
     /// Obstacles that the object may touch.
     pub supports: Vec<usize>,
-    /// True if the wrist may turn it, to the angle of the place.
+    /// True if the wrist may turn the object to the angle of its place.
     pub may_turn: bool,
 }
 

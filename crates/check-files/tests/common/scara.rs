@@ -2,8 +2,8 @@
 
 use cplan_check_files::CheckError;
 
-/// Returns its URDF. The base is 0.4 m by 0.3 m and 0.3 m high, and stands at height 0. The quill reaches down to the
-/// height `lowest`.
+/// Returns the URDF of a SCARA. The base is 0.4 m by 0.3 m and 0.3 m high, and stands at height 0. The quill reaches
+/// down to the height `lowest`.
 pub fn scara(lowest: f64) -> String {
     format!(
         r#"<robot name="scara">
@@ -39,7 +39,7 @@ pub fn folded(extra: &str) -> String {
     )
 }
 
-/// Returns the exit code and the message.
+/// Returns the exit code of `cplan-check` for a verdict, and the message.
 pub fn output(verdict: Result<String, CheckError>) -> (i32, String) {
     match verdict {
         Ok(report) => (0, report),
@@ -61,8 +61,8 @@ pub fn fails((code, report): (i32, String), parts: &[&str]) {
     assert!(code == 3 && parts.iter().all(|part| report.contains(part)), "{code} {report}");
 }
 
-/// Returns a certificate that the elbow cannot fold beyond 2.65 rad. There a shape overlaps a part, for all values of
-/// the shoulder within [`LIMITS`].
+/// Returns a certificate that the elbow cannot fold beyond 2.65 rad: from there on, the shape overlaps the part for all
+/// values of the shoulder within [`LIMITS`].
 pub fn shut(shape: &str, part: &str) -> String {
     let stuck = |k: i32| {
         let [low, high] = [k, k + 1].map(|k| f64::from(k) / 10.0);
@@ -76,7 +76,7 @@ pub fn shut(shape: &str, part: &str) -> String {
     )
 }
 
-/// Limits of the shoulder.
+/// Limits of the shoulder, as a line for `[robot]`.
 pub const LIMITS: &str = "limits = { a = [-0.5, 0.5] }";
 /// The quill as a shape of a certificate.
 pub const QUILL: &str = r#"{"link": "quill", "collision": 0}"#;

@@ -1,6 +1,6 @@
 //! An arm for tests.
 
-/// Two bars of 1 m and 0.8 m, 0.1 m wide, at one height; the tip is at the end of the second.
+/// URDF of two bars of 1 m and 0.8 m, 0.1 m wide, at one height. The tip is at the end of the second bar.
 pub const TWO_BARS: &str = r#"<robot name="r">
   <link name="base"/>
   <joint name="a" type="revolute">
@@ -19,5 +19,5 @@ pub const TWO_BARS: &str = r#"<robot name="r">
   <link name="tool"/>
 </robot>"#;
 
-/// Limit of both joints, in either direction.
+/// Limit of both joints in either direction, radians.
 pub const LIMIT: f64 = 2.9;

@@ -7,13 +7,13 @@ use crate::interval::{Interval, Point, length};
 use num_bigint::{BigInt, Sign};
 use std::fmt;
 
-/// Returns lower bounds on the distance between two rectangles along each axis.
+/// Returns a lower bound on the distance between two rectangles along each axis; 0 if they may overlap along it.
 fn apart(a: &Point, b: &Point) -> [BigInt; 2] {
     [0, 1].map(|k| (&b[k].lower - &a[k].upper).max(&a[k].lower - &b[k].upper).max(BigInt::ZERO))
 }
 
 impl fmt::Display for Metric {
-    /// Writes the text that follows a length in a message.
+    /// Writes the text that follows a length in a message: nothing, weights, or seconds with the speeds.
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         match self {
             Self::Euclidean => Ok(()),
@@ -35,7 +35,8 @@ impl Metric {
         CheckError::fails("the metric's weights or speeds must be greater than 0 and not too large")
     }
 
-    /// Returns true if the length is the greatest entry. Otherwise it is the root of the sum of squares.
+    /// Returns true if the length of a displacement is its greatest entry. If false, it is the root of the sum of
+    /// squares.
     pub(super) fn is_greatest(&self) -> bool {
         matches!(self, Self::Speeds(_))
     }
@@ -49,13 +50,13 @@ impl Metric {
         }
     }
 
-    /// Returns a lower bound on the length of all paths from a place to a rectangle.
+    /// Returns a lower bound on the length of all paths between two rectangles.
     pub(super) fn between(&self, a: &Point, b: &Point) -> BigInt {
         let [x, y] = apart(a, b);
         if self.is_greatest() { x.max(y) } else { length(&[x, y].map(Interval::exactly)).lower }
     }
 
-    /// Returns true if all paths from a place to a rectangle have at least a given length above 0.
+    /// Returns true if all paths between two rectangles are at least as long as `least`, which must be positive.
     pub(super) fn is_at_least(&self, a: &Point, b: &Point, least: &BigInt) -> bool {
         let [x, y] = apart(a, b);
         if self.is_greatest() { x.max(y) >= *least } else { &x * &x + &y * &y >= least * least }

@@ -11,20 +11,21 @@ use std::collections::BTreeMap;
 #[derive(Clone)]
 pub(super) struct Place {
     pub(super) at: Point,
-    /// The same in coarser units, rounded outward to a lower and an upper bound.
+    /// Lower and upper bound on each coordinate, in coarse units, rounded outward.
     pub(super) coarse: [[i64; 2]; 2],
-    /// Value of joint 1 as written, with the number of whole turns added to it. `None` if it is not a single number.
+    /// Value of joint 1 as written in the certificate, and the number of whole turns added to it. `None` if the place
+    /// spans several values of joint 1.
     pub(super) line: Option<Line>,
 }
 
-/// Configurations that share one value of joint 1.
+/// A line of configurations with the same value of joint 1: the value as written, and the whole turns added to it.
 pub(super) type Line = (Decimal, i64);
 
 /// Limit on the distance of places from the origin, in coarse units. It keeps products of differences exact in 128
 /// bits.
 pub(super) const MAX_COORDINATE: i64 = 1 << 58;
 
-/// Coarse units are `2^-40`, which is `2^COARSE_SHIFT` fine units.
+/// Binary logarithm of the ratio of coarse units, `2^-40`, to the units of [`Interval`].
 pub(super) const COARSE_SHIFT: u32 = BITS - 40;
 
 /// A copy of a wall, shifted by whole turns of each joint.
@@ -34,13 +35,14 @@ pub(super) struct WallCopy {
     pub(super) ends: [Place; 2],
 }
 
-/// Overlapping walls on one line, from end to end, with the ends of other walls that touch them from either side.
+/// Overlapping walls on one line, merged into one. `ends` are its ends along joint 2. `beside` are the places where
+/// ends of other walls touch it, from smaller and from greater values of joint 1.
 pub(super) struct WallRun {
     pub(super) ends: [Interval; 2],
     pub(super) beside: [Vec<Interval>; 2],
 }
 
-/// Merges upright walls into runs, and collects the ends of other walls that lie within them.
+/// Merges walls with a constant value of joint 1 into runs. Collects the ends of other walls that lie on each run.
 pub(super) fn runs(copies: &[WallCopy]) -> BTreeMap<Line, Vec<WallRun>> {
     let mut runs: BTreeMap<Line, Vec<WallRun>> = BTreeMap::new();
     for WallCopy { ends: [a, b], .. } in copies {
@@ -85,7 +87,8 @@ pub(super) fn runs(copies: &[WallCopy]) -> BTreeMap<Line, Vec<WallRun>> {
 }
 
 impl Place {
-    /// Makes the copy of a rectangle shifted by whole turns. Returns `None` if that is too far away.
+    /// Makes the copy of a rectangle shifted by whole turns. Returns `None` if the copy is too far away; see
+    /// [`MAX_COORDINATE`].
     pub(super) fn new(metric: &Metric, rectangle: &Rectangle, turns: [i64; 2]) -> Option<Self> {
         let at = [0, 1].map(|k| {
             let turns = Interval::exactly(BigInt::from(2 * turns[k]) << BITS);
@@ -100,8 +103,8 @@ impl Place {
         Some(Self { at, coarse: [first?, second?], line })
     }
 
-    /// Returns the side of the line through two other places on which this place certainly lies; 0 if neither is
-    /// certain.
+    /// Returns the side of the line from `a` to `b` on which this place certainly lies: 1 for left, -1 for right, 0 if
+    /// this is uncertain.
     pub(super) fn side(&self, a: &Self, b: &Self) -> i8 {
         // Coarse middles are off by less than two units, so differences are off by less than four.
         let middle = |place: &Self| place.coarse.map(|[low, high]| (low + high) / 2);
@@ -126,7 +129,7 @@ impl Place {
         }
     }
 
-    /// Returns true if this place and another certainly lie on opposite sides of the line through two others.
+    /// Returns true if this place and `other` certainly lie on opposite sides of the line through `a` and `b`.
     pub(super) fn is_opposite(&self, other: &Self, a: &Self, b: &Self) -> bool {
         let side = self.side(a, b);
         side != 0 && other.side(a, b) == -side
@@ -134,18 +137,17 @@ impl Place {
 }
 
 impl WallCopy {
-    /// Returns the least value along joint 1, in coarse units.
+    /// Returns the wall's least value of joint 1, in coarse units.
     pub(super) fn begins(&self) -> i64 {
         self.ends[0].coarse[0][0].min(self.ends[1].coarse[0][0])
     }
 
-    /// Returns the greatest value along joint 1, in coarse units.
+    /// Returns the wall's greatest value of joint 1, in coarse units.
     pub(super) fn stops(&self) -> i64 {
         self.ends[0].coarse[0][1].max(self.ends[1].coarse[0][1])
     }
 
-    /// Returns true if every straight leg from a place to a rectangle passes through the inside of this wall, from one
-    /// side to the other.
+    /// Returns true if every straight leg from `from` to any point of `to` crosses this wall between its ends.
     pub(super) fn crosses(&self, from: &Place, to: &Place) -> bool {
         let [a, b] = &self.ends;
         let apart = |k: usize| {
@@ -157,7 +159,7 @@ impl WallCopy {
     }
 }
 
-/// Returns true if the first is certainly below the second.
+/// Returns true if `a` is certainly less than `b`.
 pub(super) fn below(a: &Interval, b: &Interval) -> bool {
     a.upper < b.lower
 }

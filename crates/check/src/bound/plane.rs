@@ -11,27 +11,28 @@ use std::cell::Cell;
 use std::collections::BTreeMap;
 use std::ops::RangeInclusive;
 
-/// Maximum number of wall copies, on all turns that a path of the given length can reach.
+/// Maximum number of copies of walls, on all turns that a path of the certified length can reach.
 const MAX_COPIES: usize = 200_000;
 
 /// An end of a wall at which shortest paths may turn.
 pub(super) struct Corner {
     name: (usize, usize, [i64; 2]),
     at: Place,
-    /// Lower bound on the length of paths from there to a goal.
+    /// Lower bound on the length of paths from the corner to a goal.
     rest: BigInt,
-    /// Claimed lower bound on the length of paths from the start. `None` stands for the whole length minus the rest.
+    /// Claimed lower bound on the length of paths from the start to the corner. `None` stands for the certified length
+    /// minus `rest`.
     potential: Option<BigInt>,
 }
 
-/// Walls and goals within reach of paths of some length.
+/// Copies of walls and goals that paths of the certified length can reach.
 pub(super) struct Plane<'a> {
     metric: &'a Metric,
     length: Interval,
     start: Place,
-    /// Sorted by the least value of joint 1.
+    /// Copies of walls, sorted by their least value of joint 1.
     copies: Vec<WallCopy>,
-    /// Maximum extent of a wall along joint 1, in coarse units.
+    /// Greatest extent of a wall along joint 1, in coarse units.
     widest: i64,
     runs: BTreeMap<Line, Vec<WallRun>>,
     goals: Vec<Place>,
@@ -54,7 +55,7 @@ impl<'a> Plane<'a> {
                 let Axis::Circle = axes[k] else { return Some(0..=0) };
                 let (turn, value) =
                     (metric.scaled(k, &twice(Interval::pi())), metric.scaled(k, &Interval::around(&rectangle[k])));
-                // One more on either side, for rounding.
+                // Include one more turn on either side, for rounding.
                 let least = (&from.at[k].lower - &length.upper - &value.upper) / &turn.lower - 1;
                 let most = (&from.at[k].upper + &length.upper - &value.lower) / &turn.lower + 1;
                 Some(i64::from(i32::try_from(least).ok()?)..=i64::from(i32::try_from(most).ok()?))
@@ -91,7 +92,7 @@ impl<'a> Plane<'a> {
         Ok(Self { metric, length, start: from, copies: walls, widest, runs, goals: everywhere })
     }
 
-    /// Returns the corners at which a path shorter than the length may turn.
+    /// Returns the corners at which a path shorter than the certified length may turn.
     pub(super) fn corners(&self, bound: &Bound, axes: [&Axis; 2]) -> Result<Vec<Corner>, CheckError> {
         let mut potentials = BTreeMap::new();
         for (number, potential) in bound.potentials.iter().enumerate() {
@@ -130,10 +131,10 @@ impl<'a> Plane<'a> {
         Ok(corners)
     }
 
-    /// Checks that no potential grows along a leg by more than the leg's length, unless a wall blocks the leg.
+    /// Checks that the potential grows along each leg by at most the leg's length, unless walls block the leg.
     ///
     /// # Errors
-    /// Names the leg along which a potential grows too much.
+    /// Names a leg along which the potential grows too much.
     pub(super) fn check_potentials(&self, corners: &[Corner]) -> Result<(), CheckError> {
         let claimed: Vec<BigInt> = corners
             .iter()
@@ -177,9 +178,8 @@ impl<'a> Plane<'a> {
         is_long || self.metric.is_at_least(&from.at, &to.at, length)
     }
 
-    /// Returns true if walls block every straight leg from a place to a rectangle. Either the leg passes through a wall
-    /// from one side to the other, or it runs along walls and other walls touch them on both sides, so that neither
-    /// side is open.
+    /// Returns true if walls block every straight leg from `from` to any point of `to`. A leg is blocked if it crosses
+    /// a wall. A leg that runs along walls is blocked if other walls touch these from both sides.
     fn bars(&self, from: &Place, to: &Place, latest: &Cell<usize>) -> bool {
         if self.copies.get(latest.get()).is_some_and(|copy| copy.crosses(from, to)) {
             return true;
@@ -205,7 +205,7 @@ impl<'a> Plane<'a> {
     }
 }
 
-/// Names an end of a wall for messages.
+/// Returns the name of a wall's end for messages.
 fn called((wall, end, turns): (usize, usize, [i64; 2])) -> String {
     let end = ["begins", "ends"][end];
     match turns {

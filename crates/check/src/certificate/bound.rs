@@ -9,7 +9,7 @@ use serde::Deserialize;
 pub struct Bound {
     /// Target configuration; the goal by default.
     pub to: Option<[Decimal; 2]>,
-    /// Claimed lower bound on the length of all motions.
+    /// Claimed lower bound on the length of all motions, in units of the metric.
     pub length: Decimal,
     /// Length metric.
     #[serde(default)]
@@ -20,7 +20,7 @@ pub struct Bound {
     pub potentials: Vec<Potential>,
 }
 
-/// Metric for lengths of displacements.
+/// Length of a displacement, computed from its two entries.
 #[derive(Deserialize, Default)]
 #[serde(rename_all = "snake_case")]
 pub enum Metric {
@@ -29,7 +29,7 @@ pub enum Metric {
     Euclidean,
     /// Root of the sum of squares after multiplying each entry by a factor.
     Weights([Decimal; 2]),
-    /// The greater of the two quotients of entry and speed.
+    /// The greater of the two times, seconds, that the joints need at these speeds.
     Speeds([Decimal; 2]),
 }
 
@@ -41,9 +41,9 @@ pub struct Wall {
     pub from: [Decimal; 2],
     /// Last configuration.
     pub to: [Decimal; 2],
-    /// Index into the shapes.
+    /// Index into the certificate's shapes.
     pub shape: usize,
-    /// Index into the parts.
+    /// Index into the certificate's parts.
     pub part: usize,
 }
 
@@ -51,11 +51,11 @@ pub struct Wall {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Potential {
-    /// Index into the walls.
+    /// Index into the bound's walls.
     pub wall: usize,
     /// The end of the wall: 0 for its first configuration, 1 for its last.
     pub end: usize,
-    /// Whole turns of each joint from the written wall to the intended copy.
+    /// Whole turns by which each joint is shifted from the wall as written to the copy that is meant.
     #[serde(default)]
     pub turns: [i64; 2],
     /// The lower bound.

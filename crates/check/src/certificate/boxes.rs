@@ -12,11 +12,11 @@ use serde::Deserialize;
 pub struct ShapeName {
     /// Name of the link.
     pub link: String,
-    /// Number, if it is a collision shape.
+    /// Number among the link's collision shapes; `None` for other kinds.
     pub collision: Option<usize>,
-    /// Number, if it is a visual shape.
+    /// Number among the link's visual shapes; `None` for other kinds.
     pub visual: Option<usize>,
-    /// 0, if it is the bar that the world defines.
+    /// 0 for the bar that the world defines; `None` for other kinds.
     pub bar: Option<usize>,
     /// A height within the intended layer, if the shape has several layers.
     pub height: Option<Decimal>,
@@ -26,7 +26,7 @@ pub struct ShapeName {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PartName {
-    /// Number of the obstacle in the world file.
+    /// Number of the obstacle in the world; absent if the part belongs to the robot.
     pub obstacle: Option<usize>,
     /// Corners of the part; absent for a circle.
     pub corners: Option<Vec<Corner>>,
@@ -48,9 +48,9 @@ pub struct CollisionBox {
     pub lower: [Decimal; 2],
     /// Greatest value of each joint.
     pub upper: [Decimal; 2],
-    /// Index into the shapes.
+    /// Index into the certificate's shapes.
     pub shape: usize,
-    /// Index into the parts.
+    /// Index into the certificate's parts.
     pub part: usize,
 }
 

@@ -7,9 +7,10 @@ use serde::Deserialize;
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Motion {
-    /// Interpolations with which the knots may be read. The motion must be free with each of them.
+    /// Interpolations that a controller may use between the knots. The motion must be free with each of them.
     pub interpolation: Vec<Interpolation>,
-    /// Time, both joints' values, and their velocities and accelerations as far as an interpolation needs them.
+    /// For each knot: the time, both joints' values, then their velocities, then their accelerations. Velocities and
+    /// accelerations may be absent if no interpolation needs them.
     pub knots: Vec<Vec<Decimal>>,
 }
 
@@ -17,7 +18,7 @@ pub struct Motion {
 #[derive(Deserialize, Clone, Copy, PartialEq, PartialOrd)]
 #[serde(rename_all = "snake_case")]
 pub enum Interpolation {
-    /// Straight lines.
+    /// Straight lines between the values at the knots.
     Linear,
     /// Cubic polynomials that match values and velocities at both knots.
     Cubic,

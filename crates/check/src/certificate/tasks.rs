@@ -3,14 +3,14 @@
 use crate::decimal::Decimal;
 use serde::Deserialize;
 
-/// A step with its part of the motion.
+/// A step of a task, with the part of the motion that executes it.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ExecutedStep {
-    /// Number in the world file, from 1.
+    /// Number of the step in the world file, from 1.
     pub step: usize,
-    /// First and last knot of its motion.
+    /// Indices of the first and the last knot of the step's motion.
     pub knots: [usize; 2],
-    /// Angle by which the wrist turns the load to the left afterwards, while the arm is at rest.
+    /// Angle, radians, by which the wrist turns the load to the left after the motion, while the arm is at rest.
     pub turn: Option<Decimal>,
 }

@@ -1,4 +1,6 @@
 //! Distance between the ends of a motion and the required start or goal.
+//!
+//! A knot is `(time, joint 1, joint 2)`. Distances are in units of `2^-BITS` radians or metres; see [`BITS`].
 
 use super::End;
 use crate::arm::Arm;
@@ -10,28 +12,30 @@ use crate::interval::{BITS, Interval, Point, length, minus};
 use crate::world::Goal;
 use num_bigint::BigInt;
 
-/// Maximum error of a motion at its start or goal, radians or metres: `10^-5`.
+/// Maximum error of a motion at its start or goal: `10^-5` radians or metres. Rounding to six decimals, in joints several
+/// metres from the tip, causes about this error.
 const END_TOLERANCE_DECIMALS: u32 = 5;
 
 impl End {
-    /// Describes the end in words, with the distance of a motion's first or last knot from it.
+    /// Describes the end in words. If the knot, which is a motion's first or last, is not exactly at the end, adds a
+    /// power of ten that bounds its distance from the end.
     ///
     /// # Errors
-    /// If the distance is too large.
+    /// If the distance exceeds `10^-5`.
     pub fn reached(&self, arm: &Arm, knot: &[Decimal]) -> Result<String, CheckError> {
         let named = self.named(arm);
-        let is_it = |k: usize, range: &Range| range.iter().all(|end| *end == knot[1 + k]);
+        let equals_knot = |k: usize, range: &Range| range.iter().all(|end| *end == knot[1 + k]);
         match &self.at {
-            Goal::Joints(ranges) if (0..2).all(|k| is_it(k, &ranges[k])) => Ok(named),
+            Goal::Joints(ranges) if (0..2).all(|k| equals_knot(k, &ranges[k])) => Ok(named),
             at => Ok(named.trim_end_matches(',').to_owned() + &missed(self.what, &arm.away(knot, at))?),
         }
     }
 }
 
-/// Describes in words by how much a motion misses an end.
+/// Describes in words by how much a motion misses an end, as a power of ten that is at least the error `off`.
 ///
 /// # Errors
-/// If it misses by too much.
+/// If the error exceeds `10^-5`.
 pub fn missed(what: &str, off: &BigInt) -> Result<String, CheckError> {
     let is_within = |digits: &u32| Interval::from(&Decimal::power_of_ten(*digits)).lower >= *off;
     match (END_TOLERANCE_DECIMALS..50).rev().find(is_within) {
@@ -40,43 +44,44 @@ pub fn missed(what: &str, off: &BigInt) -> Result<String, CheckError> {
     }
 }
 
-/// Returns an upper bound on the distance of a place from a rectangle.
-fn outside(place: &Point, area: &Point) -> BigInt {
+/// Returns an upper bound on the distance of a place from a rectangle; 0 inside.
+fn distance_outside(place: &Point, area: &Point) -> BigInt {
     let zero = Interval::whole(0);
     let beyond = |k: usize| {
-        let (is, range) = (&place[k], &area[k]);
-        let [below, above] = [&range.lower - &is.lower, &is.upper - &range.upper];
+        let (actual, range) = (&place[k], &area[k]);
+        let [below, above] = [&range.lower - &actual.lower, &actual.upper - &range.upper];
         Interval::exactly(below.max(above).max(zero.lower.clone()))
     };
     length(&[beyond(0), beyond(1)]).upper
 }
 
 impl Arm {
-    /// Returns an upper bound on the distance of a knot from a goal: the greatest joint error, or the error of the tip.
+    /// Returns an upper bound on the distance of a knot from a goal. For joint values it is the greater error of the
+    /// two joints. For a position or area it is the distance of the tip.
     pub fn away(&self, knot: &[Decimal], goal: &Goal) -> BigInt {
         let at = [&knot[1], &knot[2]];
         match goal {
-            Goal::Joints(ranges) => (0..2).map(|k| self.off(k, at[k], &ranges[k])).max().expect("two joints"),
+            Goal::Joints(ranges) => (0..2).map(|k| self.joint_error(k, at[k], &ranges[k])).max().expect("two joints"),
             Goal::Tip(place) => {
-                let is = self.tip_at(&at);
-                length(&minus(&is, &place.each_ref().map(Interval::from))).upper
+                let actual = self.tip_at(&at);
+                length(&minus(&actual, &place.each_ref().map(Interval::from))).upper
             }
             Goal::Areas(areas) => {
-                let is = self.tip_at(&at);
-                areas.iter().map(|area| outside(&is, &self.area(area))).min().expect("an area")
+                let actual = self.tip_at(&at);
+                areas.iter().map(|area| distance_outside(&actual, &self.area(area))).min().expect("an area")
             }
         }
     }
 
-    /// Returns the position of the tip.
+    /// Returns the position of the tip with the joints at these values.
     fn tip_at(&self, at: &[&Decimal; 2]) -> Point {
         Chain::from(self).point_at(&Attachment::Link(1), &self.tip.shape.points[0], &at.map(Interval::from))
     }
 
-    /// Returns an upper bound on the difference between a joint's value and a target range. Whole turns of a continuous
-    /// joint do not count.
-    fn off(&self, joint: usize, is: &Decimal, should: &Range) -> BigInt {
-        let apart = &Interval::from(is) - &Interval::around(should);
+    /// Returns an upper bound on the difference between a joint's value and any number of a target range. For a
+    /// continuous joint, whole turns do not count.
+    fn joint_error(&self, joint: usize, actual: &Decimal, target: &Range) -> BigInt {
+        let apart = &Interval::from(actual) - &Interval::around(target);
         if !matches!(self.joints[joint].axis, Axis::Circle) {
             return apart.magnitude();
         }

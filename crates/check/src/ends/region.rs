@@ -9,14 +9,14 @@ use crate::interval::{Interval, Point};
 use crate::polygon::Corner;
 use crate::world::Goal;
 
-/// Maximum number of parts of the domain in which the tip may be at a position, for proofs that enclose these parts.
+/// Maximum number of rectangles that cover the configurations for a tip position, in a proof that there is no motion.
 pub const MAX_ENCLOSED_PARTS: usize = 2000;
 
-/// Maximum number of parts if only their location must be known.
+/// Maximum number of such rectangles in a proof that no motion is shorter, where a rough cover is enough.
 pub const MAX_LOCATED_PARTS: usize = 500;
 
 impl End {
-    /// Returns an enclosure of the end, if it is a single configuration.
+    /// Returns an enclosure of the start or goal, if it is a configuration.
     ///
     /// # Errors
     /// If it is a tip position, or if values are outside the limits.
@@ -33,7 +33,7 @@ impl End {
         }
     }
 
-    /// Returns all configurations that satisfy the end.
+    /// Returns the set of all configurations at which a motion may begin or end.
     ///
     /// # Errors
     /// If values are outside the limits.
@@ -46,7 +46,7 @@ impl End {
     }
 }
 
-/// The configurations to be reached.
+/// A set of configurations at which a motion may begin or end.
 pub enum Region {
     /// Enclosure of one configuration.
     Configuration(Rectangle),
@@ -57,7 +57,8 @@ pub enum Region {
 }
 
 impl Region {
-    /// Returns rectangles that cover the whole region, except for excluded rectangles.
+    /// Returns rectangles that cover the region, except for the configurations in rectangles that `is_left_out`
+    /// excludes. There are at most `most` for each tip position.
     pub fn places(&self, arm: &Arm, most: usize, is_left_out: impl Fn(&Rectangle) -> bool) -> Vec<Rectangle> {
         self.places_by(arm, most, &is_left_out)
     }
@@ -72,8 +73,8 @@ impl Region {
 }
 
 impl Arm {
-    /// Returns the tip positions that a rectangle stands for: the whole rectangle if both joints slide, or else its
-    /// centre.
+    /// Returns the tip positions for which a rectangle of the goal stands, given its opposite corners: all positions in
+    /// it if both joints are prismatic, and only its centre otherwise.
     pub fn area(&self, [a, b]: &[Corner; 2]) -> Point {
         if self.joints.iter().any(|joint| !matches!(joint.motion, Motion::Slide(_))) {
             return [0, 1].map(|k| Interval::from(&Decimal::middle(&a[k], &b[k])));
@@ -84,10 +85,10 @@ impl Arm {
         })
     }
 
-    /// Returns an enclosure of a configuration.
+    /// Returns an enclosure of a configuration, shifted by whole turns into the domain.
     ///
     /// # Errors
-    /// If it is outside the limits.
+    /// If the configuration is outside the limits.
     pub fn configuration(&self, what: &str, values: &[Range; 2]) -> Result<Rectangle, CheckError> {
         let wrapped = |k: usize| {
             let name = &self.joints[k].name;

@@ -1,4 +1,4 @@
-//! Motion of what two joints carry.
+//! Motion of points that two joints carry.
 
 use super::Posture;
 use crate::arm::{Arm, Motion};
@@ -6,7 +6,8 @@ use crate::curve::Tube;
 use crate::interval::{Interval, Point, sum};
 use crate::obstacle::Obstacle;
 
-/// A vector that turns with the joints: `R(±(s1 q1 + s2 q2)) (at + slide q)`. `by` selects the angles that count.
+/// A vector that turns and grows with the joints: `R(±(s1 q1 + s2 q2)) (at + direction q)`. `by` selects the joints
+/// that turn it, `back` the minus sign, and `slide` the joint whose value `q` moves it along a direction.
 #[derive(Clone)]
 pub(super) struct Term {
     pub(super) by: [bool; 2],
@@ -15,10 +16,10 @@ pub(super) struct Term {
     pub(super) slide: Option<(usize, Point)>,
 }
 
-/// A point, as the sum of its vectors.
+/// The position of a point, as a sum of vectors.
 pub(super) type Terms = Vec<Term>;
 
-/// The motion of what two joints carry.
+/// The motions that two joints give to their links.
 #[derive(Clone)]
 pub struct Chain {
     pub(super) motions: [Motion; 2],
@@ -26,7 +27,7 @@ pub struct Chain {
     offset: Point,
 }
 
-/// Attachment of a shape.
+/// The frame to which a shape is attached.
 #[derive(Clone)]
 pub enum Attachment {
     /// A link. Coordinates are relative to the link's joint.
@@ -55,7 +56,7 @@ impl From<&Arm> for Chain {
 }
 
 impl Chain {
-    /// Makes a chain that turns left about a point.
+    /// Makes a chain whose both joints turn left about a point.
     pub fn about(point: &Point) -> Self {
         let offset = [0, 0].map(Interval::whole);
         Self { motions: [Motion::Turn(1), Motion::Turn(1)], base: point.clone(), offset }
@@ -83,7 +84,7 @@ impl Chain {
         terms
     }
 
-    /// Moves a sum of vectors by a joint, or back.
+    /// Applies the motion of a joint to a sum of vectors, or the inverse motion if `back`.
     fn moved(&self, terms: &mut Terms, joint: usize, back: bool) {
         match &self.motions[joint] {
             Motion::Turn(_) => {
@@ -102,7 +103,8 @@ impl Chain {
         }
     }
 
-    /// Returns the sign of a joint's angle: 1 to the left, -1 to the right, 0 for a prismatic joint.
+    /// Returns the sense in which positive values of a joint turn: 1 to the left, -1 to the right, 0 if the joint is
+    /// prismatic.
     pub(super) fn sign(&self, joint: usize) -> Interval {
         Interval::whole(match self.motions[joint] {
             Motion::Turn(sign) => sign,
@@ -110,7 +112,7 @@ impl Chain {
         })
     }
 
-    /// Returns the position of a point that is attached to a link or a level point.
+    /// Returns the position of a point that is attached to a link, or to a shape that stays level.
     pub(super) fn hanging(&self, on: &Attachment, a: &Point) -> Terms {
         match on {
             Attachment::Link(link) => self.carried(*link, a),
@@ -127,12 +129,12 @@ impl Chain {
         self.still(&self.hanging(on, a), values)
     }
 
-    /// Converts a placed object to coordinates of the second link, which picks it up in a configuration.
+    /// Converts an object from plane coordinates to the frame of the second link, which picks it up in a configuration.
     pub fn hung(&self, lying: &Obstacle, values: &Point) -> Obstacle {
         lying.clone().moved(self.seen_at(&lying.at, values), self.turn(1, &lying.turn, true, values))
     }
 
-    /// Converts an attached object to plane coordinates in a configuration.
+    /// Converts an attached object to the plane coordinates that it has in a configuration.
     pub fn lying(&self, on: &Attachment, hanging: &Obstacle, values: &Point) -> Obstacle {
         let turn = match on {
             Attachment::Level(_) => hanging.turn.clone(),
@@ -141,7 +143,8 @@ impl Chain {
         hanging.clone().moved(self.point_at(on, &hanging.at, values), turn)
     }
 
-    /// Returns the sine and cosine of an object's orientation after a link turned it, or turned it back.
+    /// Returns the sine and cosine of an object's orientation after the turn of a link, or after the inverse turn if
+    /// `back`.
     fn turn(&self, link: usize, [sine, cosine]: &[Interval; 2], back: bool, values: &Point) -> [Interval; 2] {
         let by = [0, 1].map(|joint| joint <= link && matches!(self.motions[joint], Motion::Turn(_)));
         let [x, y] = self.still(&[Term { by, back, at: [cosine.clone(), sine.clone()], slide: None }], values);

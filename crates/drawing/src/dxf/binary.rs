@@ -12,7 +12,7 @@ const BINARY_SENTINEL: &[u8] = b"AutoCAD Binary DXF\r\n\x1a\0";
 /// If the file ends within a group.
 pub(super) fn as_text(bytes: &[u8]) -> Result<Option<Vec<u8>>, Error> {
     let Some(mut rest) = bytes.strip_prefix(BINARY_SENTINEL) else { return Ok(None) };
-    // Since release 13 codes have two bytes: the first one, 0, shows it.
+    // Since release 13, codes have two bytes. Then the file begins with two zeros, the first code.
     let is_wide = rest.starts_with(&[0, 0]);
     let mut text = Vec::with_capacity(2 * bytes.len());
     while !rest.is_empty() {

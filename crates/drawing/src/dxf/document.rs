@@ -22,9 +22,9 @@ pub(super) struct Block<'a> {
 pub(super) struct Document<'a> {
     /// The unit, if the file states one that cplan knows.
     pub unit: Option<Unit>,
-    /// The stated unit, if cplan does not know it.
+    /// The tag of the stated unit, if cplan does not know the unit.
     pub unread_unit: Option<Tag<'a>>,
-    /// Layers that are hidden, in capitals, because names do not distinguish upper and lower case.
+    /// Hidden layers, with names in capitals, because names do not distinguish upper and lower case.
     hidden: HashMap<String, HiddenReason>,
     /// Blocks by name in capitals.
     pub blocks: HashMap<String, Block<'a>>,
@@ -38,9 +38,9 @@ pub(super) struct Document<'a> {
 /// The reason why a layer is hidden.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum HiddenReason {
-    /// Off or never printed. Hides entities on the layer itself.
+    /// The layer is off or never printed. This hides entities on the layer.
     Off,
-    /// Frozen. Hides insertions on the layer as well.
+    /// The layer is frozen. This hides entities and insertions on the layer.
     Frozen,
 }
 
@@ -114,7 +114,7 @@ impl<'a> Document<'a> {
         self.hidden.contains_key(&layer.to_uppercase())
     }
 
-    /// Returns true if insertions on a layer are hidden, too.
+    /// Returns true if a layer is frozen, so that insertions on it are also hidden.
     pub fn freezes(&self, layer: &str) -> bool {
         self.hidden.get(&layer.to_uppercase()) == Some(&HiddenReason::Frozen)
     }

@@ -1,4 +1,4 @@
-//! Entities that lie in the plane.
+//! Converts the entities that lie in the plane to shapes.
 
 use super::document::Entity;
 use super::tags::Record;
@@ -58,7 +58,7 @@ impl<'a> Reader<'_, 'a> {
                 self.arc(&ellipse, from, to, place, origin)
             }
             "SPLINE" => self.spline(&record, &world, place, origin),
-            // Their last two corners are in reading order, not in the order around the shape.
+            // Swap the last two corners: the file has them in reading order, not in the order around the shape.
             "SOLID" | "TRACE" => {
                 let corners: [Point; 4] =
                     [record.point(10)?, record.point(11)?, record.point(13).or(record.point(12))?, record.point(12)?];
@@ -230,7 +230,7 @@ fn size(record: &Record, code: i32) -> Result<f64, Error> {
     Err(Error::new(record.line, message, "give it a size above 0, or remove it"))
 }
 
-/// Returns true if its own z axis is not that of the drawing.
+/// Returns true if the z axis of an entity is not parallel to that of the drawing.
 fn is_tilted(record: &Record) -> Result<bool, Error> {
     const NORMAL_TOLERANCE: f64 = 1e-6;
     let [x, y] = [record.number_or(210, 0.0)?, record.number_or(220, 0.0)?];

@@ -1,4 +1,4 @@
-//! DXF, as text or binary: the entities in the plane of model space.
+//! Reads DXF files, as text or binary: the entities in the plane of model space.
 
 mod binary;
 mod document;
@@ -12,7 +12,7 @@ use document::{Document, Entity};
 use std::collections::HashMap;
 use tags::Tag;
 
-/// Greatest depth of nested insertions; CAD programs allow fewer.
+/// Greatest depth of nested insertions. CAD programs allow less.
 const MAX_INSERTION_DEPTH: usize = 64;
 /// Greatest number of entities after all blocks are inserted.
 const MAX_ENTITIES: usize = 1 << 20;
@@ -51,18 +51,18 @@ pub(crate) fn read(bytes: &[u8], settings: &Settings) -> Result<Drawing, Error> 
 #[derive(Debug, Clone)]
 struct BlockPlacement<'a> {
     map: Map,
-    /// Factor and offset of heights.
+    /// Factor and offset that convert heights of the block to those of the drawing.
     up: [f64; 2],
-    /// The outermost inserted block, if it has a name for people.
+    /// Name of the outermost inserted block, unless the name was generated.
     name: Option<&'a str>,
-    /// Layer of the insertion, which replaces layer 0 within the block.
+    /// Layer of the insertion. Within the block, it replaces layer 0.
     layer: Option<&'a str>,
-    /// Entities of one insertion are joined with each other only.
+    /// Number of the insertion. Entities of one insertion are joined only with each other.
     instance: usize,
     /// The frozen layer of an insertion. It hides the whole insertion, while a layer that is off hides only its own
     /// entities.
     frozen: Option<&'a str>,
-    /// The outermost insertion.
+    /// Place and orientation of the outermost insertion.
     frame: Option<Frame>,
 }
 
@@ -82,7 +82,7 @@ struct Reader<'d, 'a> {
 }
 
 impl<'d, 'a> Reader<'d, 'a> {
-    /// Reads entities at a place, `within` blocks of these names.
+    /// Reads entities with a placement. `within` has the names of the blocks that contain them.
     fn all(
         &mut self,
         entities: &'d [Entity<'a>],
@@ -187,7 +187,7 @@ impl<'d, 'a> Reader<'d, 'a> {
         for row in 0..counts[1] {
             for column in 0..counts[0] {
                 self.instances += 1;
-                // Even an empty block takes time.
+                // Count the insertion itself, because even an empty block takes time.
                 self.entities += 1;
                 if self.entities > MAX_ENTITIES {
                     let message = format!("with all blocks inserted the drawing has more than {MAX_ENTITIES} entities");
@@ -213,13 +213,14 @@ fn layer<'a>(entity: &Entity<'a>, place: &BlockPlacement<'a>) -> &'a str {
     if own == "0" { place.layer.unwrap_or(own) } else { own }
 }
 
-/// Returns the sign of the entity's own z axis relative to that of the plane.
+/// Returns 1 if the z axis of an entity points along that of the drawing, and -1 if it points against it.
 fn upwards(entity: &Entity) -> f64 {
     let down = entity.record.number(230).ok().flatten().is_some_and(|z| z < 0.0);
     if down { -1.0 } else { 1.0 }
 }
 
-/// Returns the map from an entity's own coordinates to those of the drawing. Seen from below, x is mirrored.
+/// Returns the map from an entity's own coordinates to those of the drawing. It mirrors x if the entity's z axis points
+/// down.
 fn oriented(entity: &Entity) -> Result<Map, Error> {
     Ok(if upwards(entity) < 0.0 { Map::scaling(-1.0, 1.0) } else { Map::IDENTITY })
 }

@@ -1,14 +1,15 @@
-//! The text of a DXF: pairs of lines, a code and a value; records begin with code 0.
+//! Splits the text of a DXF into tags, which are pairs of lines with a code and a value, and these into records, which
+//! begin with code 0.
 
 use crate::{Error, Point};
 use std::borrow::Cow;
 
-/// A pair of lines.
+/// A pair of lines: a code and a value.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Tag<'a> {
     pub code: i32,
     pub value: &'a str,
-    /// Line of the value.
+    /// Line number of the value, from 1.
     pub line: usize,
 }
 
@@ -29,7 +30,7 @@ impl Tag<'_> {
     }
 }
 
-/// A record: the pairs from one with code 0 up to the next.
+/// A record: a tag with code 0 and the tags after it, up to the next one with code 0.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Record<'a> {
     pub kind: &'a str,
@@ -54,7 +55,7 @@ impl<'a> Record<'a> {
         Ok(self.tag(code).map(Tag::integer).transpose()?.unwrap_or(default))
     }
 
-    /// Returns true if a bit of group 70 is set.
+    /// Returns true if a bit of the value with code 70 is set.
     pub fn flag(&self, bit: i64) -> Result<bool, Error> {
         Ok(self.integer_or(70, 0)? & bit != 0)
     }
@@ -67,7 +68,7 @@ impl<'a> Record<'a> {
         })
     }
 
-    /// Returns the point whose coordinates have this code and this code plus 10.
+    /// Returns the point whose x coordinate has this code, and whose y coordinate has this code plus 10.
     pub fn point(&self, code: i32) -> Result<Point, Error> {
         Ok([self.needed(code)?, self.needed(code + 10)?])
     }

@@ -1,4 +1,4 @@
-//! SVG: filled shapes are solid, and open shapes that are only stroked are walls.
+//! Reads SVG. Filled shapes become solid, and open shapes with only a stroke become walls.
 
 mod path;
 mod style;
@@ -18,7 +18,7 @@ use svgtypes::{Align, AspectRatio, Length, LengthUnit, PointsParser, Transform, 
 
 /// Greatest depth of nested elements.
 const MAX_ELEMENT_DEPTH: usize = 128;
-/// Greatest number of elements after all uses are resolved.
+/// Greatest number of elements, where each `use` counts with the elements that it draws.
 const MAX_ELEMENTS: usize = 1 << 20;
 const SVG_NAMESPACE: &str = "http://www.w3.org/2000/svg";
 const XLINK_NAMESPACE: &str = "http://www.w3.org/1999/xlink";
@@ -59,7 +59,7 @@ fn is_svg(node: Node) -> bool {
     node.is_element() && node.tag_name().namespace().is_none_or(|space| space == SVG_NAMESPACE)
 }
 
-/// Properties inherited within an element.
+/// Properties that an element inherits from the elements around it.
 #[derive(Debug, Clone)]
 struct InheritedProperties {
     map: Map,
@@ -87,7 +87,7 @@ impl<'a, 'i> Reader<'a, 'i> {
         self.ends.partition_point(|&end| end < node.range().start) + 1
     }
 
-    /// Sets up the page: metres, y upwards, from its lower left corner.
+    /// Sets up the page: coordinates are in metres from its lower left corner, with y upwards.
     fn page(&mut self, root: Node<'a, 'i>, settings: &Settings) -> Result<InheritedProperties, Error> {
         let unit = settings.unit;
         let view: Option<ViewBox> = self.parsed(root, "viewBox")?;
@@ -194,7 +194,7 @@ impl<'a, 'i> Reader<'a, 'i> {
         Ok(Some(number * factor).filter(|length| length.is_finite()))
     }
 
-    /// Does the same, with 0 for a missing attribute.
+    /// Same as [`Self::length`], with 0 for a missing attribute.
     fn length_or_0(&self, node: Node, name: &str, whole: f64) -> Result<f64, Error> {
         Ok(self.length(node, name, whole)?.unwrap_or(0.0))
     }
@@ -400,7 +400,7 @@ impl<'a, 'i> Reader<'a, 'i> {
         self.sheet.ellipse(&Ellipse { center, u: [rx, 0.0], v: [0.0, ry] }.mapped(&inside.map), origin)
     }
 
-    /// Adds the stretches of one element: closed or filled ones together form a solid shape.
+    /// Adds the stretches of one element. Together, those that are closed or filled form a solid shape.
     fn stretches(&mut self, stretches: Vec<Stretch>, style: Style, origin: &Origin) -> Result<(), Error> {
         let mut rings = Vec::new();
         for Stretch { points, is_closed } in stretches {

@@ -1,4 +1,4 @@
-//! Path data as chords.
+//! Converts SVG path data to chords.
 
 use crate::Point;
 use crate::curve::{Ellipse, TooFineCurve, cubic};
@@ -6,7 +6,7 @@ use crate::map::Map;
 use std::f64::consts::TAU;
 use svgtypes::{PathParser, PathSegment};
 
-/// A stretch of a path without gaps.
+/// A connected part of a path.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Stretch {
     pub points: Vec<Point>,
@@ -136,7 +136,7 @@ fn arc(a: Point, b: Point, radii: [f64; 2], turn: f64, large: bool, sweep: bool)
     let (sin, cos) = turn.sin_cos();
     let half = [(a[0] - b[0]) / 2.0, (a[1] - b[1]) / 2.0];
     let [x, y] = [cos * half[0] + sin * half[1], cos * half[1] - sin * half[0]];
-    // Radii that are too small to reach both ends grow.
+    // If the radii are too small for the arc to reach both ends, scale them up.
     let reach = (x / rx).powi(2) + (y / ry).powi(2);
     if reach > 1.0 {
         rx *= reach.sqrt();

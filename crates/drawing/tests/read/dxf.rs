@@ -116,7 +116,8 @@ fn a_polyline_of_some_width_covers_it() {
             assert_eq!(notes(&given), vec![output; holes], "{corners}");
         }
     }
-    // Widths of older polylines: of all, and of one vertex. Ends are butt, and a sharp corner is cut off where it is reached.
+    // Older polylines have a width for all vertices, and one for single vertices. Ends are butt. The mitre of a sharp
+    // corner is cut off.
     let old = dxf("0 POLYLINE 8 a 66 1 70 0 40 40 41 40 0 VERTEX 10 0 20 0 41 10 0 VERTEX 10 200 20 0 0 SEQEND");
     let trapezoid = ring(one(&old));
     assert_eq!(trapezoid.iter().filter(|p| p[0] == 0.0 || p[0] == 0.2).count(), trapezoid.len());
@@ -211,8 +212,9 @@ fn splines_of_fit_points_are_those_of_cad_programs() {
         let short = mm / 1000.0 - length(points);
         assert!((0.0..3e-4).contains(&short), "{short} m shorter than the curve");
     }
-    // Through the four ends of a cross of half a metre, closed: four Bézier curves whose inner points are the corners of an octagon,
-    // (1, 1/2) and so on, so they surround 3.05 times the square of the half metre. The first point may be given twice.
+    // A closed spline through the four ends of a cross of half a metre. It consists of four Bézier curves whose inner
+    // points are the corners of an octagon, (1, 1/2) and so on. So they surround 3.05 times the square of the half
+    // metre. The first point may be given twice.
     for again in ["", "11 500 21 0"] {
         let cross = format!("0 SPLINE 8 a 70 11 71 3 11 500 21 0 11 0 21 500 11 -500 21 0 11 0 21 -500 {again}");
         let given = area(ring(one(&dxf(&cross))));
@@ -260,7 +262,8 @@ fn ends_that_meet_are_joined_two_at_a_time() {
 fn blocks_go_where_their_insertions_say() {
     let blocks = "0 BLOCK 2 screw 10 1 20 1 0 LINE 8 0 10 1 20 1 11 3 21 1 0 LINE 8 steel 10 1 20 1 11 1 21 2 0 ENDBLK \
                   0 BLOCK 2 *U7 10 0 20 0 0 INSERT 8 0 2 SCREW 10 10 20 0 50 90 41 2 42 -3 0 ENDBLK";
-    // Once directly, once within another: by hand, (x, y) -> (10 + 3 (y - 1), 2 (x - 1)) there, then times 0.5 and moved.
+    // The block is inserted directly, and within another block. By hand, the map there is
+    // (x, y) -> (10 + 3 (y - 1), 2 (x - 1)), then scaled by 0.5 and moved.
     let twice = drawing(
         &file(blocks, "0 INSERT 8 fix 2 screw 10 100 20 200 0 INSERT 8 cell 2 *U7 10 -50 20 0 41 0.5 42 0.5"),
         Format::Dxf,

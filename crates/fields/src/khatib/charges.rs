@@ -1,22 +1,22 @@
-//! The repulsion of all obstacle cells together: two convolutions by the fast Fourier transform.
+//! The repulsion by all obstacle cells together, computed as two convolutions by the fast Fourier transform.
 
 use super::Limits;
 use cplan_core::cspace::Grid;
 use cplan_interrupt::checkpoint;
 use std::f64::consts::TAU;
 
-/// The effect of obstacle cells of charge 1 on every cell: the sums of `1 / d` and of the forces `1 / d^2` away from
-/// each. `d` is the distance of the centres in cells, by the short direction on circles. If cells are not square,
-/// lengths are in sides of a square of the same area. With [`Limits::High`], a frame of one cell beyond the limits of
-/// intervals also counts as obstacle.
+/// The effect on every cell of obstacle cells with charge 1: the sum of `1 / d`, and the sum of the forces `1 / d^2`
+/// away from the obstacle cells. `d` is the distance of the cells' centres, in cells; for continuous joints, in the
+/// shorter direction. If cells are not square, the unit of length is the side of a square with the same area. With
+/// [`Limits::High`], a frame of one cell beyond the limits of intervals also counts as obstacle.
 ///
-/// The sum of `1 / d^2` approximates the integral of area over squared distance, so it hardly depends on the cell size.
-/// The result equals the direct sums up to rounding; `O(n log n)` in the number of cells.
+/// The sum of `1 / d^2` approximates the integral of area over squared distance, so it hardly depends on the size of
+/// cells. The result equals the direct sums up to rounding. Takes `O(n log n)` for `n` cells.
 #[derive(Debug, Clone)]
 pub(super) struct Charges {
-    /// Sum of `1 / d`, one a cell.
+    /// Sum of `1 / d` for each cell.
     pub potential: Vec<f64>,
-    /// Sum of the forces, one a cell.
+    /// Sum of the forces for each cell.
     pub force: Vec<[f64; 2]>,
 }
 
@@ -38,8 +38,8 @@ impl Charges {
         sources.transform(1.0);
         let step = grid.step();
         let side = (step[0] * step[1]).sqrt();
-        // Displacement along an axis at a place of the padded plane, whose second half stands for negative ones; half way
-        // round a circle both ways cancel out.
+        // Displacement along an axis at a place of the padded plane. The second half of the plane stands for negative
+        // displacements. Halfway around a circle, the forces in both directions cancel out.
         let along = |k: usize, i: usize| {
             let n = grid.cells[k] as f64;
             let d = if 2 * i < padded[k] { i as f64 } else { i as f64 - padded[k] as f64 };
@@ -70,7 +70,7 @@ impl Charges {
             };
             (0..grid.blocked.len()).map(of).collect::<Vec<_>>()
         };
-        // Both components of a force are one complex number.
+        // Store both components of a force as one complex number.
         let force = sums(&|d, away| away.map(|x| x / (d * d * d)));
         let potential = sums(&|d, _| [1.0 / d, 0.0]).into_iter().map(|[sum, _]| sum).collect();
         Self { potential, force }

@@ -1,28 +1,28 @@
-//! Attraction and repulsion as a guide for the curve between the cells.
+//! Attraction and repulsion as a guide for a curve that is not bound to the centres of cells.
 
 use super::{Escape, ForceField, Trap};
 use cplan_harmonic::{Guide, Place};
 use std::collections::BTreeSet;
 
-/// The forces as a [`Guide`]: down the potential, or, where they are saturated and have none, along them as long as they
-/// lead to where the way has not been.
+/// The forces as a [`Guide`]. The curve descends the potential. Saturated forces have no potential: then the curve
+/// follows the forces, as long as these lead to cells that it has not visited.
 pub struct ForceGuide<'a, F> {
     field: &'a ForceField<'a>,
     goals: BTreeSet<usize>,
     visited: BTreeSet<usize>,
     /// The free cell at a place; none for others, and beyond limits.
     at: F,
-    /// Method of leaving local minima. Without one they end the path.
+    /// Method of leaving local minima. With `None`, a local minimum ends the path.
     escape: Option<Escape>,
     escaped: EscapedMinima,
 }
 
-/// The local minima that a way has left.
+/// Counts of the local minima that a path has left.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct EscapedMinima {
     /// Number of local minima.
     pub minima: usize,
-    /// Moves from cell to cell on the ways out of them.
+    /// Number of moves from cell to cell that led out of these minima.
     pub moves: usize,
 }
 
@@ -33,13 +33,14 @@ impl<'a, F: Fn(Place) -> Option<usize>> ForceGuide<'a, F> {
         Self { field, goals, visited: BTreeSet::new(), at, escape: None, escaped: EscapedMinima::default() }
     }
 
-    /// Adds a method for leaving local minima. Saturated forces have none: the path ends where they trap it.
+    /// Sets the method of leaving local minima. It has no effect with saturated forces: the path ends where they trap
+    /// it.
     #[must_use]
     pub fn with_escape(self, escape: Option<Escape>) -> Self {
         Self { escape, ..self }
     }
 
-    /// Returns the number of local minima left so far.
+    /// Returns the counts of local minima that the path has left so far.
     pub fn escaped(&self) -> EscapedMinima {
         self.escaped
     }

@@ -1,14 +1,14 @@
-//! The nearest obstacle of every cell: an exact Euclidean distance transform.
+//! Finds the nearest obstacle of every cell, by an exact Euclidean distance transform.
 
 use super::Limits;
 use cplan_core::cspace::Grid;
 
-/// Returns, for every cell, the displacement from its centre to that of the nearest blocked cell, in the units of the
-/// joints and by the short direction on circles. It is zero for a blocked cell, and infinite if no cell is blocked.
-/// With [`Limits::High`], the cells beyond the limits of intervals are blocked, too.
+/// Returns, for every cell, the displacement from its centre to the centre of the nearest blocked cell, radians or
+/// metres. For continuous joints, it is in the shorter direction. It is zero for a blocked cell, and infinite if no
+/// cell is blocked. With [`Limits::High`], the cells beyond the limits of intervals are blocked as well.
 ///
-/// Exact up to rounding: first along rows, then by the lower envelope of parabolas along columns (Felzenszwalb,
-/// Huttenlocher 2012). Linear in the number of cells.
+/// The result is exact up to rounding. It is computed first along rows, then by the lower envelope of parabolas along
+/// columns (Felzenszwalb, Huttenlocher 2012). Takes linear time in the number of cells.
 #[must_use]
 pub fn nearest_obstacles(grid: &Grid, limits: Limits) -> Vec<[f64; 2]> {
     let [rows, columns] = grid.cells;
@@ -27,7 +27,7 @@ pub fn nearest_obstacles(grid: &Grid, limits: Limits) -> Vec<[f64; 2]> {
             let inside = (0..n).contains(&i) || wraps[0];
             let offset = if inside { along[i.rem_euclid(n) as usize][j] } else { solid[0].then_some(0) };
             if let Some(offset) = offset {
-                // Heights in squares of the rows' step.
+                // The unit of heights is the square of the step between rows.
                 let height = offset as f64 * step[1] / step[0];
                 envelope.add(Site { at: i, height: height * height, offset });
             }
@@ -39,7 +39,8 @@ pub fn nearest_obstacles(grid: &Grid, limits: Limits) -> Vec<[f64; 2]> {
     nearest
 }
 
-/// Steps from each cell of a row to the nearest blocked one in it, the lower of two.
+/// Returns the number of steps from each cell of a row to the nearest blocked cell in the row. Of two that are equally
+/// near, it is the one with the lower index. `None` if no cell of the row is blocked.
 fn in_row(row: &[bool], wraps: bool, solid: bool) -> Vec<Option<i64>> {
     let n = row.len() as i64;
     let blocked = |j: i64| match (0..n).contains(&j) {
@@ -53,7 +54,7 @@ fn in_row(row: &[bool], wraps: bool, solid: bool) -> Vec<Option<i64>> {
         }
     };
     let mut nearest: Vec<Option<i64>> = vec![None; row.len()];
-    // A circle is passed twice, so that cells across the seam are known.
+    // Go over a circle more than once, so that blocked cells across the seam are known.
     let (first, last) = if wraps { (-n, 2 * n) } else { (-1, n + 1) };
     let mut pass = |places: &mut dyn Iterator<Item = i64>| {
         let mut seen = None;
@@ -71,7 +72,7 @@ fn in_row(row: &[bool], wraps: bool, solid: bool) -> Vec<Option<i64>> {
     nearest
 }
 
-/// A parabola `(x - at)^2 + height`.
+/// The parabola `(x - at)^2 + height`.
 #[derive(Clone, Copy)]
 struct Site {
     at: i64,
@@ -79,11 +80,11 @@ struct Site {
     offset: i64,
 }
 
-/// The lower envelope of parabolas of one width.
+/// The lower envelope of parabolas that differ only in their position.
 #[derive(Default)]
 struct Envelope {
     sites: Vec<Site>,
-    /// Start of the range in which each parabola is the lowest.
+    /// For each parabola, the beginning of the range in which it is the lowest.
     from: Vec<f64>,
 }
 
@@ -109,7 +110,7 @@ impl Envelope {
         self.from.push(from);
     }
 
-    /// Iterates over the lowest parabola at each of the places `0..n`. Empty if there are no parabolas.
+    /// Iterates over the places `0..n`, with the lowest parabola at each. Yields nothing if there are no parabolas.
     fn lowest(&self, n: usize) -> impl Iterator<Item = (usize, Site)> + '_ {
         let mut k = 0;
         (0..n).filter_map(move |i| {
@@ -121,7 +122,7 @@ impl Envelope {
     }
 }
 
-/// Returns where `b`, to the right, becomes lower than `a`.
+/// Returns the place from which on `b`, which is to the right of `a`, is lower than `a`.
 fn crossing(a: &Site, b: &Site) -> f64 {
     let (x, y) = (a.at as f64, b.at as f64);
     0.5 * ((b.height - a.height) / (y - x) + (x + y))

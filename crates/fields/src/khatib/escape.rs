@@ -1,7 +1,7 @@
-//! Out of a local minimum of attraction and repulsion, which forces alone never leave.
+//! Methods of leaving a local minimum of attraction and repulsion, which forces alone never leave.
 //!
-//! Either method is Barraquand and Latombe's (*Robot motion planning: a distributed representation approach*, 1991): random
-//! walks, and a search that fills the basin of the minimum.
+//! Both methods are from Barraquand and Latombe (*Robot motion planning: a distributed representation approach*, 1991):
+//! random walks, and a search that fills the basin of the minimum.
 
 use super::ForceField;
 use cplan_core::space::SplitMix64;
@@ -15,18 +15,18 @@ use std::fmt;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Escape {
-    /// Random walks from the minimum, each followed by a descent, until one reaches a lower cell. The search may fail.
+    /// Random walks from the minimum, each followed by a descent, until a walk reaches a lower cell. This may fail.
     Walk {
         /// Seed of the random numbers: the same seed gives the same walks.
         seed: u64,
     },
-    /// A wave that fills the basin of the minimum from the bottom, lowest edge cell first, until it overflows into a
-    /// lower cell. It finds the goal if the cells are connected to it.
+    /// A search that fills the basin of the minimum, always with the lowest cell at the edge of the filled part, until
+    /// it reaches a cell that is lower than the minimum. It succeeds if free cells connect the minimum with a goal.
     Wave,
 }
 
 impl Escape {
-    /// Returns how it leaves a minimum, in words.
+    /// Returns a description of the method, in words.
     #[must_use]
     pub fn description(self) -> &'static str {
         match self {
@@ -46,15 +46,16 @@ impl fmt::Display for Escape {
     }
 }
 
-/// Random walks from one minimum at the most.
+/// Largest number of random walks from one minimum.
 const MAX_WALKS: usize = 256;
 
-/// Steps of the first walk; each later one has as many more.
+/// Number of steps of the first walk. Each further walk has this many steps more than the one before.
 const FIRST_WALK_STEPS: usize = 16;
 
 impl ForceField<'_> {
-    /// Returns the cells from a local minimum to a lower cell or a goal: neighbours, the minimum first. `number` counts the minima of
-    /// one path, so that each has walks of its own. Returns nothing if no lower cell is found.
+    /// Returns the cells from a local minimum to a lower cell or a goal. The minimum comes first, and consecutive cells
+    /// are neighbours. `number` counts the minima of a path, so that each has different random walks. Returns `None` if
+    /// no lower cell is found.
     pub(super) fn escape(
         &self,
         minimum: usize,
@@ -73,7 +74,8 @@ impl ForceField<'_> {
         }
     }
 
-    /// Fills the basin about a cell until a cell is out of it. `O(n log n)` in the cells that are filled.
+    /// Fills the basin around a cell until a cell satisfies `is_out`. Returns the cells to that cell. Takes `O(n log
+    /// n)` for `n` filled cells.
     fn fill(&self, from: usize, is_out: impl Fn(usize) -> bool) -> Option<Vec<usize>> {
         let mut parents = BTreeMap::from([(from, from)]);
         let mut edge = OpenList::default();
@@ -96,7 +98,8 @@ impl ForceField<'_> {
         None
     }
 
-    /// Walks at random for so many steps and then descends; the way without its loops, if it comes out of the basin.
+    /// Walks at random for this many steps, and then descends. Returns the cells of the walk without its loops, or
+    /// `None` if it does not leave the basin.
     fn walk(
         &self,
         from: usize,
@@ -125,7 +128,7 @@ impl ForceField<'_> {
     }
 }
 
-/// Removes the loops of a walk, so that it comes to no cell twice.
+/// Removes the loops of a walk, so that it visits no cell twice.
 fn without_loops(path: Vec<usize>) -> Vec<usize> {
     let mut kept: Vec<usize> = Vec::new();
     let mut places: BTreeMap<usize, usize> = BTreeMap::new();

@@ -1,5 +1,5 @@
-//! Attraction by the goal and repulsion by the nearest obstacle (Khatib 1986) or by all of them (Faria 2006): local, cheap,
-//! and full of local minima. The counter-example that harmonic fields cure.
+//! Attraction by the goal, and repulsion by the nearest obstacle (Khatib 1986) or by all obstacles (Faria 2006). The
+//! forces are local and cheap to compute, but have many local minima. Harmonic fields have none.
 
 use super::charges::Charges;
 use super::{Limits, nearest_obstacles};
@@ -8,43 +8,44 @@ use cplan_core::space::Configuration;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// Law of attraction by the nearest goal, at a distance `d`.
+/// Law of the attraction by the nearest goal at the distance `d`.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Attraction {
-    /// Force `c` at any distance; potential `c d`, a cone.
+    /// Force `c` at any distance. The potential is `c d`, a cone.
     Constant(f64),
-    /// Force `k d`; potential `k d^2 / 2`, a paraboloid.
+    /// Force `k d`. The potential is `k d^2 / 2`, a paraboloid.
     Linear(f64),
 }
 
-/// Law of repulsion by an obstacle, at a distance `p`.
+/// Law of the repulsion by obstacles at the distance `p`.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Repulsion {
-    /// The nearest obstacle: potential `k (1/p - 1/p0)^2 / 2` within the range `p0`, nothing beyond.
+    /// Only the nearest obstacle repels: the potential is `k (1/p - 1/p0)^2 / 2` within the range `p0`, and 0 beyond
+    /// it.
     Ranged {
         /// The factor `k` of the potential.
         gain: f64,
-        /// `p0`, in the units of the joints.
+        /// The range `p0`, radians or metres.
         range: f64,
     },
-    /// The nearest obstacle: force `Q / p^2` at any distance; potential `Q / p`.
+    /// Only the nearest obstacle repels: the force is `Q / p^2` at any distance, the potential `Q / p`.
     InverseSquare(f64),
-    /// Every obstacle cell: force `Q / p^2`, `p` in cells.
+    /// Every obstacle cell repels with the force `Q / p^2`, where `p` is in cells.
     Sum(f64),
 }
 
-/// The two laws.
+/// The laws of attraction and repulsion.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Khatib {
-    /// Attraction of the goal.
+    /// Attraction by the goal.
     pub attraction: Attraction,
-    /// Repulsion of the obstacles.
+    /// Repulsion by the obstacles.
     pub repulsion: Repulsion,
-    /// If true, each component of either force is passed through tanh before they are added, so that none exceeds 1
-    /// (Gonçalves da Silva). Such a force is not a gradient: it has no potential.
+    /// True if each component of both forces is replaced by its tanh before the forces are added, so that no component
+    /// exceeds 1 (Gonçalves da Silva). Such a force is not a gradient: it has no potential.
     pub saturated: bool,
 }
 
@@ -112,7 +113,7 @@ impl fmt::Display for Repulsion {
     }
 }
 
-/// The laws on a grid, for the centres of its cells. Distances are Euclidean, in the units of the joints.
+/// The forces at the centres of a grid's cells. Distances are Euclidean, in radians or metres.
 #[derive(Debug, Clone)]
 pub struct ForceField<'a> {
     grid: &'a Grid,
@@ -121,28 +122,28 @@ pub struct ForceField<'a> {
     obstacles: Obstacles,
 }
 
-/// The repelling obstacles of every cell.
+/// The obstacles that repel each cell.
 #[derive(Debug, Clone)]
 enum Obstacles {
-    /// Displacements to the nearest.
+    /// Only the nearest obstacle repels: its displacement from each cell.
     Nearest(Vec<[f64; 2]>),
     /// All obstacle cells repel together.
     Sum(Charges),
 }
 
-/// A cell all of whose neighbours are worse.
+/// A cell that the forces do not leave.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Trap {
     /// The cell that cannot be left.
     pub cell: usize,
-    /// Its potential; for saturated forces, which have none, the strength of the force.
+    /// Potential of the cell. Saturated forces have no potential; then this is the strength of the force.
     pub value: f64,
-    /// True if it is a local minimum of the potential. Otherwise the forces led back to a visited cell.
+    /// True if the cell is a local minimum of the potential. If false, the forces lead back to a visited cell.
     pub minimum: bool,
 }
 
 impl<'a> ForceField<'a> {
-    /// Builds the field. Linear in the number of cells, times a logarithm for [`Repulsion::Sum`]. There must be a goal.
+    /// Builds the field. There must be a goal. Takes `O(n)` for `n` cells, or `O(n log n)` with [`Repulsion::Sum`].
     #[must_use]
     pub fn new(grid: &'a Grid, laws: Khatib, goals: &[Configuration], limits: Limits) -> Self {
         let obstacles = match laws.repulsion {
@@ -154,13 +155,14 @@ impl<'a> ForceField<'a> {
         Self { grid, laws, goals: goals.to_vec(), obstacles }
     }
 
-    /// Returns the potential in a free cell. For saturated forces, returns that of the unsaturated ones.
+    /// Returns the potential in a free cell. For saturated forces, returns the potential that they would have without
+    /// saturation.
     #[must_use]
     pub fn potential(&self, cell: usize) -> f64 {
         let Khatib { attraction, repulsion, .. } = self.laws;
         let push = match &self.obstacles {
             Obstacles::Nearest(nearest) => repulsion.potential(nearest[cell][0].hypot(nearest[cell][1])),
-            // Its slope is the force, which counts distances in cells.
+            // The slope of this potential is the force, for which distances are in cells.
             Obstacles::Sum(charges) => repulsion.potential(1.0) * charges.potential[cell] * self.side(),
         };
         attraction.potential(self.to_goal(cell).norm()) + push
@@ -184,7 +186,7 @@ impl<'a> ForceField<'a> {
         [0, 1].map(|k| saturate(pull * to_goal[k]) + saturate(push[k]))
     }
 
-    /// Returns the side of a square of a cell's area.
+    /// Returns the side of a square with the area of a cell.
     fn side(&self) -> f64 {
         let [a, b] = self.grid.step();
         (a * b).sqrt()
@@ -200,12 +202,12 @@ impl<'a> ForceField<'a> {
         self.laws.saturated
     }
 
-    /// Goes from cell to cell until it is in one of `targets`: to the neighbour with the lowest potential among eight,
-    /// or with saturated forces to the one that lies most in the direction of the force. Corners of obstacles are not
-    /// cut. At most one step a cell.
+    /// Moves from cell to cell until it reaches one of `targets`, and returns the cells. Each move leads to the one of
+    /// eight neighbours with the lowest potential. With saturated forces, it leads to the neighbour that lies most in
+    /// the direction of the force. Moves do not cut corners of obstacles. There is at most one move per cell.
     ///
-    /// # Errors
-    /// [`Trap`] where no neighbour has a lower potential, or no force leads to a cell that the way has not been in.
+    /// # Errors [`Trap`] if no neighbour has a lower potential, or if saturated forces do not lead to a cell that was
+    /// not visited.
     pub fn descend(&self, from: usize, targets: &[usize]) -> Result<Vec<usize>, Trap> {
         let mut visited = vec![false; if self.laws.saturated { self.grid.blocked.len() } else { 0 }];
         let mut cells = vec![from];
@@ -220,7 +222,7 @@ impl<'a> ForceField<'a> {
         Ok(cells)
     }
 
-    /// Returns the next cell from a cell. With saturated forces it must not have been visited.
+    /// Returns the cell that follows `at`. With saturated forces, this must be a cell that was not visited.
     pub(super) fn next(&self, at: usize, visited: impl Fn(usize) -> bool) -> Result<usize, Trap> {
         if self.laws.saturated { self.along_force(at, visited) } else { self.lower(at) }
     }
@@ -264,7 +266,7 @@ impl<'a> ForceField<'a> {
         })
     }
 
-    /// Returns the cell this many rows and columns away, if it exists and is free.
+    /// Returns the cell this many rows and columns away. `None` if there is none, or if it is not free.
     fn free(&self, from: usize, by: [i64; 2]) -> Option<usize> {
         let [rows, columns] = self.grid.cells;
         let place = |k: usize, at: usize, n: usize| {

@@ -1,4 +1,4 @@
-//! Attraction and repulsion: the fields that have local minima.
+//! Attraction and repulsion: fields with local minima.
 
 mod charges;
 mod descent;

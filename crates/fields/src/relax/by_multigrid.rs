@@ -1,4 +1,4 @@
-//! Linear equations with a drift, solved by multigrid: the limit of a relaxation in a few steps.
+//! Solves linear equations with a drift by multigrid, in a few steps. The result is the limit of a relaxation.
 
 use super::stencil::sides;
 use super::sweeps::begun;
@@ -6,29 +6,30 @@ use super::{Boundary, Convergence, Domain, Equation, Measure, RelaxError, Relaxe
 use cplan_interrupt::checkpoint;
 use cplan_multigrid::{Ends, Multigrid, Workspace};
 
-/// Steps until directions are forgotten: so many vectors are kept.
+/// Number of steps after which GMRES restarts, and so the number of vectors that it keeps.
 const RESTART_STEPS: usize = 16;
 
-/// The error to which a step solves for the equation without its drift. It only leads the way: a digit is enough.
+/// Relative error to which a step solves the equation without its drift. That solution only gives a direction, so one
+/// digit is enough.
 const PRECONDITIONER_ERROR: f64 = 0.1;
 
-/// The least error to which a step solves where there is no drift: about what single precision allows.
+/// Least relative error to which a step solves an equation without a drift: about what single precision allows.
 const MIN_STEP_ERROR: f64 = 1e-6;
 
-/// Fraction of the requested change at which a step may stop. The residual decides, not its estimate, and rounding adds
-/// to it.
+/// Fraction of the requested change at which steps stop by the estimate of the residual. It is less than 1, because the
+/// residual itself is checked, and rounding makes it greater than the estimate.
 const STEP_STOP_FRACTION: f64 = 0.5;
 
-/// Solves a linear equation from `start`, such as the field before obstacles moved slightly. Flexible GMRES (Saad
-/// 1993), preconditioned by the multigrid solution of the same problem without the drift, to one digit.
+/// Solves a linear equation from `start`, such as the field before obstacles moved slightly. The method is flexible
+/// GMRES (Saad 1993). Its preconditioner is a multigrid solution, to one digit, of the same problem without the drift.
 ///
 /// A step costs as much as that solution. The number of steps depends on the drift times the width of its region, not
-/// on the number of cells: from zero it is 2 to 14 in the fields of `examples/robot_football`, where Gauss-Seidel
-/// relaxation takes 400 to 1400 sweeps by the same rule. Without a drift, a step is the multigrid solution itself, as
-/// exact as requested, so one step usually suffices.
+/// on the number of cells. In the fields of `examples/robot_football`, starting from zero, it is 2 to 14, where
+/// Gauss-Seidel relaxation takes 400 to 1400 sweeps by the same rule. Without a drift, a step is the multigrid solution
+/// itself, as exact as requested, so one step usually suffices.
 ///
 /// [`Convergence::sweeps`] counts steps. [`Convergence::change`] is the sum of squared changes that a Jacobi sweep
-/// would make. If the start already satisfies the rule, nothing is done.
+/// would make. If the start already satisfies the stopping rule, there is no step.
 ///
 /// ```
 /// use cplan_fields::*;
@@ -69,7 +70,7 @@ impl PartialEq for Memory {
     }
 }
 
-/// [`by_multigrid`] in memory that was used before.
+/// Same as [`by_multigrid`], but reuses memory from an earlier solve.
 pub fn by_multigrid_in(
     domain: &Domain,
     equation: &Equation,
@@ -90,7 +91,7 @@ pub fn by_multigrid_in(
         let stage = Convergence { sweeps: 0, change: 0.0, converged: true };
         return Ok(RelaxedField { values: Vec::new(), stages: vec![stage] });
     }
-    // Whether the equation is another one than that of the preconditioner.
+    // True if the equation differs from that of the preconditioner.
     let has_drift = *equation != Equation::Harmonic || domain.beta() != 1.0;
     let system = System::new(domain, has_drift.then_some(|cell| sides(domain.beta(), drift(cell), difference)));
     let mut values = begun(domain, start)?;
@@ -106,7 +107,7 @@ pub fn by_multigrid_in(
             let place = [cell / domain.cells()[1], cell % domain.cells()[1]];
             return Err(RelaxError::Diverged { sweeps: stage.sweeps, cell: place, value: values[cell], hint });
         }
-        // Rounding ends the progress.
+        // Also stop if the last round made no progress, because of rounding.
         if stage.converged || stage.sweeps >= stopping.max_sweeps || stage.change >= before {
             values.pop();
             memory.0 = preconditioner.map(|Preconditioner { workspace, .. }| workspace).or(memory.0.take());
@@ -114,7 +115,7 @@ pub fn by_multigrid_in(
         }
         let advice = preconditioner.get_or_insert_with(|| Preconditioner::new(&system, memory));
         if !has_drift {
-            // The preconditioner returns the solution, as precisely as requested.
+            // Without a drift, the preconditioner gives the solution itself, as precisely as requested.
             let error =
                 (STEP_STOP_FRACTION * stopping.below / stage.change).sqrt().clamp(MIN_STEP_ERROR, PRECONDITIONER_ERROR);
             let correction = advice.correction(&system, &residual, error);
@@ -135,9 +136,9 @@ struct System {
     sought: Vec<bool>,
     /// Weights of the neighbours `-q1, +q1, -q2, +q2` of each cell. `None` if all are 1.
     weights: Option<Vec<[f64; 4]>>,
-    /// Their sums, over neighbours that are not the cell itself.
+    /// Sum of the weights of each cell, over neighbours that are not the cell itself.
     sums: Vec<f64>,
-    /// The reciprocals of these; 0 where nothing is sought.
+    /// Reciprocals of the sums; 0 for cells that are not unknowns.
     shares: Vec<f64>,
 }
 
@@ -176,8 +177,8 @@ impl System {
         Self { cells, boundaries, sought, weights, sums, shares }
     }
 
-    /// Returns values with a frame of one cell that holds the boundary values. `values` has one entry per cell, and the
-    /// value of high limits last.
+    /// Returns values with a frame of one cell, which has the boundary values. `values` has one entry per cell, and the
+    /// value beyond high limits last.
     fn framed(&self, values: &[f64]) -> Vec<f64> {
         let ([rows, columns], beyond) = (self.cells, values[values.len() - 1]);
         let stride = columns + 2;
@@ -223,7 +224,7 @@ impl System {
             let first = i * columns;
             let shares = &self.shares[first..][..columns];
             for (j, to) in residual[first..][..columns].iter_mut().enumerate() {
-                // From a neighbour that is the cell itself there is no difference.
+                // A neighbour that is the cell itself makes no difference.
                 let ([a, b, c, d], here) = (weights(first + j), here[j]);
                 let rows = a * (above[j] - here) + b * (below[j] - here);
                 *to = (rows + (c * (before[j] - here) + d * (after[j] - here))) * shares[j];
@@ -232,7 +233,8 @@ impl System {
         residual
     }
 
-    /// Takes steps until they are expected to be enough, and adds them to the values; how many there were.
+    /// Takes steps until the estimated residual is below `below`, at most `most` steps, and adds them to the values.
+    /// Returns the number of steps.
     fn round(
         &self,
         advice: &mut Preconditioner,
@@ -243,12 +245,12 @@ impl System {
     ) -> usize {
         let mut left = vec![square(&residual).sqrt()];
         let (mut basis, mut corrections) = (vec![scaled(residual, 1.0 / left[0])], Vec::new());
-        // Columns of a triangle, and the turns that made it one.
+        // The columns of the triangular matrix of GMRES, and the Givens rotations that made it triangular.
         let (mut columns, mut turns): (Vec<Vec<f64>>, Vec<[f64; 2]>) = (Vec::new(), Vec::new());
         while corrections.len() < most {
             checkpoint();
             let correction = advice.correction(self, &basis[basis.len() - 1], PRECONDITIONER_ERROR);
-            // The residual falls by this where the values go the way.
+            // If the correction is added to the values, the residual falls by this.
             let mut image = scaled(self.residual(&correction), -1.0);
             corrections.push(correction);
             let mut column: Vec<f64> = Vec::with_capacity(basis.len() + 1);
@@ -265,7 +267,7 @@ impl System {
             let k = turns.len();
             let length = column[k].hypot(beyond);
             if !(length > 0.0 && length.is_finite()) {
-                // The way changes nothing that others have not.
+                // This correction changes the residual in no new direction.
                 corrections.pop();
                 break;
             }

@@ -1,4 +1,4 @@
-//! Descent to a goal: from cell to cell, and slopes for the curve between cells.
+//! Descent to a goal: from cell to cell, and along the gradient as a curve.
 
 use super::{Cell, Domain, Neighbor};
 use cplan_harmonic::{Guide, Place};
@@ -7,26 +7,29 @@ use std::collections::{BTreeMap, VecDeque};
 /// A cell at which a descent ended without a goal.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DeadEnd {
-    /// The cell in which it ended.
+    /// The cell in which the descent ended.
     pub cell: usize,
     /// The value of the field there.
     pub value: f64,
-    /// True if a free neighbour has exactly the same value. Otherwise all are worse.
+    /// True if a free neighbour has exactly the same value. If false, all neighbours are worse.
     pub flat: bool,
 }
 
-/// Goes from cell to neighbouring cell, always to the one whose value is nearest to the goals' (the first of equals), until
-/// it comes to a goal: down if obstacles are high, up if they are low. Where all neighbours are worse or equal it crosses
-/// the cells of equal value to the nearest better one: a field may be level about a point where it is symmetric. It does not
-/// cross cells with the very value of obstacles or goals: there the field says nothing any more. No cell comes twice.
+/// Moves from cell to neighbouring cell until it reaches a goal, and returns the cells. Each move leads to the
+/// neighbour whose value is nearest to the goals' level, or to the first of several: down if obstacles are high, up if
+/// they are low.
+///
+/// If no neighbour is better, the path crosses cells of equal value to the nearest better cell, because a field may be
+/// level around a point of symmetry. It does not cross cells that have exactly the level of obstacles or goals, where
+/// the field gives no direction. No cell is visited twice.
 ///
 /// # Errors
-/// [`DeadEnd`] where there is no better value to go to. The fields of monotone equations, relaxed to convergence, have no
-/// such cell, but where their values differ by less than doubles can tell, and where no obstacle can be reached but by way
-/// of goals: there the field is constant.
+/// [`DeadEnd`] if there is no better cell. Converged fields of monotone equations have two kinds of such cells: where
+/// values differ by less than the precision of doubles, and where only goals bound a region, so that the field is
+/// constant.
 ///
 /// # Panics
-/// If there is not one value a cell, or `from` is no cell.
+/// If there is not one value per cell, or `from` is not a cell.
 pub fn descend(domain: &Domain, values: &[f64], from: usize) -> Result<Vec<usize>, DeadEnd> {
     assert_eq!(values.len(), domain.kinds().len(), "one value a cell");
     let slope = Values { domain, values };
@@ -56,19 +59,20 @@ impl Values<'_> {
         })
     }
 
-    /// Returns the value, oriented so that obstacles are high.
+    /// Returns the value of a cell, with the sign changed if obstacles are low.
     fn height(&self, cell: usize) -> f64 {
         self.domain.levels().orientation() * self.values[cell]
     }
 
-    /// Returns the best neighbour, if it is strictly better.
+    /// Returns the best neighbour of a cell. `None` if it is not better than the cell.
     fn lowest(&self, cell: usize) -> Option<usize> {
         let lower = |best, next| if self.height(next) < self.height(best) { next } else { best };
         let best = self.neighbors(cell).fold(cell, lower);
         (best != cell).then_some(best)
     }
 
-    /// Returns the cells after `from`, all of its value, up to the nearest one that has a better neighbour.
+    /// Returns the cells that follow `from`, all with the same value, up to the nearest cell that has a better
+    /// neighbour.
     fn across(&self, from: usize) -> Result<Vec<usize>, DeadEnd> {
         let value = self.values[from];
         let is_level = |cell: usize| self.values[cell] == value && self.domain.kinds()[cell] == Cell::Free;
@@ -99,11 +103,11 @@ impl Values<'_> {
     }
 }
 
-/// The values of a field as a [`Guide`]: towards the goals' along the gradient of the logarithm of their distance from the
-/// obstacles' value, by central differences.
+/// The values of a field as a [`Guide`]. The curve follows the gradient of the logarithm of the difference between the
+/// value and the obstacles' level, by central differences, towards the goals.
 pub struct ValueGuide<'a, F> {
     values: Values<'a>,
-    /// The cell at a place; none beyond limits.
+    /// Returns the cell at a place; `None` beyond limits.
     at: F,
 }
 
@@ -136,9 +140,10 @@ impl<F: Fn(Place) -> Option<usize>> Guide for ValueGuide<'_, F> {
             Neighbor::Limit => 0.0,
             Neighbor::Mirror => here,
         });
-        // Where an equation is not monotone a value may be beyond the obstacles', and has no logarithm.
+        // If an equation is not monotone, a value may be beyond the obstacles' level. It has no logarithm.
         let scale = if here > 0.0 { 2.0 * here } else { 1.0 };
-        // As a displacement in cells: steepest in the lengths of cells, which along axis 2 are shorter by `beta`.
+        // Return a displacement in cells. It is steepest in lengths; along axis 2, a cell is shorter by the factor
+        // `beta`.
         Some([(up - down) / scale, domain.beta() * domain.beta() * (right - left) / scale])
     }
 

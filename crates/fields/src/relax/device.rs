@@ -3,14 +3,14 @@
 use super::{Domain, Equation, RelaxError, Relaxation, RelaxedField, Stopping, relax};
 use serde::{Deserialize, Serialize};
 
-/// A device for sweeps.
+/// A device that computes the sweeps of a relaxation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Device {
     /// The CPU, in double precision.
     #[default]
     Cpu,
-    /// A GPU, in single precision: values below 10^-38 are 0. Cells are updated all at once or
+    /// A GPU, in single precision: values below 10^-38 become 0. The order of updates must be all cells at once, or
     /// [red-black](super::Order::RedBlack).
     Gpu,
 }
@@ -19,7 +19,7 @@ impl Device {
     /// Returns the name of the GPU adapter, or `None` for the CPU.
     ///
     /// # Errors
-    /// The reason with a hint: no driver, or a program built without the feature `gpu`.
+    /// Returns the reason, with a hint: there is no driver, or the program was built without the feature `gpu`.
     pub fn adapter(self) -> Result<Option<&'static str>, String> {
         match self {
             Self::Cpu => Ok(None),
@@ -30,13 +30,13 @@ impl Device {
         }
     }
 
-    /// Returns true for the CPU, which reports leave unmentioned.
+    /// Returns true for the CPU. Results do not mention this default.
     #[must_use]
     pub fn is_cpu(&self) -> bool {
         *self == Self::Cpu
     }
 
-    /// Returns the name of its precision.
+    /// Returns the name of the device's precision.
     #[must_use]
     pub fn precision(self) -> &'static str {
         if self.is_cpu() { "doubles" } else { "single precision" }
@@ -46,13 +46,11 @@ impl Device {
 #[cfg(not(feature = "gpu"))]
 const NO_GPU_MESSAGE: &str = "this program was built without GPU; build it with --features gpu, or relax on the CPU";
 
-/// Does the same as [`relax`], on a device. On a GPU, fields differ from the CPU's by rounding to single precision. A
-/// stage that cannot improve in single precision ends unconverged before `stopping.max_sweeps`.
+/// Same as [`relax`], on a device. On a GPU, values are rounded to single precision. A stage that cannot improve in
+/// single precision ends unconverged before `stopping.max_sweeps`.
 ///
-/// # Errors
-/// Same as [`relax`]; [`RelaxError::Refused`] if there is no GPU, or it does not support the request (other orders, too
-/// many cells).
-/// As [`relax`]; [`RelaxError::Refused`] if there is no GPU, or the GPU does not support the request: other orders, too many cells.
+/// # Errors Same as [`relax`]. Also [`RelaxError::Refused`] if there is no GPU, or if the GPU does not support the
+/// order of updates or the number of cells.
 pub fn relax_on(
     device: Device,
     domain: &Domain,

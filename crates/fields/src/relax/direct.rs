@@ -1,23 +1,24 @@
-//! Fields by elimination: what relaxations are measured against.
+//! Computes fields by elimination. These are the solutions with which relaxations are compared.
 
 use super::stencil::{Stencil as _, WeightedMean};
 use super::{Domain, Equation, Neighbor};
 use cplan_interrupt::checkpoint;
 
-/// Largest residual of an accepted solution, as a fraction of the greatest value. Elimination of central differences
-/// with a strong drift may lose all digits.
+/// Largest residual of an accepted solution, as a fraction of the greatest value. With central differences and a strong
+/// drift, elimination may lose all digits.
 const MAX_RESIDUAL: f64 = 1e-9;
 
-/// Numbers that a band may have: 256 MB of them.
+/// Largest number of entries of the band: 256 MB of memory.
 const MAX_BAND_NUMBERS: usize = 1 << 25;
 
-/// Solves a linear equation by banded Gaussian elimination. Returns `None` for preferences (whose drift depends on a
-/// field), if elimination without pivoting fails (strong drifts with central differences), if the band would take more
-/// than 256 MB, or if the equation is for another domain.
+/// Solves a linear equation by banded Gaussian elimination. Returns `None`:
+/// - for preferences, whose drift depends on a field,
+/// - if elimination without pivoting fails, as for strong drifts with central differences,
+/// - if the band would need more than 256 MB of memory,
+/// - if the equation is for another domain.
 ///
-/// It shares only the neighbours' weights with the sweeps. Rows are numbered alternately from both ends, so that a
-/// circle needs at most twice the bandwidth. Takes `O(cells * columns^2)` time and `O(cells * columns)` memory, for
-/// rows of this many columns.
+/// The method shares only the weights of neighbours with the sweeps. Rows are numbered alternately from both ends, so
+/// that a circle needs at most twice the bandwidth. Takes `O(cells * columns^2)` time and `O(cells * columns)` memory.
 #[must_use]
 pub fn eliminated(domain: &Domain, equation: &Equation) -> Option<Vec<f64>> {
     if equation.refusal(domain).is_some() {
@@ -56,7 +57,7 @@ pub fn eliminated(domain: &Domain, equation: &Equation) -> Option<Vec<f64>> {
     fits(domain, &unknowns, &weights, &values).then_some(values)
 }
 
-/// Returns the unknown cells, row by row and alternately from both ends.
+/// Returns the unknown cells, row by row, with rows alternately from both ends.
 fn folded(domain: &Domain) -> Vec<u32> {
     let [rows, columns] = domain.cells();
     let row = |k: usize| if k.is_multiple_of(2) { k / 2 } else { rows - 1 - k / 2 };
@@ -64,7 +65,7 @@ fn folded(domain: &Domain) -> Vec<u32> {
     cells.filter(|&cell| domain.is_sought(cell)).map(|cell| cell as u32).collect()
 }
 
-/// Returns the greatest distance between neighbours in the order of the unknowns.
+/// Returns the greatest difference between the positions of two neighbours in the order of the unknowns.
 fn reach(domain: &Domain, unknowns: &[u32], place: &[Option<usize>]) -> usize {
     let of = |(k, &cell): (usize, &u32)| {
         let places = domain.neighbors(cell as usize).into_iter().filter_map(|neighbor| match neighbor {
@@ -76,7 +77,7 @@ fn reach(domain: &Domain, unknowns: &[u32], place: &[Option<usize>]) -> usize {
     unknowns.iter().enumerate().map(of).max().unwrap_or(0)
 }
 
-/// Returns true if each value agrees with the one that its neighbours imply.
+/// Returns true if each value agrees with the value that its neighbours imply.
 fn fits(domain: &Domain, unknowns: &[u32], weights: &WeightedMean, values: &[f64]) -> bool {
     let greatest = values.iter().fold(0.0, |greatest: f64, value| greatest.max(value.abs()));
     greatest.is_finite()
@@ -92,10 +93,10 @@ fn fits(domain: &Domain, unknowns: &[u32], weights: &WeightedMean, values: &[f64
         })
 }
 
-/// Banded equations: each has unknowns within `reach` of its own.
+/// A banded system of equations. Equation `k` contains only the unknowns from `k - reach` to `k + reach`.
 struct Band {
     reach: usize,
-    /// `2 * reach + 1` factors an equation, its own unknown's in the middle.
+    /// Factors: `2 * reach + 1` for each equation, with the factor of its own unknown in the middle.
     factors: Vec<f64>,
     right: Vec<f64>,
 }

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 /// The kind of a cell in a field.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Cell {
-    /// An unknown.
+    /// A cell whose value is an unknown.
     Free,
     /// A cell with the value [`Levels::obstacle`].
     Obstacle,
@@ -18,26 +18,27 @@ pub enum Cell {
 /// Boundary condition at the first and the last cell of an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Boundary {
-    /// The cells of the other end: a circle.
+    /// The axis is a circle: the cells at the other end are neighbours.
     Periodic,
-    /// The value of obstacles (Dirichlet).
+    /// Cells beyond the limit have the value of obstacles (Dirichlet).
     High,
-    /// The mirror image: no flow through the limit (Neumann). A cell at the limit has itself as its neighbour there.
+    /// Values beyond the limit are a mirror image: there is no flow through the limit (Neumann). A cell at the limit is
+    /// its own neighbour.
     Reflecting,
 }
 
-/// The limits of intervals; circles have none.
+/// Boundary condition at the limits of joints; continuous joints have none.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Limits {
-    /// The value of obstacles: [`Boundary::High`].
+    /// Limits have the value of obstacles: [`Boundary::High`].
     #[default]
     High,
-    /// Mirrors: [`Boundary::Reflecting`].
+    /// Limits reflect: [`Boundary::Reflecting`].
     Reflecting,
 }
 
-/// The fixed values, and that which free cells start from.
+/// The fixed values of obstacles and goals, and the initial value of free cells.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Levels {
     /// The value that obstacles keep.
@@ -49,41 +50,43 @@ pub struct Levels {
 }
 
 impl Levels {
-    /// The levels of the literature: obstacles 1, goals 0, free cells start at 0; paths descend.
+    /// The levels of the literature: obstacles have 1, goals 0, and free cells start at 0. Paths descend.
     pub const PUBLISHED: Self = Self { obstacle: 1.0, goal: 0.0, free: 0.0 };
 
-    /// The complement: the probability that a random walk comes to a goal before it comes to an obstacle. Paths ascend. It
-    /// is small far from the goal, where doubles keep their relative precision; the complement of a small number would be
-    /// 1. All free cells start as low as obstacles, so that without over-relaxation values only rise.
+    /// One minus the levels of the literature: a value is the probability that a random walk reaches a goal before an
+    /// obstacle. Paths ascend. Values far from the goal are small, and doubles represent small values with full
+    /// relative precision. Free cells start at the level of obstacles, so that without over-relaxation values only
+    /// rise.
     pub const PROBABILITY: Self = Self { obstacle: 0.0, goal: 1.0, free: 0.0 };
 
-    /// Returns 1 if obstacles are high and -1 if they are low: the factor that converts differences of values to the
-    /// published sign.
+    /// Returns 1 if obstacles are high, and -1 if they are low. With this factor, differences of values have the sign
+    /// of the literature.
     pub(super) fn orientation(self) -> f64 {
         if self.obstacle < self.goal { -1.0 } else { 1.0 }
     }
 }
 
-/// The neighbour of a cell in some direction.
+/// The neighbour of a cell in one of four directions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Neighbor {
     /// Another cell, by its number.
     Cell(usize),
-    /// Beyond a high limit: has the value of obstacles.
+    /// A place beyond a limit that has the value of obstacles.
     Limit,
-    /// The cell itself: beyond a reflecting limit, and round a circle of one cell.
+    /// The cell itself: beyond a reflecting limit, and on a circle of one cell.
     Mirror,
 }
 
-/// Whether an equation takes the shape of cells into account.
+/// States whether an equation takes the shape of cells into account.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Stencil {
-    /// All four neighbours have the same weight, whichever shape cells have.
+    /// All four neighbours have the same weight, whatever the shape of cells.
     #[default]
     Square,
-    /// The neighbours along axis 2 weigh `beta^2` as much as those along axis 1, `beta` the width of a cell along axis 1 over that
-    /// along axis 2: Laplace's equation in the lengths of joint space.
+    /// Neighbours along axis 2 have `beta^2` times the weight of neighbours along axis 1, where `beta` is the width of
+    /// a cell along axis 1 divided by its width along axis 2. This gives Laplace's equation in the lengths of joint
+    /// space.
     Anisotropic,
 }
 
@@ -102,9 +105,9 @@ impl Stencil {
     }
 }
 
-/// A rectangle of cells, row by row (index `i * cells[1] + j`), with values given on obstacles and goals. Lengths are
-/// measured in cells: a cell is 1 wide along axis 1 and `1 / beta` along axis 2, `beta` being 1 unless
-/// [`Domain::with_beta`] says otherwise.
+/// A rectangle of cells, row by row (index `i * cells[1] + j`), with fixed values on obstacles and goals. The unit of
+/// length is the width of a cell along axis 1. Along axis 2, a cell has the width `1 / beta`, where `beta` is 1 unless
+/// [`Domain::with_beta`] changes it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Domain {
     cells: [usize; 2],
@@ -174,7 +177,7 @@ impl Domain {
         Self::new(grid.cells, kinds, boundaries, levels)
     }
 
-    /// Rows and columns.
+    /// Returns the numbers of rows and columns.
     #[must_use]
     pub fn cells(&self) -> [usize; 2] {
         self.cells
@@ -214,8 +217,8 @@ impl Domain {
         ]
     }
 
-    /// Returns true if a cell is an unknown with neighbours. A free cell that is its own only neighbour keeps its
-    /// value.
+    /// Returns true if a cell is free and has a neighbour other than itself. A free cell without such a neighbour keeps
+    /// its value.
     pub(super) fn is_sought(&self, cell: usize) -> bool {
         let has_neighbors = self.kinds.len() > 1 || self.boundaries.contains(&Boundary::High);
         self.kinds[cell] == Cell::Free && has_neighbors

@@ -1,8 +1,8 @@
 //! The field equations.
 //!
-//! All have the form `lap p + <b, grad p> = 0` with a drift `b = epsilon v`: `p` is the expected value at which a
-//! random walk with that drift ends, of the values of obstacles and goals. Lengths are in cells, so `epsilon` is a
-//! number per cell.
+//! Each equation has the form `lap p + <b, grad p> = 0` with a drift `b = epsilon v`. A random walk with that drift
+//! ends at an obstacle or a goal, and `p` is the expected value of the level there. Lengths are in cells, so `epsilon`
+//! is a number per cell.
 
 use super::Domain;
 use serde::{Deserialize, Serialize};
@@ -12,11 +12,13 @@ use std::fmt;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Difference {
-    /// `(p_+ - p_-) / 2`: of second order, monotone only for `|b_k| < 2` along each axis. Beyond that a value is no mean
-    /// of its neighbours' any more: relaxations may diverge, fields may have minima inside.
+    /// Central difference `(p_+ - p_-) / 2`, of second order. It is monotone only for `|b_k| < 2` along each axis. With
+    /// a stronger drift, values are no longer means of their neighbours: relaxations may diverge, and fields may have
+    /// local minima.
     #[default]
     Central,
-    /// The difference towards where the drift comes from: of first order, monotone for every drift.
+    /// One-sided difference with the neighbour in the direction of the drift, of first order. It is monotone for every
+    /// drift.
     Upwind,
 }
 
@@ -29,7 +31,7 @@ impl fmt::Display for Difference {
     }
 }
 
-/// The length of a direction may be off by this: some roundings.
+/// Largest deviation of a direction's length from 1: some roundings.
 const UNIT_ROUNDING: f64 = 1e-15;
 
 /// A direction in the plane of joint values: a unit vector.
@@ -58,13 +60,13 @@ impl Direction {
     #[must_use]
     pub fn of(vector: [f64; 2]) -> Option<Self> {
         let greatest = vector[0].abs().max(vector[1].abs());
-        // Scaled first, so that lengths neither overflow nor vanish.
+        // Scale the vector first, so that its length neither overflows nor vanishes.
         let scaled = vector.map(|x| x / greatest);
         let length = scaled[0].hypot(scaled[1]);
         (greatest > 0.0 && length.is_finite()).then(|| Self(scaled.map(|x| x / length)))
     }
 
-    /// Returns its components along the first and the second joint.
+    /// Returns the components along the first and the second joint.
     #[must_use]
     pub fn components(self) -> [f64; 2] {
         self.0
@@ -77,42 +79,43 @@ impl Direction {
     }
 }
 
-/// An equation for the values of free cells. Arrays have one entry a cell of the domain, those of fixed cells are not
-/// looked at.
+/// An equation for the values of free cells. Arrays have one entry per cell of the domain. Entries of obstacles and
+/// goals have no effect.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Equation {
-    /// `lap p = 0` (Connolly, Grupen 1993).
+    /// Laplace's equation `lap p = 0` (Connolly, Grupen 1993).
     Harmonic,
-    /// `lap p + epsilon <v, grad p> = 0`, the same everywhere (Prestes 2003).
+    /// `lap p + epsilon <v, grad p> = 0` with the same drift in all cells (Prestes 2003).
     Oriented {
         /// The direction `v`.
         direction: Direction,
-        /// `epsilon`, per cell.
+        /// The strength `epsilon`, per cell.
         epsilon: f64,
         /// Discretisation of the drift.
         difference: Difference,
     },
     /// A separate drift in every cell, possibly 0: around robots (Faria 2006, see [`around`]), or in regions.
     LocallyOriented {
-        /// `epsilon v`, per cell.
+        /// The drift `epsilon v` of each cell.
         drift: Vec<[f64; 2]>,
         /// Discretisation of the drift.
         difference: Difference,
     },
-    /// Preferences: `v` is the normalised gradient of the converged harmonic field, up towards obstacles, and `epsilon`
-    /// that of each cell's region: positive makes the region less attractive, negative more (Prestes, Idiart 2009).
-    /// Relaxed in two stages, the first harmonic.
+    /// Preferences (Prestes, Idiart 2009): `v` is the normalised gradient of the harmonic field, towards obstacles, and
+    /// each cell has the `epsilon` of its region. A positive value makes the region less attractive, a negative value
+    /// more. Relaxation has two stages, and the first gives the harmonic field.
     Preference {
-        /// One value per cell.
+        /// The strength `epsilon` of each cell.
         epsilon: Vec<f64>,
         /// Discretisation of the drift.
         difference: Difference,
     },
-    /// Altered preferences ("BVP 2" of Deicu 2012): `p = h + epsilon / 4 d`, `h` the mean of the four neighbours and
-    /// `d = |p_E - p_W| / 2 + |p_N - p_S| / 2`. Not linear: the drift climbs the field itself. In two stages, too.
+    /// Altered preferences ("BVP 2" of Deicu 2012): `p = h + epsilon / 4 d`, where `h` is the mean of the four
+    /// neighbours and `d = |p_E - p_W| / 2 + |p_N - p_S| / 2`. This equation is not linear: the drift is along the
+    /// slope of the field itself. It also has two stages.
     ///
-    /// That is with obstacles high. Where they are low the sign before `epsilon` turns: with `u = 1 - p` the mean becomes
-    /// `1 - h` and `d` stays, so `u = h - epsilon / 4 d`.
+    /// The formula holds if obstacles are high. If they are low, `epsilon` has the opposite sign: with `u = 1 - p` the
+    /// mean becomes `1 - h` and `d` stays the same, so `u = h - epsilon / 4 d`.
     AlteredPreference {
         /// One value per cell.
         epsilon: Vec<f64>,
@@ -122,11 +125,11 @@ pub enum Equation {
 /// A disc of cells with a drift.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Influence {
-    /// Centre, as (fractional) row and column. Integers are centres of cells.
+    /// Centre as row and column, which may be fractions. Whole numbers are the centres of cells.
     pub center: [f64; 2],
     /// Radius, in cells.
     pub radius: f64,
-    /// The drift `epsilon v` of its cells.
+    /// The drift `epsilon v` in the cells of the disc.
     pub drift: [f64; 2],
 }
 
@@ -137,7 +140,7 @@ pub fn around(domain: &Domain, influences: &[Influence]) -> Vec<[f64; 2]> {
     let columns = domain.cells()[1];
     let nearest = |cell: usize| {
         let at = [(cell / columns) as f64, (cell % columns) as f64];
-        // Squares: roots would take longer than all else here.
+        // Compare squares: roots would take longer than everything else here.
         let square = |i: &Influence| (at[0] - i.center[0]).powi(2) + (at[1] - i.center[1]).powi(2);
         let nearest = influences.iter().min_by(|a, b| square(a).total_cmp(&square(b)))?;
         (nearest.radius > 0.0 && square(nearest) < nearest.radius.powi(2)).then_some(nearest.drift)
@@ -145,18 +148,18 @@ pub fn around(domain: &Domain, influences: &[Influence]) -> Vec<[f64; 2]> {
     (0..domain.kinds().len()).map(|cell| nearest(cell).unwrap_or_default()).collect()
 }
 
-/// The drift of a cell.
+/// A function that returns the drift of a cell.
 pub(super) type DriftOf<'a> = Box<dyn Fn(usize) -> [f64; 2] + 'a>;
 
 impl Equation {
-    /// Returns true if a cell's value is always a mean of its neighbours' with non-negative weights. Then no value
-    /// leaves the range of the fixed ones, and the goals are the only minima.
+    /// Returns true if each cell's value is a mean of its neighbours' values with non-negative weights. Then no value
+    /// leaves the range of the fixed values, and goals are the only minima. Cells count as square.
     #[must_use]
     pub fn is_monotone(&self) -> bool {
         self.is_monotone_with(1.0)
     }
 
-    /// Does the same for the cells of a domain, which need not be square.
+    /// Same as [`Equation::is_monotone`], for the cells of a domain, which need not be square.
     #[must_use]
     pub fn is_monotone_on(&self, domain: &Domain) -> bool {
         self.is_monotone_with(domain.beta())
@@ -191,7 +194,7 @@ impl Equation {
         }
     }
 
-    /// Returns the reason why it is invalid on this domain, or `None`.
+    /// Returns the reason why the equation is invalid on this domain. `None` if it is valid.
     pub(super) fn refusal(&self, domain: &Domain) -> Option<String> {
         let cells = domain.kinds().len();
         let (count, finite) = match self {

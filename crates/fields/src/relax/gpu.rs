@@ -1,4 +1,4 @@
-//! Relaxing on a GPU: the equations as weights a cell, stage after stage.
+//! Relaxation on a GPU. Equations become weights for each cell, and are relaxed stage after stage.
 
 use super::stages::{Stages, in_stages};
 use super::stencil::WeightedMean;
@@ -11,13 +11,13 @@ use std::sync::OnceLock;
 /// Returns the GPU of this process, which is opened on first use.
 ///
 /// # Errors
-/// The reason with a hint.
+/// Returns the reason, with a hint, if there is no GPU.
 pub(super) fn shared() -> Result<&'static Gpu, String> {
     static GPU: OnceLock<Result<Gpu, String>> = OnceLock::new();
     GPU.get_or_init(|| Gpu::open().map_err(|error| error.to_string())).as_ref().map_err(Clone::clone)
 }
 
-/// Does the same as [`super::relax`].
+/// Same as [`super::relax`], on the GPU.
 pub(super) fn relax(
     domain: &Domain,
     equation: &Equation,
@@ -56,7 +56,7 @@ pub(super) fn relax(
     Ok(RelaxedField { values: field.values, stages: field.stages })
 }
 
-/// A field under way.
+/// The state of a field while it is relaxed.
 struct Field<'a> {
     gpu: &'a Gpu,
     domain: &'a Domain,
@@ -116,7 +116,7 @@ impl Field<'_> {
         let converged = relaxed.ending == Ending::Converged;
         self.stages.push(Convergence { sweeps, change: relaxed.change, converged });
         self.values = relaxed.values;
-        // Fixed values keep all their digits.
+        // Restore fixed values in double precision.
         for (value, &kind) in self.values.iter_mut().zip(domain.kinds()).filter(|(_, kind)| **kind != Cell::Free) {
             *value = domain.fixed(kind).unwrap_or(*value);
         }

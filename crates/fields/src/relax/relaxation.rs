@@ -4,19 +4,18 @@ use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 use std::fmt;
 
-/// A relaxation: in a sweep every free cell goes towards the value that its neighbours ask for.
-///
-/// Jacobi's has no order, since all cells go at once; so an order for it cannot be written down.
+/// A relaxation. In each sweep, the value of every free cell moves towards the value that its neighbours imply.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Relaxation {
-    /// Who goes when, and how far.
+    /// Order of the updates, and the relaxation factor.
     pub scheme: Scheme,
-    /// Range to which new values are clamped, if any. Over-relaxation initially leaves the range of the fixed values.
+    /// Range to which new values are clamped; `None` for no limits. At the beginning, over-relaxation leaves the range
+    /// of the fixed values.
     pub clamp: Option<[f64; 2]>,
     /// Precision in which new values are stored.
     pub precision: Precision,
-    /// True if over-relaxation stays on the free side of the obstacles' value: see [`Relaxation::guarded`].
+    /// True if over-relaxation must not pass the obstacles' value; see [`Relaxation::guarded`].
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub guarded: bool,
 }
@@ -28,38 +27,40 @@ pub enum Precision {
     /// Double precision.
     #[default]
     Double,
-    /// Rounded to single precision, as by programs that store a `float`: what goes less than half a unit in its last place
-    /// stays where it is, so that relaxations come to rest earlier.
+    /// Values are rounded to single precision, as in programs that store a `float`. A change of less than half a unit
+    /// in the last place has no effect, so relaxations come to rest earlier.
     Single,
 }
 
-/// Who goes when, and how far: a cell's new value is `old + factor * (asked for - old)`.
+/// Order of the updates, and the relaxation factor. A cell's new value is `old + factor * (implied - old)`, where
+/// `implied` is the value that its neighbours imply.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Scheme {
-    /// All cells at once from the values of the previous sweep (Jacobi; weighted if the factor is not 1).
+    /// All cells are updated at once from the values of the previous sweep (Jacobi; weighted if the factor is not 1).
     Simultaneous {
-        /// Factor 1 is Jacobi's; weighted Jacobi's are between 0 and 1.
+        /// Relaxation factor: 1 for Jacobi's method, between 0 and 1 for weighted Jacobi.
         factor: f64,
     },
-    /// One cell after the other, each from the newest values.
+    /// Cells are updated one after the other, each from the newest values.
     Successive {
-        /// 1 is Gauss-Seidel; other factors make successive over-relaxation (SOR).
+        /// Relaxation factor: 1 for Gauss-Seidel; other factors give successive over-relaxation (SOR).
         factor: Factor,
         /// The order of cells.
         order: Order,
     },
 }
 
-/// Factor of a successive relaxation.
+/// Relaxation factor of a successive relaxation.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Factor {
-    /// The factor that is given.
+    /// This number.
     Given(f64),
-    /// `4 / (2 + sqrt(4 - c^2))` with `c = cos(pi / m) + cos(pi / n)`, `m x n` the number of cells: the best one for
-    /// Laplace's equation in an empty rectangle (Young 1954) of `m` by `n` steps from limit to limit. Between limits that lie one cell beyond the first
-    /// and the last one these are one more each: so it is a little less than the best one, which shows on few cells.
+    /// `4 / (2 + sqrt(4 - c^2))` with `c = cos(pi / m) + cos(pi / n)` for `m x n` cells. This is the best factor for
+    /// Laplace's equation in an empty rectangle of `m` by `n` steps (Young 1954). Between limits that lie one cell
+    /// beyond the first and the last cell, there is one step more along each axis. So the factor is a little less than
+    /// the best, which matters only if there are few cells.
     Formula,
 }
 
@@ -70,7 +71,7 @@ impl Factor {
         match self {
             Self::Given(factor) => factor,
             Self::Formula => {
-                // A domain of one cell would have c = -2, and no need of over-relaxation.
+                // A domain of one cell would have c = -2, but needs no over-relaxation.
                 let c = cells.map(|n| (PI / n as f64).cos()).iter().sum::<f64>().max(0.0);
                 4.0 / (2.0 + (4.0 - c * c).max(0.0).sqrt())
             }
@@ -85,13 +86,13 @@ pub enum Order {
     /// Line by line, the same in every sweep.
     Lines(Scan),
     /// Line by line from another corner in each sweep: `(0, 0)`, then the end of the first line, the beginning of the
-    /// last, the end of the last ("simultaneous" with Deicu 2012, whose sweeps are counted one by one, too).
+    /// last line, and the end of the last line. Deicu 2012 calls this order "simultaneous", and also counts each sweep.
     Corners(Lines),
     /// All cells whose indices have an even sum, then the others. On circles of odd length, neighbours across the seam
     /// have the same colour and are updated one after the other.
     RedBlack,
-    /// Four colours: cells whose row and column are both even, then those of even row, those of even column, the others. No two
-    /// cells of one colour share a side or a corner.
+    /// Four colours: cells whose row and column are both even, then the other cells with an even row, then the other
+    /// cells with an even column, then the rest. No two cells of one colour share a side or a corner.
     FourColors,
 }
 
@@ -99,10 +100,10 @@ pub enum Order {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Lines {
-    /// Cells with one value of the first joint.
+    /// Each line has one value of the first joint.
     #[default]
     Rows,
-    /// Cells with one value of the second joint.
+    /// Each line has one value of the second joint.
     Columns,
 }
 
@@ -110,19 +111,19 @@ pub enum Lines {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Scan {
-    /// Cells of a line follow one another.
+    /// Direction of the lines; the cells of a line follow one another.
     pub lines: Lines,
     /// True for each axis along which the index decreases.
     pub falling: [bool; 2],
 }
 
 impl Scan {
-    /// Row by row, indices rising.
+    /// Row by row, with rising indices.
     pub const ROWS: Self = Self { lines: Lines::Rows, falling: [false; 2] };
 }
 
 impl Relaxation {
-    /// Jacobi's relaxation: each cell goes all the way, all at once.
+    /// Jacobi's relaxation: all cells take the implied values at once.
     pub const JACOBI: Self = Self::weighted_jacobi(1.0);
 
     /// Returns weighted Jacobi relaxation.
@@ -131,7 +132,7 @@ impl Relaxation {
         Self { scheme: Scheme::Simultaneous { factor }, clamp: None, precision: Precision::Double, guarded: false }
     }
 
-    /// Gauss and Seidel's.
+    /// Returns Gauss-Seidel relaxation with this order.
     #[must_use]
     pub const fn gauss_seidel(order: Order) -> Self {
         Self::sor(Factor::Given(1.0), order)
@@ -220,7 +221,7 @@ impl Order {
                     if axis == 0 { cell / cells[1] } else { cell % cells[1] }
                 })
             };
-            // Stable, so that cells with the same key keep their order.
+            // The sort is stable, so that cells with the same key keep their order.
             positions.sort_by_key(|&k| key(at(k)));
             positions
         };
@@ -231,7 +232,7 @@ impl Order {
             })
         };
         match self {
-            // Unsorted: sorting takes as long as several sweeps, which is more than a field needs after a small change.
+            // Do not sort: that takes as long as several sweeps, more than a field needs after a small change.
             Self::Lines(Scan::ROWS) => vec![(0..unknowns.len() as u32).collect()],
             Self::Lines(lines) => vec![scan(lines)],
             Self::Corners(lines) => {

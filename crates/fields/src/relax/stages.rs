@@ -1,4 +1,4 @@
-//! The stages of each equation, whatever relaxes them.
+//! The stages in which each equation is relaxed, on any device.
 
 use super::sweeps::{normalized_gradient, strengths};
 use super::{Difference, Domain, Equation, RelaxError};

@@ -2,14 +2,14 @@
 
 use super::{Difference, Domain, Neighbor};
 
-/// The value that a cell should have.
+/// Computes the value that a cell's neighbours imply for it.
 pub(super) trait Stencil {
     /// Returns the implied value for the unknown at `position` with the value `own`, from its neighbours in the order
     /// `-q1, +q1, -q2, +q2`.
     fn target(&self, position: usize, own: f64, around: [f64; 4]) -> f64;
 }
 
-/// The mean of the four neighbours. It does not hold at reflecting limits: see [`WeightedMean`].
+/// The mean of the four neighbours. It does not apply at reflecting limits; see [`WeightedMean`].
 pub(super) struct Mean;
 
 impl Stencil for Mean {
@@ -18,8 +18,8 @@ impl Stencil for Mean {
     }
 }
 
-/// A mean with weights of its own at each position, which add up to 1. Where the neighbour is the cell itself the weight
-/// is 0 and the others are the greater for it: the equation is solved for the cell's value.
+/// A mean with separate weights at each position, which add up to 1. If a neighbour is the cell itself, its weight is 0
+/// and the others are greater, because the equation is solved for the cell's value.
 pub(super) struct WeightedMean(Vec<[f64; 4]>);
 
 impl WeightedMean {
@@ -58,8 +58,8 @@ pub(super) fn weights(domain: &Domain, cell: usize, drift: [f64; 2], difference:
     weights
 }
 
-/// Does the same for a cell that is not its own neighbour. Along axis 2, second differences have the weight `beta^2`
-/// and first ones `beta`.
+/// Same as [`weights`], for a cell that is not its own neighbour. Along axis 2, second differences have the factor
+/// `beta^2`, and first differences the factor `beta`.
 pub(super) fn sides(beta: f64, drift: [f64; 2], difference: Difference) -> [f64; 4] {
     let side = |beta: f64, b: f64| match difference {
         Difference::Central => beta * (beta + 0.5 * b),
@@ -68,13 +68,13 @@ pub(super) fn sides(beta: f64, drift: [f64; 2], difference: Difference) -> [f64;
     [side(1.0, -drift[0]), side(1.0, drift[0]), side(beta, -drift[1]), side(beta, drift[1])]
 }
 
-/// Altered preferences: `h + strength d`, where `strength` is `epsilon / 4` with the sign that fits the levels. Beyond
-/// a reflecting limit lies the cell's own value. If cells are not square, `h` is the weighted mean, the slope along
-/// axis 2 has the factor `beta`, and 4 becomes the sum of the weights, `2 + 2 beta^2`.
+/// The value `h + strength d` of altered preferences, where `strength` is `epsilon / 4` with the sign that fits the
+/// levels. Beyond a reflecting limit, the neighbour has the cell's own value. If cells are not square, `h` is the
+/// weighted mean, the slope along axis 2 has the factor `beta`, and the sum of the weights, `2 + 2 beta^2`, replaces 4.
 pub(super) struct AlteredMean {
-    /// `epsilon / 4`, one a position.
+    /// `epsilon / 4` at each position.
     pub strength: Vec<f64>,
-    /// Width of a cell along axis 1 over that along axis 2.
+    /// Width of a cell along axis 1 divided by its width along axis 2.
     pub beta: f64,
 }
 

@@ -1,8 +1,8 @@
-//! When a relaxation ends.
+//! The rule that ends a relaxation.
 
 use serde::{Deserialize, Serialize};
 
-/// The quantity measured in a sweep. `change` is the difference of a value before and after it.
+/// The quantity that is measured in a sweep. `change` is the difference of a cell's value before and after the sweep.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Measure {
@@ -10,12 +10,12 @@ pub enum Measure {
     SumOfChange,
     /// Sum of `change^2`.
     SumOfSquares,
-    /// Difference between the sum of `|change|` and that of the sweep before. (Two equal sums of any size end the
-    /// relaxation: the literature uses it, that does not make it a good rule.)
+    /// Difference between the sum of `|change|` and the same sum of the sweep before. The literature uses this measure,
+    /// but it is not a good rule: two equal sums end the relaxation, however large they are.
     DifferenceOfSums,
     /// The greatest `|change|` of any cell.
     GreatestChange,
-    /// Greatest `|change| / |value after|`: the only one that sees what happens where values are small.
+    /// Greatest `|change| / |value after|` of any cell. Only this measure notices changes where values are small.
     #[default]
     GreatestRelativeChange,
 }
@@ -28,29 +28,30 @@ impl Measure {
     }
 }
 
-/// When a relaxation ends.
+/// The rule that ends a relaxation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stopping {
     /// The measured quantity.
     pub measure: Measure,
-    /// It has converged when the measure falls below this, and when a sweep changes nothing at all.
+    /// Bound on the measure. A relaxation has converged when the measure falls below this, or when a sweep changes
+    /// nothing.
     pub below: f64,
-    /// It ends after so many sweeps anyway.
+    /// Largest number of sweeps, after which a relaxation ends without convergence.
     pub max_sweeps: usize,
 }
 
 /// Result of a relaxation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Convergence {
-    /// Passes over all cells.
+    /// Number of sweeps: passes over all cells.
     pub sweeps: usize,
-    /// The measure in the last of them; infinite before the first.
+    /// The measure in the last sweep; infinite if there was none.
     pub change: f64,
     /// True if the measure fell below the requested bound.
     pub converged: bool,
 }
 
-/// Sums up the changes of a sweep.
+/// Accumulates the measure of a sweep.
 pub(super) trait Tally {
     /// Adds a value to the measure.
     fn add(total: f64, old: f64, new: f64) -> f64;
@@ -81,7 +82,7 @@ impl Tally for GreatestTally {
 
 impl Tally for RelativeTally {
     fn add(total: f64, old: f64, new: f64) -> f64 {
-        // Nothing over nothing is NaN, which `max` passes over: no change. To 0 from anything else is infinite.
+        // If a value stays 0, the quotient is NaN, which `max` ignores. If a value becomes 0, the quotient is infinite.
         total.max((new - old).abs() / new.abs())
     }
 }

@@ -1,4 +1,4 @@
-//! Relaxing an equation on a domain.
+//! Relaxation of an equation on a domain, sweep by sweep.
 
 use super::relaxation::{Precision, Relaxation, Scheme};
 use super::stages::{Stages, in_stages};
@@ -11,14 +11,14 @@ use std::fmt;
 /// A relaxed field.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RelaxedField {
-    /// One value per cell. Those of obstacles and goals are their levels.
+    /// One value per cell. Obstacles and goals have their levels.
     pub values: Vec<f64>,
     /// Result of each stage. With preferences, the first stage is the harmonic field; other equations have one stage.
     pub stages: Vec<Convergence>,
 }
 
 impl RelaxedField {
-    /// Passes over all cells, of all stages.
+    /// Returns the number of sweeps of all stages together.
     #[must_use]
     pub fn sweeps(&self) -> usize {
         self.stages.iter().map(|stage| stage.sweeps).sum()
@@ -37,20 +37,20 @@ impl RelaxedField {
     }
 }
 
-/// Why there is no relaxed field.
+/// Reason why there is no relaxed field.
 #[derive(Debug, Clone, PartialEq)]
 pub enum RelaxError {
     /// The request is invalid, with the reason.
     Refused(String),
-    /// Values grew without bound, or are numbers no more.
+    /// Values grew without bound, or became NaN.
     Diverged {
-        /// Passes over all cells until it was noticed.
+        /// Number of sweeps after which this was noticed.
         sweeps: usize,
         /// The first cell with such a value, as row and column.
         cell: [usize; 2],
         /// The value of that cell.
         value: f64,
-        /// Possible reason and advice.
+        /// Possible reason, and advice.
         hint: String,
     },
 }
@@ -71,19 +71,20 @@ impl fmt::Display for RelaxError {
 
 impl std::error::Error for RelaxError {}
 
-/// A value greater than all at the start by this factor will not come back. Over-relaxation overshoots: under a drift `b`
-/// on the way against it by `exp(b / 2)` a cell, which may be many orders of magnitude, and converges all the same.
+/// Ratio of a value to the greatest initial value above which a relaxation counts as diverged. The ratio is large
+/// because over-relaxation may overshoot and still converge: against a drift `b`, by a factor of `exp(b / 2)` per cell,
+/// which may be many orders of magnitude in total.
 const DIVERGENCE_FACTOR: f64 = 1e100;
 
-/// A guarded relaxation drops its factor when no value changes by more than this fraction of the difference between the
-/// obstacles' and the goals' value. This is about a hundred roundings of the greatest values, the amplification by
-/// over-relaxation.
+/// Largest change in a sweep, as a fraction of the difference between the obstacles' and the goals' value, at which a
+/// guarded relaxation continues with factor 1. It is about a hundred roundings of the greatest values; over-relaxation
+/// amplifies roundings by about that much.
 const OVER_RELAXATION_LIMIT: f64 = 1e-13;
 
 /// Number of sweeps between checks for divergence.
 const DIVERGENCE_CHECK_INTERVAL: usize = 16;
 
-/// Relaxes from [`Domain::start`]. A sweep costs some nanoseconds a free cell.
+/// Relaxes an equation from the initial values [`Domain::start`]. A sweep costs some nanoseconds per free cell.
 ///
 /// ```
 /// use cplan_fields::*;
@@ -97,10 +98,9 @@ const DIVERGENCE_CHECK_INTERVAL: usize = 16;
 /// # Ok::<(), RelaxError>(())
 /// ```
 ///
-/// # Errors
-/// [`RelaxError::Refused`] where equation and domain differ in size, or a factor is not positive; [`RelaxError::Diverged`].
-/// A relaxation that neither diverges nor converges ends after `stopping.max_sweeps` (of each stage), and its
-/// [`Convergence`] says so.
+/// # Errors [`RelaxError::Refused`] if equation and domain differ in size, or if a factor is not positive.
+/// [`RelaxError::Diverged`] if values grow without bound. A relaxation that neither diverges nor converges ends after
+/// `stopping.max_sweeps` sweeps of a stage, which its [`Convergence`] reports.
 pub fn relax(
     domain: &Domain,
     equation: &Equation,
@@ -110,11 +110,11 @@ pub fn relax(
     relax_from(domain, equation, relaxation, stopping, domain.start())
 }
 
-/// Relaxes from other values, such as those of a field for obstacles that have moved a little since. Those of obstacles
-/// and goals are set to their levels.
+/// Relaxes an equation from the values `start`, such as those of a field before obstacles moved a little. Obstacles and
+/// goals get their levels first.
 ///
 /// # Errors
-/// As [`relax`], and where there is not one value a cell.
+/// Same as [`relax`], and if there is not one value per cell.
 pub fn relax_from(
     domain: &Domain,
     equation: &Equation,
@@ -128,16 +128,17 @@ pub fn relax_from(
 /// The values after a sweep, while a field is relaxed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SweepSnapshot<'a> {
-    /// The stage, from 0: with preferences 0 is the harmonic field, 1 that with them.
+    /// Number of the stage, from 0. With preferences, stage 0 relaxes the harmonic field, and stage 1 the field with
+    /// preferences.
     pub stage: usize,
-    /// Sweeps of this stage so far; 0 before the first.
+    /// Number of sweeps of this stage so far; 0 before the first sweep.
     pub sweep: usize,
     /// One value per cell.
     pub values: &'a [f64],
 }
 
-/// Does the same as [`relax_from`], and calls `watch` with the values before the first sweep of each stage and after
-/// every sweep. The values may be NaN if the relaxation diverges.
+/// Same as [`relax_from`], but also calls `watch` with the values before the first sweep of each stage, and after every
+/// sweep. The values may be NaN if the relaxation diverges.
 ///
 /// # Errors
 /// Same as [`relax_from`].
@@ -158,7 +159,7 @@ pub fn relax_watched(
     Ok(RelaxedField { values: engine.values, stages: engine.stages })
 }
 
-/// Returns the reason why the request is invalid, or `None`.
+/// Returns the reason why the request is invalid. `None` if it is valid.
 pub(super) fn refusal(domain: &Domain, equation: &Equation, relaxation: &Relaxation) -> Option<RelaxError> {
     if let Some(refusal) = equation.refusal(domain) {
         return Some(RelaxError::Refused(refusal));
@@ -175,12 +176,12 @@ pub(super) fn refusal(domain: &Domain, equation: &Equation, relaxation: &Relaxat
     None
 }
 
-/// Returns the free cells that have neighbours, ascending. A cell that is its own only neighbour keeps its value.
+/// Returns the free cells that have a neighbour other than themselves, ascending. Other free cells keep their values.
 pub(super) fn unknowns(domain: &Domain) -> Vec<u32> {
     (0..domain.kinds().len()).filter(|&cell| domain.is_sought(cell)).map(|cell| cell as u32).collect()
 }
 
-/// Places of the values around each unknown, among those that begin as [`begun`].
+/// Returns, for each unknown, the indices of its neighbours' values in the list that [`begun`] returns.
 pub(super) fn places_around(domain: &Domain, unknowns: &[u32]) -> Vec<[u32; 4]> {
     let beyond = domain.kinds().len() as u32;
     let around = unknowns.iter().map(|&cell| {
@@ -193,7 +194,7 @@ pub(super) fn places_around(domain: &Domain, unknowns: &[u32]) -> Vec<[u32; 4]> 
     around.collect()
 }
 
-/// Returns initial values: obstacles and goals have their levels, and the value beyond limits comes last.
+/// Returns the initial values of all cells, with obstacles and goals at their levels, and then the value beyond limits.
 pub(super) fn begun(domain: &Domain, start: Vec<f64>) -> Result<Vec<f64>, RelaxError> {
     if start.len() != domain.kinds().len() {
         return Err(RelaxError::Refused("there must be one value a cell to start from".into()));
@@ -208,7 +209,7 @@ pub(super) fn strengths(domain: &Domain, epsilon: &[f64]) -> Vec<f64> {
     epsilon.iter().map(|epsilon| quarter * epsilon).collect()
 }
 
-/// Explains a possible reason of a divergence, with advice.
+/// Returns a possible reason for a divergence, with advice.
 pub(super) fn hint(domain: &Domain, equation: &Equation, factor: f64) -> String {
     if equation.is_monotone_on(domain) {
         format!("the factor {factor:.4} is too great for this equation")
@@ -240,19 +241,19 @@ pub(super) fn normalized_gradient(domain: &Domain, values: &[f64]) -> Vec<[f64; 
     (0..domain.kinds().len()).map(at).collect()
 }
 
-/// A field under way.
+/// The state of a field while it is relaxed.
 struct Engine<'a> {
     domain: &'a Domain,
     equation: &'a Equation,
     relaxation: &'a Relaxation,
     stopping: &'a Stopping,
-    /// One value per cell, and last that of obstacles, for the boundary.
+    /// One value per cell, and then the value of obstacles, for the boundary.
     values: Vec<f64>,
     /// Greatest absolute value before the first sweep.
     greatest: f64,
-    /// The free cells that have neighbours, rising.
+    /// Free cells that have a neighbour other than themselves, ascending.
     unknowns: Vec<u32>,
-    /// Places of their neighbours' values.
+    /// For each unknown, the indices of its neighbours' values.
     around: Vec<[u32; 4]>,
     stages: Vec<Convergence>,
     watch: &'a mut dyn FnMut(SweepSnapshot),
@@ -299,7 +300,7 @@ impl<'a> Engine<'a> {
         has_mirrors || self.domain.beta() != 1.0
     }
 
-    /// Relaxes one stage, with the norm that the stopping rule asks for.
+    /// Relaxes one stage, with the measure of the stopping rule.
     fn run<S: Stencil>(&mut self, stencil: &S) -> Result<(), RelaxError> {
         match self.stopping.measure {
             Measure::SumOfChange | Measure::DifferenceOfSums => self.stage::<S, SumTally>(stencil),
@@ -351,7 +352,7 @@ impl<'a> Engine<'a> {
     }
 
     fn show(&mut self, sweep: usize) {
-        // Without the last value, which is for the boundary.
+        // Omit the last value, which is for the boundary.
         let values = &self.values[..self.values.len() - 1];
         (self.watch)(SweepSnapshot { stage: self.stages.len(), sweep, values });
     }
@@ -414,7 +415,7 @@ impl Changes {
 struct Step<'a, S> {
     stencil: &'a S,
     factor: f64,
-    /// 1 or -1 as obstacles are high or low, and their value, where no value may pass it.
+    /// If no value may pass that of obstacles: 1 if obstacles are high or -1 if they are low, and their value.
     guard: Option<[f64; 2]>,
     clamp: Option<[f64; 2]>,
     precision: Precision,
@@ -429,7 +430,7 @@ impl<S: Stencil> Step<'_, S> {
             Some([orientation, obstacle]) if orientation * (new - obstacle) > 0.0 => asked,
             _ => new,
         };
-        // Not `clamp`: the bounds are checked once, for all cells.
+        // Avoid `clamp`, which would check the bounds for each cell.
         let new = self.clamp.map_or(new, |[low, high]| new.max(low).min(high));
         match self.precision {
             Precision::Double => new,

@@ -1,66 +1,67 @@
-//! The convergence of a relaxation, sweep by sweep.
+//! Measures the convergence of a relaxation, sweep by sweep.
 
 use super::{Domain, Equation, RelaxError, Relaxation, Stopping, SweepSnapshot, relax_watched};
 
-/// Reasons why a relaxation ended.
+/// Reason why a relaxation ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Ending {
     /// The stopping rule's measure fell below its bound, in all stages.
     Converged,
-    /// Neither, after as many sweeps as the rule allows.
+    /// The largest number of sweeps was reached without convergence or divergence.
     Unconverged,
-    /// Values grew without bound, or are numbers no more.
+    /// Values grew without bound, or became NaN.
     Diverged,
 }
 
 /// Measurements after a sweep.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sample {
-    /// The stage, from 0: with preferences 0 is the harmonic field.
+    /// Number of the stage, from 0. With preferences, stage 0 relaxes the harmonic field.
     pub stage: usize,
-    /// Sweeps so far, of all stages together, from 1.
+    /// Number of sweeps so far in all stages, from 1.
     pub sweep: usize,
     /// Sum of `change^2` over all cells.
     pub squares: f64,
-    /// Greatest `|change| / |value after|` of a cell whose value changed; infinite where one became 0.
+    /// Greatest `|change| / |value after|` of a cell whose value changed; infinite if a value became 0.
     pub relative: f64,
-    /// Greatest `|value - exact value|` of a cell over the greatest before the first sweep; where the solution is known, and was
-    /// not there at once.
+    /// Greatest `|value - exact value|` of a cell, divided by the greatest such error before the first sweep. `None` if
+    /// the solution is unknown, or if the initial values were the solution.
     pub error: Option<f64>,
 }
 
-/// A relaxation from its start to its end.
+/// Measurements of a whole relaxation.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Trace {
-    /// Samples after every sweep up to the hundredth, then after each sweep that is later by one percent, and after the
-    /// first and the last of each stage. Sweeps whose squares or error are not finite are omitted.
+    /// Samples after each of the first hundred sweeps. Later, the number of sweeps grows by one percent from sample to
+    /// sample. There are also samples after the first and the last sweep of each stage. Sweeps whose squares or error
+    /// are not finite are omitted.
     pub samples: Vec<Sample>,
-    /// Passes over all cells, of all stages.
+    /// Number of sweeps of all stages together.
     pub sweeps: usize,
-    /// Reason why it ended.
+    /// Reason why the relaxation ended.
     pub ending: Ending,
 }
 
-/// The start of the second stage: preferences, added to the harmonic field.
+/// The jump of the changes at the beginning of the second stage, where preferences are added to the harmonic field.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Leap {
-    /// Sweeps of the first stage.
+    /// Number of sweeps of the first stage.
     pub sweep: usize,
-    /// Squared changes of its last sweep.
+    /// Sum of squared changes in the last sweep of the first stage.
     pub before: f64,
-    /// Squared changes of the next sweep.
+    /// Sum of squared changes in the first sweep of the second stage.
     pub after: f64,
-    /// Sweeps of the second stage.
+    /// Number of sweeps of the second stage.
     pub more: usize,
 }
 
-/// The share of a sweep's number by which the next sample is later.
+/// Distance from a sampled sweep to the next one, as a share of the number of sweeps so far.
 const SAMPLE_SPACING: f64 = 0.01;
 
-/// Sweeps, counted back from the end in samples, over which [`Trace::rate`] is measured: the last half.
+/// Share of the sweeps, counted from the end, over which [`Trace::rate`] is measured.
 const RATE_WINDOW: f64 = 0.5;
 
-/// Below this error is nothing but rounding, which has no rate.
+/// Error below which only rounding remains, so that no rate can be measured.
 const ERROR_FLOOR: f64 = 1e-13;
 
 /// Relaxes from `start` and measures after each sweep. `exact` is the solution, for the error
@@ -117,11 +118,11 @@ impl Trace {
         let &(end, last) = errors.last()?;
         let from = (RATE_WINDOW * end as f64) as usize;
         let &(begin, first) = errors.iter().find(|(sweep, _)| *sweep >= from)?;
-        // Of a few sweeps nothing has settled.
+        // A few sweeps are not enough for a rate.
         (end > begin + 1).then(|| (last / first).powf(1.0 / (end - begin) as f64))
     }
 
-    /// Returns the leap of the changes where preferences begin, if the equation has a second stage.
+    /// Returns the jump of the changes at the beginning of the second stage. `None` if there is no second stage.
     #[must_use]
     pub fn leap(&self) -> Option<Leap> {
         let [last, first] = self.samples.windows(2).find_map(|pair| match pair {
@@ -146,7 +147,7 @@ struct Observer<'a> {
     before: Vec<f64>,
     /// The greatest error before the first sweep.
     first: f64,
-    /// Number of sweeps of finished stages.
+    /// Number of sweeps in the stages that have ended.
     earlier: usize,
     sweeps: usize,
     /// Number of the sweep that is sampled next.
@@ -159,7 +160,7 @@ struct Observer<'a> {
 impl Observer<'_> {
     fn see(&mut self, seen: &SweepSnapshot) {
         if seen.sweep == 0 {
-            // The last sweep of the stage before is its end.
+            // A new stage begins: keep the last sweep of the stage before it.
             self.keep_last();
             (self.earlier, self.before) = (self.sweeps, seen.values.to_vec());
             if seen.stage == 0 {

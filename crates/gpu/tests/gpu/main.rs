@@ -1,6 +1,6 @@
 //! Tests of GPU results against plain relaxations and dense elimination that share no code with them.
 //!
-//! Each needs a driver of Vulkan, Metal or Direct3D 12, possibly in software: `.ci/gpu` installs one if needed.
+//! Each test needs a driver of Vulkan, Metal or Direct3D 12, possibly in software: `.ci/gpu` installs one if needed.
 
 mod adapter;
 mod multigrid;

@@ -1,4 +1,4 @@
-//! Multigrid on the GPU against elimination.
+//! Compares multigrid on the GPU with elimination.
 
 use crate::gpu;
 use crate::oracle::{Case, apart, linear};

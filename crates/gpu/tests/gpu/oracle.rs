@@ -1,10 +1,11 @@
-//! Problems at random, relaxed one cell after the other in double precision, and solved by dense elimination.
+//! Makes random problems, relaxes them one cell after the other in double precision, and solves them by dense
+//! elimination.
 
 use cplan_gpu::{Edge, GridEquations, Measure, Settings, Stencil, Sweep};
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
 
-/// A problem, in the open.
+/// A test problem with all its data.
 #[derive(Debug, Clone)]
 pub struct Case {
     pub cells: [usize; 2],
@@ -122,7 +123,8 @@ fn stencil(kind: Kind, drifts: &[[f64; 2]]) -> Stencil {
     }
 }
 
-/// Walls at random, goals at random, a drift in each cell that central differences bear.
+/// Generates problems with random walls and goals. The drift of each cell is so weak that central differences are
+/// monotone.
 pub fn case(kind: Kind, most: usize) -> impl Strategy<Value = Case> {
     let cells = [1..=most, 1..=most];
     (cells, [edge(), edge()], 0.0..0.6_f64).prop_flat_map(move |(cells, edges, walls)| {

@@ -1,14 +1,14 @@
-//! Relaxations on the GPU, sweep by sweep as one cell after the other.
+//! Compares relaxations on the GPU, sweep by sweep, with relaxations of one cell after the other.
 
 use crate::gpu;
 use crate::oracle::{Case, Kind, any, apart, case};
 use cplan_gpu::{Edge, Ending, GpuError, Measure, Settings, Stencil, Sweep};
 use proptest::prelude::*;
 
-/// Single precision: an update is off by some units in the last place of the greatest value, and so are its neighbours'.
+/// Error of an update in single precision, relative to the greatest value: some units in the last place.
 const ROUNDING: f64 = 4.0 / (1 << 24) as f64;
 
-/// Over-relaxation magnifies rounding: by so much at the most in these cases.
+/// Greatest factor by which over-relaxation magnifies rounding in these cases.
 const MAGNIFIED: f64 = 20.0;
 
 fn settings() -> impl Strategy<Value = Settings> {

@@ -5,9 +5,9 @@ use super::super::clock::{NANOSECONDS_PER_SECOND, nanoseconds};
 use super::cdr::Cdr;
 use super::scene::{Body, Place, Stage};
 
-/// A message type.
+/// A ROS 2 message type.
 pub struct Type {
-    /// Full name.
+    /// Full name of the type, with its package.
     pub name: &'static str,
     fields: &'static str,
     parts: &'static [Part],
@@ -49,35 +49,35 @@ const MARKER: Part = (
 );
 const FIELD: Part = ("sensor_msgs/PointField", "string name\nuint32 offset\nuint8 datatype\nuint32 count\n");
 
-/// Joint values at one time.
+/// Message type for joint values at one time.
 pub const JOINT_STATE: Type = Type {
     name: "sensor_msgs/msg/JointState",
     fields: "std_msgs/Header header\n\nstring[] name\nfloat64[] position\nfloat64[] velocity\nfloat64[] effort\n",
     parts: &[HEADER, TIME],
 };
 
-/// A whole motion, for a controller.
+/// Message type for a whole motion, as controllers execute it.
 pub const JOINT_TRAJECTORY: Type = Type {
     name: "trajectory_msgs/msg/JointTrajectory",
     fields: "std_msgs/Header header\n\nstring[] joint_names\nJointTrajectoryPoint[] points\n",
     parts: &[HEADER, TIME, POINT, DURATION],
 };
 
-/// Poses of frames.
+/// Message type for the poses of frames.
 pub const TRANSFORMS: Type = Type {
     name: "tf2_msgs/msg/TFMessage",
     fields: "geometry_msgs/TransformStamped[] transforms\n",
     parts: &[STAMPED, HEADER, TIME, TRANSFORM, VECTOR, QUATERNION],
 };
 
-/// Surfaces.
+/// Message type for surfaces.
 pub const MARKERS: Type = Type {
     name: "visualization_msgs/msg/MarkerArray",
     fields: "visualization_msgs/Marker[] markers\n",
     parts: &[MARKER, HEADER, TIME, DURATION, POSE, POINT3, QUATERNION, VECTOR, COLOR, IMAGE, UV, MESH],
 };
 
-/// Points.
+/// Message type for points.
 pub const POINTS: Type = Type {
     name: "sensor_msgs/msg/PointCloud2",
     fields: "std_msgs/Header header\n\nuint32 height\nuint32 width\nsensor_msgs/PointField[] fields\nbool is_bigendian\n\
@@ -125,7 +125,7 @@ pub fn joint_trajectory(motion: &JointMotion) -> Vec<u8> {
     cdr.into_bytes()
 }
 
-/// The frame of all others: that of the robot's root.
+/// Name of the frame in which all others are given: that of the robot's root.
 const WORLD_FRAME: &str = "world";
 
 /// Returns the bytes of [`TRANSFORMS`]: names of frames, and their poses from a time on.
@@ -145,7 +145,7 @@ pub fn transforms(time: u64, frames: &[(&str, (Place, [f64; 4]))]) -> Vec<u8> {
 /// Returns the bytes of [`MARKERS`]: a list of triangles for each solid of all bodies, which move with their frames.
 #[must_use]
 pub fn markers(stage: &Stage) -> Vec<u8> {
-    /// `TRIANGLE_LIST`.
+    /// Value of `TRIANGLE_LIST` in the definition of markers.
     const TRIANGLE_LIST: i32 = 11;
     let mut cdr = Cdr::new();
     cdr.length(stage.bodies.iter().map(|body| body.solids.len()).sum());
@@ -186,7 +186,7 @@ pub fn markers(stage: &Stage) -> Vec<u8> {
 /// Returns the bytes of [`POINTS`]: the rims of a body.
 #[must_use]
 pub fn points(stage: &Stage, body: &Body) -> Vec<u8> {
-    /// `FLOAT32`, and its bytes.
+    /// Value of `FLOAT32` in the definition of points, and the size of such a number in bytes.
     const FLOAT32_FIELD: (u8, u32) = (7, 4);
     let points = stage.rims(body);
     let step = 3 * FLOAT32_FIELD.1;
@@ -220,7 +220,7 @@ fn header(cdr: &mut Cdr, time: u64) {
 
 /// Writes a `Time` or a `Duration`.
 fn since(cdr: &mut Cdr, nanoseconds: u64) {
-    // The types end after 68 years; motions after eleven days.
+    // The message can hold up to 68 years. Motions last at most eleven days.
     cdr.i32(i32::try_from(nanoseconds / NANOSECONDS_PER_SECOND).unwrap_or(i32::MAX));
     cdr.u32((nanoseconds % NANOSECONDS_PER_SECOND) as u32);
 }
@@ -259,8 +259,8 @@ mod tests {
             acceleration: Some(vec![vec![0.0, -2.0], vec![0.0, 0.0]]),
         };
         let zero = "00 00 00 00 00 00 00 00";
-        // A length at a multiple of 8, as the first point's at 40, leaves four bytes free before its values; that of the
-        // second point's positions lies at 124, and its values follow at once.
+        // A length at a multiple of 8, as the first point's at 40, leaves four bytes free before its values; that of
+        // the second point's positions lies at 124, and its values follow at once.
         let expected = hex(&format!(
             "00 01 00 00  00 00 00 00  00 00 00 00  01 00 00 00 00  00 00 00 \
              02 00 00 00  02 00 00 00 61 00  00 00  03 00 00 00 62 63 00  00  02 00 00 00 \

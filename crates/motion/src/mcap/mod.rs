@@ -23,11 +23,13 @@ use std::io::Cursor;
 /// once (`visualization_msgs/msg/MarkerArray`, for RViz and Foxglove). Topics below `/outlines`, one per body, have
 /// points along their rims (`sensor_msgs/msg/PointCloud2`, for Rerun).
 ///
-/// Each motion comes with its start time, seconds from the beginning of the recording; the caller puts the motions in
-/// order. A motion that begins when the previous one ends has no state of its own for that moment. Times of the log,
+/// Each motion comes with its start time, in seconds from the beginning of the recording. The caller puts the motions
+/// in order. If a motion begins when the previous one ends, there is only one state for that moment. Times of the log,
 /// the stamps of states and `time_from_start` are the same nanoseconds, and values are the motion's own `f64`. The same
 /// motions give the same bytes.
-/// Linear in the number of samples, some 250 bytes each, and as many for the poses of an arm.
+///
+/// Time and size are linear in the number of samples: some 250 bytes for each sample, and as many for the poses of an
+/// arm.
 #[must_use]
 pub fn mcap(motions: &[(&JointMotion, f64)], stage: Option<&Stage>) -> Vec<u8> {
     write(motions, stage).expect("channels with a schema each, and a buffer that takes all")

@@ -6,17 +6,17 @@ use cplan_geometry::{Convex, Point, Pose, Vector};
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 use std::f64::consts::TAU;
 
-/// Bodies in the plane, and their motion.
+/// Bodies, and their motion in the plane.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Stage {
     /// The plane of motion.
     pub plane: Plane,
     /// The bodies. The first one contains everything static, and does not move.
     pub bodies: Vec<Body>,
-    /// Poses in order of time: seconds from the beginning, number of a body, its pose from then on, and its lift along
-    /// the plane's normal, metres.
+    /// Poses in order of time: the time in seconds from the beginning, the number of a body, its pose from that time
+    /// on, and its lift along the plane's normal, metres.
     pub poses: Vec<(f64, usize, Pose, f64)>,
-    /// The size of the stage, metres: that of the arm.
+    /// Size of the arm, metres, to which the sizes of displayed details are relative.
     pub size: f64,
 }
 
@@ -34,7 +34,7 @@ pub struct Body {
 pub struct Solid {
     /// A name for display.
     pub name: String,
-    /// Red, green and blue, 0 to 1.
+    /// Red, green and blue, each from 0 to 1.
     pub color: [f32; 3],
     /// The pieces, each with its extent along the plane's normal.
     pub pieces: Vec<(Convex, Heights)>,
@@ -43,17 +43,17 @@ pub struct Solid {
 /// A point of space, metres.
 pub type Place = [f64; 3];
 
-/// Number of chords round a full circle: each chord is shorter than 2 % of the radius from the arc.
+/// Number of chords around a full circle. Each chord is nearer than 2 % of the radius to its arc.
 const CHORDS_PER_CIRCLE: f64 = 16.0;
 
-/// Height of bodies with infinite extent, if no body has a finite one, as a share of the size.
+/// Height that is shown for bodies with infinite heights if no body has finite ones, as a share of the arm's size.
 const THIN_BODY_HEIGHT: f64 = 0.02;
 
-/// Distance between points of outlines, as a share of the size.
+/// Distance between points of outlines, as a share of the arm's size.
 const OUTLINE_SPACING: f64 = 0.01;
 
 impl Stage {
-    /// Returns the extent shown for infinite heights: the extent of all finite ones.
+    /// Returns the heights that are shown for bodies with infinite heights: the range of all finite heights.
     pub fn heights(&self) -> Heights {
         let pieces = self.bodies.iter().flat_map(|body| &body.solids).flat_map(|solid| &solid.pieces);
         let ends = pieces.flat_map(|(_, heights)| [heights.lower, heights.upper]).filter(|end| end.is_finite());

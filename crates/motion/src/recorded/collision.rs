@@ -13,30 +13,31 @@ use std::borrow::Cow;
 /// The proven clearance is at least this share of the true one, as for [`super::certify`].
 const TIGHTNESS: f64 = 0.9;
 
-/// Greatest number of checks of a pair and a span: some seconds' worth.
+/// Greatest number of checks, each of a pair on a span. They take some seconds.
 const MAX_EVALUATIONS: usize = 20_000_000;
 
-/// Number of further checks after some span stays undecided. Then the motion cannot be proven free any more, and only a
-/// contact can still decide. A motion that slides along an obstacle would leave an endless number of spans undecided.
+/// Greatest number of further checks after the first span that stays undecided. From then on, the motion cannot be
+/// proven free, and only a contact can still decide. A motion that slides along an obstacle has very many undecided
+/// spans.
 const EVALUATIONS_AFTER_UNDECIDED: usize = 200_000;
 
-/// Number of configurations sampled in advance, evenly over the pieces. They show how close the motion comes, and so
-/// which resolution is useful.
+/// Number of configurations that are sampled before the search, evenly over the pieces. They show how close the motion
+/// comes to obstacles, and so which resolution is useful.
 const INITIAL_SAMPLES: usize = 1024;
 
-/// One of this many samples is taken first.
+/// Step between the samples that are taken first, in samples.
 const COARSE_STRIDE: usize = 32;
 
-/// A single configuration.
+/// Deviation of a single configuration from itself.
 const NO_DEVIATION: Deviation = Deviation::Box([0.0; 2]);
 
-/// A moment of a recorded motion.
+/// A time during a recorded motion, with the configuration at that time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Moment {
-    /// Seconds on the recording's clock. Without a clock, the index of the waypoint plus the fraction of the distance
-    /// to the next.
+    /// Time on the recording's clock, seconds. For a recording without times, the index of the waypoint plus the
+    /// fraction of the distance to the next waypoint.
     pub time: f64,
-    /// The sample at or before it, counted from 0.
+    /// Number of the sample at or before the moment, from 0.
     pub sample: usize,
     /// Configuration of the arm.
     pub at: Configuration,
@@ -55,7 +56,7 @@ impl Moment {
 pub struct Encounter {
     /// The moment on the motion.
     pub moment: Moment,
-    /// The shapes and their signed distance then.
+    /// The shapes, and their signed distance at that moment.
     pub contact: Contact,
 }
 
@@ -80,29 +81,31 @@ pub enum CollisionCheck {
         /// The least signed distance that was seen anywhere on the motion.
         deepest: Encounter,
     },
-    /// Undecided. At this moment (the first such) the distance is too close to the clearance to decide, or the search
-    /// reached its limit.
+    /// Undecided: at this moment, and none before it, the distance is too close to the clearance to decide, or the
+    /// search reached its limit.
     Undecided(Encounter),
 }
 
 /// Checks the whole motion against every pair that can meet, in order of time: the distance must be positive and at
 /// least `clearance` metres. Joint limits are checked by [`super::limit_violations`].
 ///
-/// A span of one piece is a tube around its chord: a curve deviates from its chord by at most an eighth of its greatest
-/// second derivative times the squared width, for each joint. A span of several pieces is the box of their control
-/// points. The bound of [`Posture::bound`] decides; otherwise both halves are examined. So many samples cost little if
-/// nothing is near. After a contact is found, only earlier spans are examined.
+/// A span within one piece is enclosed by a tube around its chord: in each joint, a curve deviates from its chord by at
+/// most an eighth of its greatest second derivative times the squared width. A span of several pieces is enclosed by
+/// the box around their control points. If the bound of [`Posture::bound`] does not decide a span, both its halves are
+/// examined. So many samples cost little if no obstacle is near. After a contact is found, only earlier spans are
+/// examined.
 ///
-/// Moving obstacles follow the recording's clock, from its first sample. Without a clock they are not checked.
+/// Moving obstacles follow the recording's clock, from its first sample on. If the recording has no times, they are not
+/// checked.
 #[must_use]
 pub fn check_collision<'a>(scene: impl Into<TimedScene<'a>>, recording: &Recording, clearance: f64) -> CollisionCheck {
     let scene = scene.into();
     check_pairs(scene, all_pairs(scene, recording), recording, clearance)
 }
 
-/// Does the same while joints move that the scene holds still. Parts are at the heights that these joints give them at
-/// each moment, and parts that a wrist turns count as the disc that they sweep. Pairs are those of the scene's parts.
-/// These joints must not move carried objects.
+/// Same as [`check_collision`], while joints move that the scene holds still. Parts are at the heights that these
+/// joints give them at each moment. A part that a wrist turns counts as the disc that it sweeps. These joints must not
+/// move carried objects.
 #[must_use]
 pub fn check_collision_with(
     scene: TimedScene,
@@ -121,22 +124,22 @@ pub fn check_collision_with(
     search.verdict()
 }
 
-/// Returns the pairs with static obstacles, and with a clock also those with moving ones.
+/// Returns the pairs with static obstacles, and if the recording has times, also the pairs with moving obstacles.
 fn all_pairs<'a>(scene: TimedScene<'a>, recording: &Recording) -> Cow<'a, [Pair]> {
     let moving = if recording.times().is_some() { scene.moving_pairs() } else { &[] };
     let standing = scene.scene.pairs();
     if moving.is_empty() { standing.into() } else { [standing, moving].concat().into() }
 }
 
-/// Checks against moving obstacles only, on the recording's clock from its first sample on. The arm's motion in time is
-/// certified if it is also known to be free of static obstacles, as the motion along a [`crate::CertifiedCurve`] is.
+/// Checks a motion against moving obstacles only, on the recording's clock from its first sample on. Together with a
+/// [`crate::CertifiedCurve`], which is free of static obstacles, this certifies the motion in time.
 #[must_use]
 pub fn certify_in_time(scene: TimedScene, recording: &Recording, clearance: f64) -> CollisionCheck {
     check_pairs(scene, scene.moving_pairs().into(), recording, clearance)
 }
 
-/// Returns the first moving obstacle that a recording approaches too closely, or that cannot be decided; `None` if it
-/// is free. Does not compute the clearance, which makes it much faster.
+/// Returns the first encounter with a moving obstacle that is too close, or for which this cannot be decided. `None` if
+/// the motion is free. Does not compute the clearance, and so is much faster than [`certify_in_time`].
 pub fn first_moving_contact(scene: TimedScene, recording: &Recording, clearance: f64) -> Option<Encounter> {
     let pieces = recording.pieces();
     let mut search = Search::new(scene, scene.moving_pairs(), &pieces, clearance);
@@ -158,19 +161,19 @@ fn check_pairs(scene: TimedScene, pairs: Cow<[Pair]>, recording: &Recording, cle
 
 struct Search<'a> {
     scene: TimedScene<'a>,
-    /// The pairs to check; those with moving obstacles come last.
+    /// The pairs to check. Pairs with moving obstacles come last.
     pairs: &'a [Pair],
     pieces: &'a [Piece],
     required: f64,
     /// Changes of heights and shapes during the motion.
     tool: Option<&'a ToolMotion<'a>>,
-    /// A bound is accepted if it is at least this share of the least distance seen.
+    /// Least share of the least distance so far at which a lower bound on the distance is accepted.
     tightness: f64,
-    /// Least of the accepted bounds.
+    /// Least of the accepted bounds, metres.
     proven: f64,
-    /// Least distance seen.
+    /// Encounter with the least distance so far.
     least: Option<Encounter>,
-    /// The earliest contact seen.
+    /// The earliest contact so far, and its place.
     hit: Option<(Place, Encounter)>,
     /// The earliest undecided span, and the nearest pair there.
     open: Option<(Place, Encounter)>,
@@ -197,8 +200,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Samples the whole motion, except stretches in which each pair is shown to be neither in contact nor closer than
-    /// an earlier one.
+    /// Samples the whole motion. Skips stretches in which no pair can be in contact, or closer than the closest so far.
     fn look_around(&mut self) {
         let count = self.pieces.len();
         let (stride, shares) = (count.div_ceil(INITIAL_SAMPLES), INITIAL_SAMPLES.div_ceil(count));
@@ -233,7 +235,7 @@ impl<'a> Search<'a> {
         self.look((count - 1, 1.0), self.pairs);
     }
 
-    /// Samples some pairs at a place, except those that discs around both show to be irrelevant.
+    /// Samples some pairs at a place. Skips pairs whose enclosing discs are far apart.
     fn look(&mut self, place: Place, pairs: &[Pair]) {
         let posture = Posture::new(self.scene.scene, self.pieces[place.0].at(place.1));
         for &pair in pairs {
@@ -260,7 +262,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Returns true if at a place the shapes of a pair are exact, and can meet there.
+    /// Returns true if the shapes of a pair are exact at a place, and their heights meet there.
     fn certainly_meets(&self, pair: Pair, place: Place) -> bool {
         self.tool.is_none_or(|tool| tool.certainly_meets(pair, place))
     }
@@ -276,7 +278,7 @@ impl<'a> Search<'a> {
         self.scene.course(pair).map(|course| course.drift(time(from), time(to)))
     }
 
-    /// Records a distance on the motion.
+    /// Records a sampled distance.
     fn see(&mut self, place: Place, contact: Contact) {
         let distance = contact.separation.distance;
         let encounter = Encounter { moment: Moment::new(place.0, &self.pieces[place.0], place.1), contact };
@@ -293,7 +295,8 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Returns true if a bound suffices. After a contact the question is only whether it is the first.
+    /// Returns true if a lower bound is good enough. After a contact has been found, each bound that excludes a contact
+    /// is.
     fn suffices(&self, bound: f64) -> bool {
         let is_tight = self.tightness > 0.0 && self.hit.is_none();
         let target = if is_tight { (self.tightness * self.seen()).max(self.required) } else { self.required };
@@ -327,7 +330,7 @@ impl<'a> Search<'a> {
         let [from, to] = span.ends();
         pairs.retain(|&pair| {
             let certainly_meets = self.certainly_meets(pair, span.middle());
-            // The least sampled distance does not apply to shapes that are not really there.
+            // A shape that is not exact may be nearer than the true shape, so do not compare it with sampled distances.
             let suffices = |search: &Self, bound: f64| match certainly_meets {
                 true => search.suffices(bound),
                 false => bound > 0.0 && bound >= search.required,
@@ -412,7 +415,7 @@ fn here(posture: &Posture, pair: Pair, drift: Option<&Drift>) -> Separation {
     bound(posture, pair, NO_DEVIATION, drift, |_| f64::NEG_INFINITY).here
 }
 
-/// Does the same by discs around both shapes.
+/// Returns a lower bound on the distance of a pair, by discs around both shapes.
 fn apart(posture: &Posture, pair: Pair, deviation: Deviation, drift: Option<&Drift>) -> f64 {
     match drift {
         Some(drift) => posture.apart_drifting(pair, deviation, drift),

@@ -5,8 +5,8 @@ use cplan_core::space::Configuration;
 use cplan_handling::Recording;
 use thiserror::Error;
 
-/// Largest distance of a motion from its start or goal, radians or metres: the effect of six printed decimals on a tip
-/// several metres from its joints, and below the repeatability of any arm.
+/// Largest distance of a motion from its start or goal, radians or metres. Six printed decimals of joint values move a
+/// tip several metres from its joints by about this much. It is less than the repeatability of any arm.
 pub const END_TOLERANCE: f64 = 1e-5;
 
 /// A difference from the required start or goal.

@@ -7,23 +7,23 @@ use cplan_core::space::{Configuration, JointRange};
 use cplan_dynamics::Torques;
 use cplan_handling::{Derivative, Piece, Recording};
 
-/// Relative excess of a limit that is tolerated: programs that plan up to a limit exceed it by rounding and by six
-/// printed digits, which no drive can distinguish.
+/// Relative excess of a limit that is tolerated. Programs that plan up to a limit exceed it by rounding and by six
+/// printed digits. No drive can distinguish such values.
 const LIMIT_TOLERANCE: f64 = 1e-6;
 
-/// Numbers with at least this many decimals count as rounded in the last one.
+/// Least number of decimals of numbers that count as rounded in their last decimal.
 const MIN_ROUNDED_DECIMALS: i32 = 6;
 
-/// Numbers with fewer are as they were meant (`0.5` is a half, a time of `0.004` is the fourth millisecond), exact to
-/// this many decimals: the nanosecond in which ROS counts.
+/// Number of decimals to which numbers with fewer than [`MIN_ROUNDED_DECIMALS`] decimals count as exact: `0.5` is a
+/// half. Nine decimals of a time are a nanosecond.
 const EXACT_DECIMALS: i32 = 9;
 
-/// Rounding error of doubles in units in the last place: the cost of computing a sample and the piece through it.
+/// Rounding error of a computed sample and of the piece through it, in units in the last place of a double.
 const ULPS: f64 = 4.0;
 
-/// Largest share of a speed limit that the rounding of positions and times may explain between samples. Six decimals at
-/// a kilohertz explain a thousandth of a radian per second. Coarser numbers for their spacing define another motion,
-/// and that is the one a controller plays.
+/// Largest share of a speed limit that rounding of positions and times may explain between samples. Six decimals at a
+/// kilohertz explain a thousandth of a radian per second. Numbers that are coarser for their spacing define another
+/// motion, and a controller executes that motion.
 const MAX_ROUNDING_SHARE: f64 = 0.01;
 
 /// A limit of a joint.
@@ -37,52 +37,53 @@ pub enum Limit {
     Acceleration,
     /// The greatest jerk.
     Jerk,
-    /// The greatest torque or force that moves it.
+    /// The greatest torque or force of the joint's drive.
     Torque,
-    /// Absence of jumps in the acceleration, if the jerk is limited.
+    /// The acceleration must not jump if the jerk is limited.
     AccelerationJump,
-    /// A motion starts at rest.
+    /// A motion must start at rest.
     RestAtStart,
-    /// A motion ends at rest.
+    /// A motion must end at rest.
     RestAtEnd,
 }
 
 /// A violated limit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LimitViolation {
-    /// 0 or 1.
+    /// Number of the joint, 0 or 1.
     pub joint: usize,
     /// The violated limit.
     pub limit: Limit,
-    /// The allowed value, in the unit of `value`: the nearer end of the range, or a magnitude; 0 for rest and jumps.
+    /// The allowed value, in the unit of `value`: the nearer end of the joint's range, or the greatest magnitude; 0 for
+    /// rest and jumps.
     pub allowed: f64,
     /// The joint's position, velocity, acceleration, jerk or change of acceleration where it exceeds the limit most.
     pub value: f64,
-    /// Time of that value.
+    /// Moment at which the joint has that value.
     pub moment: Moment,
 }
 
-/// Returns every violated limit of each joint, at the place of the greatest violation. `O(n)`.
+/// Returns every violated limit of each joint, at the moment of the greatest violation. Takes `O(n)` for `n` samples.
 ///
-/// Position limits apply to every recording; velocity limits if there are times; acceleration and rest at both ends if
-/// there are velocities. Without velocities, the velocity jumps at the samples, which does not show the intended
-/// motion.
+/// Position limits apply to every recording, and velocity limits if there are times. Limits of acceleration, and rest
+/// at both ends, apply if there are velocities. Without velocities, the velocity jumps at the samples, so the
+/// accelerations of the intended motion are unknown.
 ///
-/// Velocities and accelerations in a file are judged as stated. The interpolation of the file's consumer between the
-/// samples ([`cplan_handling::Interpolation`]) is judged by the extremes of each piece. A limit counts as broken if it
-/// is exceeded by more than 1e-6 of it and by more than the rounding of the recording's own numbers explains. For
-/// stated numbers that rounding is half a unit of their last decimal; between samples it is the resulting error of a
-/// motion within the limits. (Six decimals at a millisecond's spacing leave the acceleration of a cubic uncertain by
-/// some radians per squared second.)
+/// Velocities and accelerations in a file are judged as stated. Between samples, the interpolation by the file's
+/// consumer ([`cplan_handling::Interpolation`]) is judged by the extremes of each piece. A limit counts as violated if
+/// it is exceeded by more than 1e-6 of it, and by more than rounding of the recording's numbers explains. Rounding of a
+/// stated number is half a unit of its last decimal. Between samples, it is the error that such rounding causes in a
+/// motion within the limits. (With six decimals and samples a millisecond apart, the acceleration of a cubic is
+/// uncertain by some radians per squared second.)
 ///
-/// Rounding may explain excesses on short pieces, but not over long stretches. So between any two samples, the joint
-/// must not move farther than its top speed allows, and its stated velocity must not change by more than its
+/// Rounding may explain an excess on a short piece, but not over a long stretch. So between any two samples, the joint
+/// must not move farther than its top speed allows, and its stated velocity must not change by more than its greatest
 /// acceleration allows.
 ///
-/// The jerk of a joint with such a limit is judged if there are velocities: the third derivative of each piece, and
+/// If a joint has a limit on its jerk and there are velocities, the third derivative of each piece is judged, and the
 /// continuity of the acceleration between pieces and at the ends of the motion. This is exact for motions with constant
-/// jerk between samples. Other motions differ from their cubics, which jump at the samples by as much as the square of
-/// the spacing, so they must be sampled at the ends of their phases.
+/// jerk between samples. The cubics of other motions jump at the samples, so motions must be sampled where their jerk
+/// changes.
 #[must_use]
 pub fn limit_violations(joints: &[Joint; 2], recording: &Recording) -> Vec<LimitViolation> {
     let precision = Precision::of(recording);
@@ -114,15 +115,15 @@ pub fn limit_violations(joints: &[Joint; 2], recording: &Recording) -> Vec<Limit
     found
 }
 
-/// Greatest relative change of a torque between two samples, as a share of the effort.
+/// Greatest change of a torque between two examined moments, as a share of the joint's effort.
 const TORQUE_TOLERANCE: f64 = 1e-4;
 
-/// Returns the places at which the motion needs more torque than the joints' efforts, if motions of the scene's arm
-/// must keep within them: for each joint the place of the greatest excess.
+/// Returns, for each joint, the moment at which the torque exceeds the joint's effort the most. Returns nothing if
+/// motions of the scene's arm need not respect efforts.
 ///
-/// Like accelerations, torques are judged if there are velocities, by the format's interpolation, beyond rounding.
-/// Between the examined moments a torque may be greater by a ten-thousandth of the effort. For a single sample it is
-/// the torque that holds the arm there.
+/// Torques are judged if there are velocities, with the interpolation of the file's consumer, and with the same
+/// allowance for rounding as accelerations. Between the examined moments, a torque may be greater by a ten-thousandth
+/// of the effort. For a recording of a single sample, the torque that holds the arm there is judged.
 #[must_use]
 pub fn torque_violations(scene: &Scene, recording: &Recording) -> Vec<LimitViolation> {
     let Some(torques) = Torques::limited(scene).filter(|_| recording.velocities().is_some()) else {
@@ -165,12 +166,12 @@ struct Judge<'a> {
     k: usize,
     pieces: &'a [Piece],
     precision: JointPrecision,
-    /// Greatest excess of each kind.
+    /// For each violated limit, the greatest excess so far and its violation.
     worst: Vec<(f64, LimitViolation)>,
 }
 
 impl<'a> Judge<'a> {
-    /// Records a value that exceeds its limit by `over` more than allowed.
+    /// Records a value that exceeds its limit by `over` in addition to the tolerance.
     fn note(&mut self, over: f64, limit: Limit, allowed: f64, value: f64, moment: Moment) {
         let excess = LimitViolation { joint: self.k, limit, allowed, value, moment };
         match self.worst.iter_mut().find(|(_, known)| known.limit == limit) {
@@ -285,7 +286,7 @@ impl<'a> Judge<'a> {
 
     /// Judges the jerks of all pieces, and the jumps of the acceleration at their ends.
     fn jerks(&mut self, most: f64) {
-        // For joints that do not move.
+        // A joint at rest has no acceleration and no error.
         let still = (0.0, 0.0);
         let mut before = still;
         for (index, piece) in self.lasting() {
@@ -340,8 +341,8 @@ impl<'a> Judge<'a> {
     }
 }
 
-/// Sensitivity of a derivative of a piece to changes of its data, with times in units of its duration: to the
-/// difference of the positions, to both velocities, and to all accelerations.
+/// How much a derivative changes per unit of change in the positions, velocities or accelerations that define the
+/// piece. Time is in units of the piece's duration.
 struct Sensitivity {
     order: i32,
     position: f64,
@@ -350,11 +351,15 @@ struct Sensitivity {
 }
 
 impl Sensitivity {
-    /// Computes it from the derivatives of the polynomials for each datum: for cubics `3 u^2 - 2 u^3` (position), `u -
-    /// 2 u^2 + u^3` and `u^3 - u^2` (velocities); of degree four `4 u^3 - 3 u^4`, `u - 3 u^3 + 2 u^4` and `u^4 - u^3`,
-    /// `u^2 / 2 - u^3 + u^4 / 2` (acceleration); of degree five `10 u^3 - 15 u^4 + 6 u^5`, `u - 6 u^3 + 8 u^4 - 3 u^5`
-    /// and `-4 u^3 + 7 u^4 - 3 u^5`, `(u^2 - 3 u^3 + 3 u^4 - u^5) / 2` and `(u^3 - 2 u^4 + u^5) / 2`. Rounded up; the
-    /// unit tests compare them with samples.
+    /// Returns the sensitivity of a piece's derivative. It follows from the polynomials that multiply the position
+    /// difference, the velocities and the accelerations:
+    ///
+    /// - degree 3: `3 u^2 - 2 u^3`; `u - 2 u^2 + u^3` and `u^3 - u^2`.
+    /// - degree 4: `4 u^3 - 3 u^4`; `u - 3 u^3 + 2 u^4` and `u^4 - u^3`; `u^2 / 2 - u^3 + u^4 / 2`.
+    /// - degree 5: `10 u^3 - 15 u^4 + 6 u^5`; `u - 6 u^3 + 8 u^4 - 3 u^5` and `-4 u^3 + 7 u^4 - 3 u^5`;
+    ///   `(u^2 - 3 u^3 + 3 u^4 - u^5) / 2` and `(u^3 - 2 u^4 + u^5) / 2`.
+    ///
+    /// The numbers are rounded up. The unit tests compare them with samples.
     fn of(piece: &Piece, derivative: Derivative) -> Self {
         let (order, [position, velocity, acceleration]) = match (derivative, piece.degree()) {
             (Derivative::Position, _) => (0, [1.0, 0.5, 0.1]),

@@ -1,7 +1,7 @@
 //! Judges recorded motions of any origin, also between their samples.
 //!
-//! - [`check_collision`] judges a recorded motion, also among moving obstacles ([`certify_in_time`]); [`limit_violations`]
-//!   judges its limits; [`endpoint_errors`] its start and goal.
+//! - [`check_collision`] checks a recorded motion for collisions, also among moving obstacles ([`certify_in_time`]).
+//!   [`limit_violations`] checks the limits of joints, and [`endpoint_errors`] the start and the goal.
 //! - [`replay()`] repeats a recorded task: it matches the recorded steps with the task's (`order`), tracks the objects
 //!   and the load from the recorded configurations (`state`), and judges each motion in the scene of its moment.
 //! - [`false_claims`] judges the claims of a result. The samples are the motion, and all other members are claims about

@@ -1,8 +1,9 @@
-//! Heights and shapes of the arm while joints other than the planned two move.
+//! Heights and shapes of the arm while joints other than the two planned ones move.
 //!
-//! Within a span, a lifted part covers all heights from its least to its greatest; a region free of these is free. A
-//! contact is claimed only for the heights at one moment. A part that turns about a wrist counts as the disc that it
-//! sweeps about the axis. No contact of such a disc is claimed, unless the part is that disc itself.
+//! During a span of time, a lifted part counts with all its heights from the least to the greatest. This is enough to
+//! prove that a span is free. A contact is reported only if the heights meet at one moment. A part that a wrist turns
+//! counts as the disc that it sweeps about the wrist's axis. A contact of such a disc is reported only if the part is a
+//! disc itself.
 
 use crate::{Place, Span};
 use cplan_core::check::Deviation;
@@ -10,7 +11,7 @@ use cplan_core::model::{Heights, Pair, Part, Scene};
 use cplan_geometry::{Convex, Point};
 use cplan_handling::{HeldEffect, HeldMotion, Piece};
 
-/// Greatest distance of a round part from its axis of rotation, metres: rounding, the same as for heights.
+/// Greatest distance of the centre of a round part from its axis of rotation, metres. It allows for rounding.
 const AXIS_TOLERANCE: f64 = 1e-9;
 
 /// A joint that lifts some bodies.

@@ -11,7 +11,8 @@ use std::f64::consts::TAU;
 pub struct WristTurn {
     /// The payload's orientation at the beginning, radians.
     pub from: f64,
-    /// Angle at the end: less than one turn from the beginning, in the direction of the turn.
+    /// The payload's orientation at the end, radians. It differs from `from` by less than one turn, with the sign of
+    /// the direction.
     pub to: f64,
     /// Proven lower bound on the distance between payload and obstacles, metres, except its supports; infinite if
     /// nothing can meet.
@@ -103,8 +104,8 @@ impl Turning {
     }
 
     fn judge(&self, [from, to]: [f64; 2]) -> Result<WristTurn, TurnContact> {
-        // The turn uses the copy nearest to zero. Contacts are known there, and a shift by turns of a double would move
-        // them by more than the margin.
+        // Shift the turn to the orientations nearest to zero, where contact angles are known. Shifting these instead
+        // would cause more rounding than the margin covers.
         let near = JointRange::Circle.wrap(from);
         match self.judge_near([near, near + (to - from)]) {
             Ok(free) => Ok(WristTurn { from, to, ..free }),

@@ -5,22 +5,22 @@ use cplan_core::model::{Pair, Scene};
 use cplan_core::space::Configuration;
 use cplan_geometry::penetration_depth;
 
-/// Margin by which a depth must exceed the motion, as a share of the lengths involved. It is far greater than the
-/// rounding of either.
+/// Margin by which an overlap depth must exceed the motion, as a share of the lengths in the computation. It is far
+/// greater than rounding errors.
 const ROUNDING: f64 = 1e-12;
 
-/// Least share of the segment that a test must cover. If a test covers less, the search stops: the shapes come apart
-/// there.
+/// Least share of the segment that a test must cover. If a test covers less, the shapes come apart there, and the tests
+/// end.
 const MIN_TEST_SHARE: f64 = 1e-12;
 
 /// Returns the part of a straight motion, around its middle, along which a pair is proven to be nearer than
-/// `clearance`, or to overlap. Two shares of the motion describe the part. There are at most `looks` tests in either
-/// direction. Both shares are one half if nothing is proven.
+/// `clearance`, or to overlap. The result is the beginning and the end of that part, as shares of the motion. Both are
+/// one half if nothing is proven. There are at most `looks` tests in either direction.
 ///
-/// Shapes that overlap by a depth still overlap until a point has moved that far. So each test covers some of the
-/// motion, and the next test is at the end of that part. If the part slides without turning, its positions relative to
-/// the piece form a straight segment, and the overlapping positions form a convex set, the Minkowski difference. Then
-/// an overlap at both ends implies an overlap between them.
+/// Shapes that overlap by a depth still overlap until a point has moved that far. So each test covers a stretch of the
+/// motion, and the next test is at the end of that stretch. If the link's part moves without turning, its positions
+/// relative to the piece lie on a straight line, and the overlapping positions form a convex set, the Minkowski
+/// difference. Then an overlap at both ends implies an overlap between them.
 pub(super) fn held(scene: &Scene, pair: Pair, ends: [Configuration; 2], clearance: f64, looks: usize) -> [f64; 2] {
     if scene.pairs().binary_search(&pair).is_err() {
         return [0.5; 2];
@@ -30,7 +30,7 @@ pub(super) fn held(scene: &Scene, pair: Pair, ends: [Configuration; 2], clearanc
     let looked = |at: Configuration| {
         let posture = Posture::new(scene, at);
         let part = scene.part(pair).at(&scene.arm().pose(pair.link, at));
-        // The rounding of the position is far smaller than that of the depth.
+        // The depth has a far greater rounding error than the position.
         (penetration_depth(&part, &piece) - ROUNDING * posture.scale(part.core(), part.radius(), &piece), posture)
     };
     if slides(scene, pair, ends) && ends.iter().all(|&end| looked(end).0 > 0.0) {

@@ -1,5 +1,5 @@
-//! Closed configurations, in which shapes are too near: values of joint 1, values of joint 2 at one value of joint 1,
-//! and straight motions.
+//! *Closed* configurations, in which shapes are too near. Finds the closed values of joint 1, and those of joint 2 at
+//! one value of joint 1. Proves that straight motions are closed.
 
 use crate::slab::{CLOSED_FORM_ERROR, ErodedShape};
 use cplan_core::check::{COLLISION_ROUNDING, Deviation, Posture};
@@ -14,8 +14,8 @@ use std::f64::consts::PI;
 /// Number of times that a motion is halved before it counts as not proven.
 const MAX_MOTION_HALVINGS: usize = 4;
 
-/// Values of joint 2 at which a pair is too near. For a joint with limits they lie within the domain. On a circle they
-/// are an arc that may end beyond the domain, by at most a turn.
+/// An interval of joint 2 in which a pair is too near. For a joint with limits it lies within the domain. For a
+/// continuous joint it may end beyond the domain, by at most a turn.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Wall {
     /// Number of the pair among those of link 2.
@@ -24,25 +24,24 @@ pub(super) struct Wall {
     pub upper: f64,
 }
 
-/// Maximum number of pairs of link 2. With fewer pairs, less is closed, so the bound stays valid. It hardly gets lower:
-/// with this many pairs, the pieces are smaller than the link, which still collides with others near those that are
-/// left out.
+/// Maximum number of pairs of link 2 that are examined. Without the other pairs, less is closed, so the bound stays
+/// valid. It hardly gets lower: among so many pieces, the link usually collides with several at once.
 pub(super) const MAX_PAIRS: usize = 4096;
 
-/// Maximum number of slices times pairs. This many take some seconds.
+/// Maximum number of slices, times the number of pairs. The limit corresponds to some seconds.
 const MAX_SLICE_TESTS: usize = 4_000_000;
 
 /// A pair of link 2.
 struct PreparedPair {
     /// Number among all pairs.
     index: usize,
-    /// `None` if the shapes are too thin to overlap by more than the rounding error.
+    /// The eroded shape of the pair. `None` if the shapes are too thin to overlap by more than the rounding error.
     eroded: Option<ErodedShape>,
     /// Half-planes of the piece's core.
     sides: Vec<(Vector, f64)>,
 }
 
-/// Everything that link 2 can collide with.
+/// The pairs of link 2, prepared to find its walls.
 pub(super) struct SecondLinkWalls<'a> {
     contacts: Contacts<'a>,
     clearance: f64,
@@ -85,14 +84,14 @@ impl<'a> SecondLinkWalls<'a> {
         }
     }
 
-    /// Returns the pairs in use, in order: those of link 1, unless they are too many, and those of link 2.
+    /// Returns the pairs in use, in order: the pairs of link 1, unless they are too many, then the pairs of link 2.
     pub fn pairs(&self) -> Vec<Pair> {
         let first = self.contacts.second_link_pairs().start;
         let few = first <= MAX_PAIRS;
         self.scene().pairs()[..first].iter().filter(|_| few).chain(self.numbers.keys()).copied().collect()
     }
 
-    /// Returns the maximum number of slices worth examining.
+    /// Returns the maximum number of slices that can be examined in a few seconds.
     pub fn most_slices(&self) -> usize {
         MAX_SLICE_TESTS / self.pairs.len().max(1)
     }
@@ -196,12 +195,13 @@ impl<'a> SecondLinkWalls<'a> {
         (self.contacts.moving(pair.index).shape(), self.contacts.static_shape(pair.index).shape())
     }
 
-    /// Returns true if one point, fixed in one of the shapes, stays in both shapes all along the motion.
+    /// Returns true if one point, fixed in one of the shapes, provably stays in both shapes all along the motion.
     ///
-    /// A point of the part moves smoothly. Its distance from the straight line between its end positions is at most
-    /// half the bound on its second derivative. The distance from a convex set, negative inside, is a convex function.
-    /// So the point's distance from the piece is nowhere greater than at the farther end, plus that half. The same
-    /// holds for a point of the piece as seen from the link. If the point's distances from both cores add up to at most
+    /// A point of the part moves smoothly. It deviates from a straight motion between its end positions by at most half
+    /// the bound on its second derivative. The distance from a convex set, negative inside, is a convex function. So
+    /// the point's distance from the piece is at most its greater distance at the two ends, plus that deviation. The
+    /// same holds for a point of the piece as seen from the link. If the point's distances from both cores add up to at
+    /// most
     /// `radius`, the distance of the cores is at most `radius`.
     fn follows(&self, pair: &PreparedPair, posture: &Posture, ends: [Configuration; 2]) -> bool {
         let (part, piece) = self.shapes(pair);
@@ -234,8 +234,8 @@ impl<'a> SecondLinkWalls<'a> {
     }
 }
 
-/// Returns the numbers of the pairs of link 2 that can collide in some posture, in order. If there are too many, it
-/// keeps the largest pieces, and for pieces of similar size a selection spread over the list.
+/// Returns the numbers, in order, of the pairs of link 2 that can collide in some configuration. If there are too many,
+/// keeps the pairs with the largest pieces; among pieces of similar size, keeps pairs that are spread over the list.
 fn chosen(contacts: &Contacts, clearance: f64) -> Vec<usize> {
     let arm = contacts.scene().arm();
     let in_reach = |index: &usize| {
@@ -315,7 +315,7 @@ fn signed_distance(p: Point, core: &[Point], sides: &[(Vector, f64)]) -> f64 {
     (0..n).map(|i| to_segment(p, core[i], core[(i + 1) % n])).fold(f64::INFINITY, f64::min)
 }
 
-/// Returns true if that distance is at most `allowed`. This is often cheaper than computing the distance.
+/// Returns true if [`signed_distance`] is at most `allowed`. This is often cheaper than computing the distance.
 fn within(p: Point, core: &[Point], sides: &[(Vector, f64)], allowed: f64) -> bool {
     let at_least = if sides.is_empty() { 0.0 } else { outside(p, sides) };
     at_least <= allowed && (at_least < 0.0 || signed_distance(p, core, sides) <= allowed)

@@ -7,11 +7,12 @@ use cplan_core::model::Pair;
 use cplan_geometry::Point;
 use std::f64::consts::TAU;
 
-/// A wall jumps in one half of a strip if this share of its change is in that half. It is more than the share of a
-/// smooth tip.
+/// Least share of a wall's change over a strip that must fall into one half of it for a jump there. The share of a
+/// smooth tip is less.
 const MIN_JUMP_SHARE: f64 = 0.85;
 
-/// Returns the change of the walls' ends from one place to another; infinite if the numbers of walls differ.
+/// Returns the sum of the changes of the walls' ends from one slice to another; infinite if the numbers of walls
+/// differ.
 fn change(there: &[[f64; 2]], beyond: &[[f64; 2]]) -> f64 {
     if there.len() != beyond.len() {
         return f64::INFINITY;
@@ -21,9 +22,9 @@ fn change(there: &[[f64; 2]], beyond: &[[f64; 2]]) -> f64 {
 }
 
 impl Strips<'_> {
-    /// Returns values of joint 1, ascending, that approach the place where a wall jumps, by bisection down to a width.
-    /// It searches between `closed`, where the pair makes the wall, and `until`. Returns nothing if the wall changes
-    /// smoothly.
+    /// Returns values of joint 1, ascending, that approach the place where a wall jumps. The place lies between
+    /// `closed`, where the pair makes the wall, and `until`. It is bisected down to `width`. Returns nothing if the
+    /// wall changes smoothly.
     fn towards_jump(&mut self, number: usize, [closed, until]: [f64; 2], wall: [f64; 2], width: f64) -> Vec<f64> {
         let (mut with, mut without) = (closed, until);
         let (mut there, mut beyond) = (vec![wall], self.walls_about(number, until, wall));
@@ -56,7 +57,8 @@ impl Strips<'_> {
         walls.iter().map(near).filter(|at| at[0] <= wall[1] && wall[0] <= at[1]).collect()
     }
 
-    /// Returns where to cut a strip in which a path enters a wall of a pair: towards jumps on either side.
+    /// Returns the values of joint 1 at which to cut a strip in which a path enters a wall of a pair. They approach the
+    /// jumps of the wall on either side.
     pub fn towards_jumps(&mut self, index: usize, pair: Pair, at: Point, width: f64) -> Vec<f64> {
         let Some(number) = self.closed.number(pair) else { return Vec::new() };
         let walls = self.walls_about(number, at.x, [at.y; 2]);
@@ -67,8 +69,8 @@ impl Strips<'_> {
         cuts
     }
 
-    /// Returns where to cut a strip towards the end of a wall that contains a value of joint 2 on the slice before or
-    /// after it. Returns nothing if the wall continues through the strip.
+    /// Returns the values of joint 1 at which to cut a strip in which a wall ends. The wall contains `q2` on the slice
+    /// after the strip, or before it if `after` is false. Returns nothing if the wall continues through the strip.
     pub fn towards_tip(&mut self, index: usize, after: bool, q2: f64, width: f64) -> Vec<f64> {
         let [from, to] = self.ends(index);
         let (with, without) = if after { (to, from) } else { (from, to) };

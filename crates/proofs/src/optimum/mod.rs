@@ -20,7 +20,7 @@ use search::{Search, SearchResult};
 use std::f64::consts::TAU;
 use strips::Strips;
 
-/// Margin for rounding and for the tie-break of travel times, as a share of a shortest length.
+/// Margin, as a share of a shortest length, for rounding and for the tie-break between equal travel times.
 const ROUNDING: f64 = 1e-9;
 
 /// Rounding error of the ends of a path, as a share of their coordinates. Far from zero, doubles lie far apart, and a
@@ -30,20 +30,20 @@ const COORDINATE_ROUNDING: f64 = 1024.0 * f64::EPSILON;
 /// Maximum number of refinements of the strips.
 const MAX_REFINEMENTS: usize = 64;
 
-/// Number of first paths that are always searched: among wide strips they often lead through passages that do not
-/// exist.
+/// Number of paths at the beginning that are always searched, rather than pulled taut. Among wide strips, paths often
+/// lead through passages that do not exist.
 const MIN_SEARCHED_PATHS: usize = 2;
 
-/// Maximum number of paths, searched or pulled taut. Most of them follow the refusal of a certificate.
+/// Maximum number of paths, searched or pulled taut. Most paths follow a refused certificate.
 const MAX_PATHS: usize = 128;
 
-/// Maximum number of pairs times searches: about a second.
+/// Maximum number of searches, times the number of pairs. The limit corresponds to about a second.
 const MAX_SEARCH_WORK: usize = 80_000;
 
-/// A path is certified only if its length has grown by at most this share since the path before.
+/// Largest growth of a path's length since the path before it, as a share, with which the path is certified.
 const SETTLED_GROWTH: f64 = 1e-6;
 
-/// Maximum number of pairs times refused certificates: some seconds.
+/// Maximum number of refused certificates, times the number of pairs. The limit corresponds to some seconds.
 const MAX_REFUSAL_WORK: usize = 500_000;
 
 /// Number of pairs that are added around a place where a path collides with a pair that is not in use.
@@ -52,21 +52,21 @@ const PAIRS_PER_COLLISION: usize = 256;
 /// Number of consecutive rounds with hardly any improvement after which the search ends.
 const MAX_IDLE_ROUNDS: usize = 3;
 
-/// Share of the extra clearance `kept` that strips may use up. The rest is enough for a certificate, and a greater
-/// share needs fewer slices.
+/// Share of the extra clearance `kept` by which paths may enter grown obstacles within strips. The rest is enough for a
+/// certificate. A greater share needs fewer slices.
 const STRIP_CLEARANCE_SHARE: f64 = 0.9;
 
-/// Number of pairs up to which [`STRIP_CLEARANCE_SHARE`] applies. Among more pairs a path passes many small things, and certificates
-/// need more space.
+/// Number of pairs up to which [`STRIP_CLEARANCE_SHARE`] applies. Among more pairs, a path passes many small pieces,
+/// and certificates need more space.
 const FEW_PAIRS: usize = 1000;
 
-/// The same share for more pairs.
+/// Value that replaces [`STRIP_CLEARANCE_SHARE`] among more than [`FEW_PAIRS`] pairs.
 const STRIP_CLEARANCE_SHARE_OF_MANY: f64 = 0.5;
 
 /// Share of the requested gap that a single strip may leave open without being halved.
 const MAX_STRIP_GAP_SHARE: f64 = 1e-3;
 
-/// Least share of the limit below which paths are searched initially.
+/// Least initial limit on the length of searched paths, as a share of the final limit.
 const MIN_LIMIT_SHARE: f64 = 1.0 / 64.0;
 
 /// The requested motions, and the metric of their lengths.
@@ -78,9 +78,9 @@ pub struct MotionQuery<'a> {
     pub start: Configuration,
     /// Goals, on any turns.
     pub goals: &'a GoalSet,
-    /// Required distance from every obstacle, metres: more than zero, and at least this.
+    /// Required distance from every obstacle, metres. If 0, the distance must still be positive.
     pub clearance: f64,
-    /// The metric.
+    /// Metric in which lengths of motions are measured.
     pub metric: Metric,
 }
 
@@ -91,9 +91,10 @@ pub struct MotionQuery<'a> {
 /// *Slices* cut joint 1's domain into strips. On a slice, contact angles give exactly the values of joint 2 that are
 /// closed: *walls*. If a pair makes walls on both slices of a strip, a straight *barrier* between them is proven to be
 /// closed all along. No motion crosses walls or barriers, so no motion is shorter than the shortest path around them.
-/// Between two slices, paths may cut into closed regions. The error is of second order in the strip's width for a
-/// smooth boundary. Strips are cut where the path does this. So the bound needs some dozens of slices, most of them
-/// where the path touches obstacles. The values `slices` of joint 1 are slices from the beginning.
+///
+/// Between two slices, this path may cut into closed regions. The error is of second order in the strip's width for a
+/// smooth boundary. Strips are cut where the path does this, so the bound needs only some dozens of slices, most of
+/// them where the path touches obstacles. `slices` are values of joint 1 that are slices from the beginning.
 ///
 /// The search for the path is complete up to the rounding of coordinates, for which a share of 1e-9 is subtracted.
 /// Walls are made of slightly eroded shapes, so every passage is some nanometres wider than in reality. Pairs of two
@@ -103,8 +104,8 @@ pub fn least_length(motions: &MotionQuery, limit: f64, gap: f64, slices: &[f64])
     bounded(&MotionQuery { scene: &motions.scene.inner(), ..*motions }, limit, gap, slices).0
 }
 
-/// Returns evidence for a checker: the walls and barriers that close all paths shorter than [`least_length`] without
-/// given slices.
+/// Returns evidence for a checker: the walls and barriers that close all paths shorter than the bound that
+/// [`least_length`] finds without given slices.
 #[must_use]
 pub fn bound_evidence(motions: &MotionQuery, limit: f64, gap: f64) -> BoundEvidence {
     let scene = &*motions.scene.inner();
@@ -130,15 +131,17 @@ fn bounded<'a>(motions: &MotionQuery<'a>, limit: f64, gap: f64, slices: &[f64]) 
     (search.rounded(best.min(limit)), search)
 }
 
-/// Finds a motion that is about the shortest of the `motions`, and shorter than `limit`. `judge` certifies it: it takes
-/// a [`ProposedPath`] path, and may certify a path derived from it. The motion keeps the clearance, plus most of the extra
-/// `kept` metres: strips use up the rest. It is longer than the shortest motion by the cost of this extra clearance.
+/// Finds a certified motion that is about the shortest of the `motions`, and shorter than `limit`. Returns `None` if it
+/// finds none, for example because a passage is too narrow for `kept`.
+///
+/// `judge` takes a [`ProposedPath`], and certifies that path or a path derived from it. The path keeps the clearance,
+/// plus a part of the extra clearance `kept`, metres. It is longer than the shortest motion by the cost of this extra
+/// clearance.
 ///
 /// The path is the shortest path of [`least_length`] among obstacles grown by `kept`. Strips are cut where the path
-/// leads into these by more than most of `kept`, and where the judge refuses it. Among finer strips, the path is pulled
-/// taut through its portals, which is much faster than a search. If the judge finds such a path too long, or refuses
-/// the same path twice, all later paths are searched. Returns `None` if this does not succeed, for example if a passage
-/// is too narrow for `kept`.
+/// enters the grown obstacles by more than a share of `kept` (0.9, or 0.5 among many pairs), and where the judge refuses
+/// it. Among the finer strips, the path is pulled taut through its portals, which is much faster than a search. If the
+/// judge finds such a path too long, or refuses the same path twice, all later paths are searched.
 #[must_use]
 pub fn short_motion(
     motions: &MotionQuery,
@@ -163,7 +166,7 @@ pub fn short_motion(
         if corners.is_empty() {
             return None;
         }
-        // Among thousands of adjacent pieces there is always one more to go around, without any gain.
+        // Among thousands of adjacent pieces, each path meets another piece to go around. Its length hardly changes.
         let is_settled = length - before <= SETTLED_GROWTH * length;
         before = length;
         if !is_settled && search.refine(&corners, allowed) {
@@ -198,18 +201,18 @@ pub fn short_motion(
 pub struct ProposedPath {
     /// The path.
     pub path: Path,
-    /// Values of joint 1 at all slices. They are dense where the path passes something.
+    /// Values of joint 1 at all slices. They are dense where the path touches obstacles.
     pub slices: Vec<f64>,
-    /// True if no other path among these slices is shorter. Otherwise no path through the same portals is shorter.
+    /// True if no path among these slices is shorter. If false, no path through the same portals is shorter.
     pub is_shortest: bool,
 }
 
-/// Reason why a proposed path is refused.
+/// Reason why the judge refuses a proposed path.
 #[derive(Debug, Clone)]
 pub enum RefusalReason {
-    /// It has no certificate.
+    /// The path cannot be certified.
     By(Rejection),
-    /// There may be a shorter path. Not a valid reason if the path is already the shortest.
+    /// There may be a shorter path. This reason is not valid if [`ProposedPath::is_shortest`] is true.
     TooLong,
 }
 
@@ -218,8 +221,8 @@ pub enum RefusalReason {
 pub struct NearShortestMotion {
     /// The certified path of the motion.
     pub path: CertifiedPath,
-    /// The free stretches of the slices that it passes, in order. Each consists of its ends at the least and the
-    /// greatest value of joint 2.
+    /// Free stretches of slices through which the path leads, in order. Each is given by its ends with the least and
+    /// the greatest value of joint 2.
     pub free: Vec<[Configuration; 2]>,
 }
 
@@ -233,11 +236,12 @@ struct ShortestPathSearch<'a> {
     /// Copies of the goals on all turns.
     goals: Vec<Segment>,
     limit: f64,
-    /// Length below which paths are searched first: goals and portals on far turns cost time.
+    /// Length below which paths are searched first. Longer paths could reach goals and portals on more turns, which
+    /// costs time.
     near: f64,
-    /// Greatest coordinate of start and goals.
+    /// Greatest absolute coordinate of start and goals.
     largest: f64,
-    /// The pieces of paths that need no refinement. All refinements must use the same allowance.
+    /// Pieces of paths that need no refinement. All refinements must use the same [`PathTolerance`].
     fine: RefinedPieces,
 }
 
@@ -245,7 +249,7 @@ impl<'a> ShortestPathSearch<'a> {
     fn new(motions: MotionQuery<'a>, limit: f64, slices: &[f64]) -> Self {
         let MotionQuery { scene, start, goals, clearance, metric } = motions;
         let mut strips = Strips::new(scene, clearance, slices);
-        // Doubles are densest near zero, and all turns are equivalent.
+        // Wrap the start, because doubles are densest near zero. All turns are equivalent.
         let start = strips.topology().wrap(start);
         let goals: Vec<Segment> = goals.wrapped(strips.topology()).collect();
         let largest = goals.iter().flat_map(Segment::ends).map(|q| q.amax()).fold(start.amax(), f64::max);
@@ -261,8 +265,8 @@ impl<'a> ShortestPathSearch<'a> {
         Self { motions, vicinity, strips, measure, start, goals, limit, near, largest, fine: RefinedPieces::default() }
     }
 
-    /// Returns the length and the corners of the shortest path around the known walls and barriers. Without corners, no
-    /// path is as short as the limit.
+    /// Returns the length and the corners of the shortest path around the known walls and barriers. If there are no
+    /// corners, no path is shorter than the limit.
     fn shortest(&mut self) -> (f64, Vec<Point>) {
         let straight = |goals: &Segment| goals.distance(self.measure, self.start);
         if self.strips.count() == 0 {
@@ -281,8 +285,8 @@ impl<'a> ShortestPathSearch<'a> {
         }
     }
 
-    /// Returns the shortest path through the portals that another path passes, and its length. Returns `None` if it
-    /// reaches the limit, or is unknown.
+    /// Returns the length and the corners of the shortest path through the portals that another path passes. Returns
+    /// `None` if it is not shorter than the limit, or if those portals are not known.
     fn taut(&mut self, corners: &[Point]) -> Option<(f64, Vec<Point>)> {
         let (&start, &goal) = (corners.first()?, corners.last()?);
         // If goals are segments, another point of a goal may be nearest.
@@ -292,7 +296,8 @@ impl<'a> ShortestPathSearch<'a> {
         (length < self.limit).then_some((length, corners))
     }
 
-    /// Cuts the strips in which a path enters closed regions by more than allowed. Returns true if any strip was cut.
+    /// Cuts the strips in which a path enters closed regions by more than the tolerance. Returns true if any strip was
+    /// cut.
     fn refine(&mut self, corners: &[Point], allowed: PathTolerance) -> bool {
         if self.strips.count() == 0 || self.strips.are_too_many() {
             return false;
@@ -301,7 +306,7 @@ impl<'a> ShortestPathSearch<'a> {
         !passed.is_empty() && self.strips.cut(&passed)
     }
 
-    /// If not all pairs are in use, adds those that are near in a configuration. Returns true if there were any.
+    /// If not all pairs are in use, adds pairs that are near in a configuration. Returns true if any pair was added.
     fn look_about(&mut self, q: Configuration) -> bool {
         let scene = self.motions.scene;
         if scene.pairs().len() <= MAX_PAIRS {
@@ -363,7 +368,7 @@ impl<'a> ShortestPathSearch<'a> {
     }
 }
 
-/// Returns all copies of the goals that may be nearer than the limit.
+/// Returns the copies of the goals, on all turns, that may be nearer than the limit.
 fn copies(topology: &Topology, metric: Metric, start: Point, goals: &[Segment], limit: f64) -> Vec<Segment> {
     let turns = |k: usize, goals: &Segment| {
         let mut unit = Configuration::zeros();

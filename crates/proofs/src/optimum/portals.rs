@@ -1,4 +1,4 @@
-//! Free intervals of joint 2 on a slice, between the closed ones.
+//! Portals: intervals of joint 2 on a slice that are not closed.
 
 use cplan_core::space::JointRange;
 use std::f64::consts::TAU;
@@ -27,7 +27,7 @@ pub(super) fn within_domain(axis: JointRange, lower: f64, upper: f64) -> impl It
     [Some([lower, upper.min(top)]), beyond].into_iter().flatten()
 }
 
-/// Returns the portals that closed intervals leave. The intervals must be within the domain, disjoint and ascending.
+/// Returns the portals between closed intervals, which must be within the domain, disjoint and ascending.
 pub(super) fn free_portals(closed: &[[f64; 2]], axis: JointRange) -> Vec<Portal> {
     let (bottom, top) = axis.domain();
     let round = axis.is_circle();

@@ -1,4 +1,4 @@
-//! Strips that are too wide, because a shortest path enters a closed region within them.
+//! Finds strips that are too wide: a shortest path enters a closed region within them.
 
 use super::MotionQuery;
 use super::search::MixingHasher;
@@ -13,29 +13,30 @@ use std::collections::{BTreeMap, HashSet};
 use std::convert::Infallible;
 use std::hash::BuildHasherDefault;
 
-/// Distance of the configurations, radians or metres, at which paths are tested for things thinner than a strip.
+/// Distance between the configurations at which a path is tested for obstacles thinner than a strip, radians or metres.
 const TEST_STEP: f64 = 0.01;
 
-/// Ratio of consecutive distances of tested configurations from an end.
+/// Towards an end of a path's piece, the distance of each tested configuration from the end is this share of the
+/// distance before.
 const TEST_STEP_RATIO: f64 = 0.1;
 
-/// Distance from a tip down to which strips are cut at once, as a multiple of the detour that a strip may leave open. A
-/// path around the tip is longer by at most twice this distance.
+/// Distance from the tip of a wall down to which a strip is cut at once, as a multiple of the detour that a strip may
+/// leave open. A path around the tip is longer by at most twice this distance.
 const CUT_DISTANCE_RATIO: f64 = 16.0;
 
-/// Number of cuts towards a jump below which a strip is also cut evenly: so near, the path may go around many small
-/// things side by side.
+/// Number of cuts towards a jump below which a strip is also cut evenly. So few cuts mean that the strip is narrow, and
+/// that the path may go around many small obstacles side by side.
 const FEW_CUTS: usize = 4;
 
-/// Resolution of positions along a piece of a path: doubles resolve shares of it no more finely.
+/// Resolution of positions along a piece of a path, as a share of its length, in double precision.
 const POSITION_RESOLUTION: f64 = 1e-15;
 
-/// The allowed error of paths that lead through closed regions.
+/// The error that is allowed for paths that lead through closed regions.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum PathTolerance {
-    /// As long as a path around the region would be longer by no more than this.
+    /// A path around the region may be longer by at most this, in units of the metric.
     Detour(f64),
-    /// Up to this depth, metres.
+    /// The path may enter the region up to this depth, metres.
     Depth(f64),
 }
 
@@ -43,16 +44,16 @@ pub(super) enum PathTolerance {
 struct Crossing {
     /// Number of the strip.
     index: usize,
-    /// Whole turns by which joint 1 is ahead of the strip's own values.
+    /// Value of joint 1 on the path minus the value in the strip: a multiple of a turn, radians.
     turns: f64,
     /// The points where the path enters and leaves the strip, ordered by joint 1.
     ends: [Point; 2],
-    /// The path halfway between the strip's slices; `None` if it does not reach there.
+    /// The point of the path halfway between the strip's slices; `None` if the path does not reach it.
     middle: Option<Point>,
 }
 
-/// Returns the parts of a path within the strips. Paths along a slice lie in no strip. The strips beside such a path
-/// are added to `beside`, each to be cut towards the tip that the path may go around.
+/// Returns the parts of a path within the strips. A part along a slice lies in no strip. Instead, `beside` gets the
+/// strips next to it, with the values of joint 1 at which to cut them towards the tip that the path may go around.
 fn crossings(
     strips: &mut Strips,
     corners: &[Point],
@@ -85,8 +86,8 @@ fn crossings(
     crossings
 }
 
-/// Returns where to cut the strips beside a path along a slice: towards the tip that the path goes around, if there is
-/// one. Returns nothing if that tip is near enough.
+/// Returns the strips next to a part of a path along a slice, with the values of joint 1 at which to cut them towards
+/// the tip that the path goes around. Returns nothing if there is no such tip, or if it is near enough.
 fn around_tip(strips: &mut Strips, ends: &[Point], finest: f64) -> Vec<(usize, Vec<f64>)> {
     let q1 = ends[0].x;
     let mut cuts = Vec::new();
@@ -105,12 +106,13 @@ fn around_tip(strips: &mut Strips, ends: &[Point], finest: f64) -> Vec<(usize, V
     cuts
 }
 
-/// Straight pieces of paths within a strip that are known to need no refinement: their ends, and the strip's. Most of a
-/// path is the same as before.
+/// Straight pieces of paths within a strip that are known to need no refinement. The key has the ends of the piece and
+/// of the strip. Most pieces of a path are the same as in the path before.
 pub(super) type RefinedPieces = HashSet<[u64; 6], BuildHasherDefault<MixingHasher>>;
 
-/// Returns the strips, by number, in which a path enters a closed region by more than allowed, and where to cut them.
-/// An overlooked strip never makes a bound wrong, only lower. Pieces in `fine` are skipped.
+/// Returns the strips, by index, in which a path enters a closed region by more than the tolerance, with the values of
+/// joint 1 at which to cut them. A strip that this overlooks makes a bound lower, but never wrong. Pieces in `fine` are
+/// skipped.
 pub(super) fn passed(
     motions: &MotionQuery,
     vicinity: &Vicinity,
@@ -165,7 +167,7 @@ pub(super) fn passed(
 
 /// The place where a straight motion is deepest in a closed region.
 struct DeepestPlace {
-    /// Depth beyond the allowed depth, metres.
+    /// Depth in excess of the allowed depth, metres.
     by: f64,
     /// Position as a share of the motion.
     share: f64,
@@ -173,9 +175,9 @@ struct DeepestPlace {
     pair: Pair,
 }
 
-/// Finds where a straight motion comes nearest to an obstacle, as a share of it, if it comes too near. It tests sample
-/// places: at regular distances, and ever closer towards the ends, where a path may turn at a closed region. Ignores
-/// places where a detour of the allowed length would be enough to keep away.
+/// Finds the place where a straight motion is deepest in a closed region. `None` if the motion stays within the
+/// tolerance. Tests sample configurations: at regular distances, and ever closer towards the ends, where a path may
+/// turn at a closed region.
 fn deepest(
     scene: &Scene,
     vicinity: &Vicinity,
@@ -194,7 +196,7 @@ fn deepest(
     // The shares are nearly sorted already.
     shares.sort_by(f64::total_cmp);
 
-    // Walls are made of shapes that are smaller by this.
+    // Walls are made of shapes that are eroded by this length.
     let least = clearance - 2.0 * CLOSED_FORM_ERROR;
     let posture = Posture::new(scene, middle);
     let along = Deviation::Along(displacement / 2.0);
@@ -210,7 +212,7 @@ fn deepest(
     let mut deepest: Option<(f64, Pair, usize)> = None;
     let examined_paths: Result<(), Infallible> = vicinity.near(&posture, along, least.max(0.0), |pair| {
         if may_meet(pair) {
-            // Skip places up to which nothing moves far enough to be too near.
+            // Skip the places before which no shape can have moved far enough to be too near.
             let speed = 2.0 * posture.farthest_motion(pair, along);
             let mut next = 0.0;
             let mut direction = None;
@@ -249,8 +251,8 @@ fn deepest(
     Some(DeepestPlace { by: beyond(pair, share), share, pair })
 }
 
-/// Returns the number of parts into which to cut a strip in which a path is deeper in a closed region than allowed. The
-/// error along a smooth boundary falls with the square of the width.
+/// Returns the number of parts into which to cut a strip in which a path exceeds the allowed depth in a closed region.
+/// The error along a smooth boundary falls with the square of a strip's width.
 fn pieces(by: f64, allowed: PathTolerance) -> usize {
     match allowed {
         PathTolerance::Depth(depth) => (1.1 * ((by.max(0.0) + depth) / depth).sqrt()).ceil().min(16.0) as usize,

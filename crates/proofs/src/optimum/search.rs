@@ -1,7 +1,7 @@
 //! The shortest path around walls and barriers.
 //!
-//! This is not a search for petgraph: nodes appear as they become visible, and the search may end at a bound as well as
-//! at a goal.
+//! petgraph does not fit here: nodes appear as they become visible, and the search may end at a bound instead of a
+//! goal.
 
 use super::portals::Portal;
 use super::strips::{Cell, Strips};
@@ -12,19 +12,20 @@ use std::collections::HashMap;
 use std::f64::consts::TAU;
 use std::hash::{BuildHasherDefault, Hasher};
 
-/// Maximum number of entries taken from the open list: a thousand times the usual number, or half a second. Then the
-/// search ends with the bound so far. Along an arc, entries grow with the square of the slices.
+/// Maximum number of entries that are taken from the open list: a thousand times the usual number, or half a second.
+/// After that, the search ends with the bound so far. Along an arc, the number of entries grows with the square of the
+/// number of slices.
 const MAX_ENTRIES: usize = 1_000_000;
 
-/// Initial capacity for entries.
+/// Initial capacity of the lists of the search.
 const USUAL_ENTRIES: usize = 1024;
 
 /// Relative difference of costs that rounding alone can cause.
 const COST_TOLERANCE: f64 = 1e-12;
 
-/// Margin by which sight extends past an obstruction, as a share of the coordinates. It is greater than rounding.
-/// Without it, the end of a portal that is in line with two others, as on a straight side, could lie in the gap between
-/// two cones.
+/// Margin by which a cone of sight extends past the end of a portal, as a share of the coordinates. It is greater than
+/// rounding errors. Without it, the end of a portal in line with two others, as on a straight side, could lie in a gap
+/// between two cones.
 const SIGHT_MARGIN: f64 = 4.0 * f64::EPSILON;
 
 /// Result of the search.
@@ -35,7 +36,8 @@ pub(super) enum SearchResult {
     NoneBelow(f64),
 }
 
-/// A hasher that mixes a few numbers in a few operations. The hashed numbers come from the search itself.
+/// A hasher that mixes a few numbers in a few operations. It does not resist attacks; all numbers come from the search
+/// itself.
 #[derive(Default)]
 pub(super) struct MixingHasher(u64);
 
@@ -73,9 +75,9 @@ struct Root {
 enum Entry {
     /// The part of a slice that a root sees, and through which it sees the strip beyond.
     Cone(Cone),
-    /// A goal that a root sees.
+    /// A goal, by its number, with its point nearest to the root that sees it.
     Goal(u32, Point),
-    /// A root on the edge of a strip. It sees its whole cell of that strip.
+    /// A root on the edge of a strip, by the numbers of both. It sees the whole cell of the strip that it touches.
     Root(u32, i64),
 }
 
@@ -89,7 +91,7 @@ struct Cone {
 }
 
 impl Cone {
-    /// Returns the strip that it enters.
+    /// Returns the strip that the cone enters.
     fn strip(&self) -> i64 {
         if self.ahead { self.slice } else { self.slice - 1 }
     }
@@ -100,19 +102,19 @@ impl Cone {
     }
 }
 
-/// A* whose open list holds cones of sight (similar to Polyanya: Cui, Harabor, Grastien 2017), over the strips' cells
-/// and all their copies. Cells are convex, so only slices obstruct sight, and paths turn only at the ends of portals.
-/// There they continue beyond the slice, towards the side of the wall whose end they pass, or along the slice to the
-/// next portal, which leads back.
+/// A search by A* whose open list holds cones of sight, similar to Polyanya (Cui, Harabor, Grastien 2017). It covers
+/// the strips' cells and all their copies. Cells are convex, so only walls on slices obstruct sight, and paths turn
+/// only at the ends of portals. There a path continues beyond the slice, towards the wall whose end it passes, or along
+/// the slice to the next portal, which leads back.
 ///
-/// This finds every shortest path, on any turns. Among paths that reach the end of a portal, only the shortest is
-/// followed. If another path could continue taut there, but the shortest could not, cutting the corner of the shortest
-/// would be shorter still.
+/// The search finds the shortest path, on any turns. Among paths that reach the end of a portal, only the shortest is
+/// followed. This is enough: if that path could not continue taut where a longer one could, cutting its corner would be
+/// shorter still.
 pub(super) struct Search<'s, 'a> {
     strips: &'s mut Strips<'a>,
     measure: Measure,
     goals: &'s [Segment],
-    /// Least and greatest value of joint 1 of the goals.
+    /// Least and greatest value of joint 1 among the goals.
     goals_range: [f64; 2],
     /// Paths of this length or more are ignored.
     limit: f64,
@@ -189,7 +191,7 @@ impl<'s, 'a> Search<'s, 'a> {
         }
     }
 
-    /// Adds the nearest of some goals. A root must see all of them.
+    /// Adds the point of some goals that is nearest to a root, which must see all of them.
     fn push_goal(&mut self, root: u32, goals: &Segment, parent: f64) {
         let Root { at, cost, .. } = self.roots[root as usize];
         let goal = goals.nearest(self.measure, at);
@@ -216,8 +218,9 @@ impl<'s, 'a> Search<'s, 'a> {
         self.push(bound.max(parent), Entry::Cone(Cone { root, slice, ahead, seen }));
     }
 
-    /// Adds a root at the end of a portal, reached straight from another root, whose paths continue `ahead` or back.
-    /// Returns `None` if a shorter path has reached it, or an equally short path that continues to the same side.
+    /// Adds a root at the end of a portal, reached straight from another root. Paths continue from there with joint 1
+    /// growing if `ahead` is true, and falling otherwise. Returns `None` if a path that is as short or shorter has
+    /// reached the same end and continues in the same direction.
     fn turn(&mut self, from: u32, slice: i64, at: Point, ahead: bool) -> Option<u32> {
         let Root { at: before, cost, .. } = self.roots[from as usize];
         let cost = cost + self.measure.norm(at - before);
@@ -231,8 +234,8 @@ impl<'s, 'a> Search<'s, 'a> {
         u32::try_from(self.roots.len() - 1).ok()
     }
 
-    /// Returns the portals of a slice, with all their copies, that meet a range of joint 2, as far as paths shorter
-    /// than the limit reach. The caller returns the list to the spare ones.
+    /// Returns the portals of a slice, with all their copies, that meet a range of joint 2 and that paths shorter than
+    /// the limit can reach. The caller gives the list back to `spare`.
     fn portals(&mut self, slice: i64, [lower, upper]: [f64; 2]) -> Vec<Portal> {
         let (lower, upper) = (lower.max(self.range[0]), upper.min(self.range[1]));
         let mut portals = self.spare.pop().unwrap_or_default();
@@ -306,8 +309,8 @@ impl<'s, 'a> Search<'s, 'a> {
         }
     }
 
-    /// Follows paths along a slice, from a root on it, to other portals, which lead back to the strip on its other
-    /// side. `ahead` is true if the paths lie in the strip after the slice.
+    /// Follows paths along a slice, from a root on the slice to other portals, through which paths lead to the strip on
+    /// the other side. `ahead` is true if the paths so far lie in the strip after the slice.
     fn along<'p>(
         &mut self,
         root: u32,

@@ -1,4 +1,4 @@
-//! The portals that a path passes, among strips that were cut after it was found.
+//! Finds the portals that a path passes among strips that were cut after the path was found.
 
 use super::strips::{Cell, Strips};
 use cplan_core::space::Portal;
@@ -11,8 +11,8 @@ fn portal(slice: f64, [lower, upper]: [f64; 2], ahead: bool) -> Portal {
 }
 
 impl Strips<'_> {
-    /// Returns the portals that a path passes, in order. On newer slices it chooses portals in the same cells as the
-    /// portals before, nearest to the path. Returns `None` if these do not lead to the path's end.
+    /// Returns the portals that a path passes, in order. On each new slice, chooses the portal nearest to the path
+    /// among those that the cell before it reaches. Returns `None` if these portals do not lead to the path's end.
     ///
     /// Where the path turns back along a slice, around the end of a wall, the portals follow the wall to its current
     /// end.
@@ -49,8 +49,9 @@ impl Strips<'_> {
         (from <= goal.x && goal.x <= to && lower <= goal.y && goal.y <= upper).then_some(sleeve)
     }
 
-    /// Adds portals along both sides of a wall between two places on a slice, as far as the wall extends. Returns the
-    /// place where the path is then. Returns `None` for a wall that goes all around a joint and so has no end.
+    /// Adds the portals of a path that goes around the end of a wall, between two places on a slice: along one side of
+    /// the wall to its end, and back along the other. Returns the place where the path is then. Returns `None` if the
+    /// wall has no end, because it goes all around a continuous joint.
     fn around_end(&mut self, from: Point, to: Point, ahead: bool, sleeve: &mut Vec<Portal>) -> Option<Point> {
         let slice = self.around(to.x).last().copied().filter(|slice| self.q1(*slice) == to.x && from.x == to.x)?;
         let mut sides = [from, to];

@@ -1,4 +1,4 @@
-//! Evidence for a checker: the walls and barriers that close paths shorter than a bound.
+//! Collects evidence for a checker: the walls and barriers that close paths shorter than a bound.
 
 use super::closed::Wall as FoundWall;
 use super::strips::Strips;
@@ -9,8 +9,8 @@ use cplan_core::space::Configuration;
 use cplan_geometry::OrderedF64;
 
 impl Strips<'_> {
-    /// Returns all slices that were examined, with the walls and barriers found. Where link 1 collides in a strip, the
-    /// slices beside it are closed entirely.
+    /// Returns all slices that were examined, with their walls and barriers. If link 1 collides throughout a strip,
+    /// walls close the slices on both sides of the strip entirely.
     pub fn evident(&self, scene: &Scene) -> Vec<Slice> {
         let pairs = self.closed.by_number();
         let (bottom, top) = self.topology().ranges[1].domain();

@@ -17,14 +17,15 @@ const MAX_STRIPS: usize = 100_000;
 /// Maximum number of barriers tried in a strip.
 const MAX_BARRIERS: usize = 512;
 
-/// Narrowest strips that are halved, in the unit of joint 1: about the rounding error.
+/// Least width of a strip that is halved, radians or metres: about the rounding error.
 pub(super) const MIN_STRIP_WIDTH: f64 = 1e-9;
 
-/// Tolerance for a path that passes a portal: paths turn at the ends of portals.
+/// Tolerance for a path that passes a portal, radians or metres. Paths turn at the ends of portals, where rounding may
+/// put them slightly outside.
 pub(super) const PORTAL_TOLERANCE: f64 = 1e-9;
 
-/// Least distance of slices, so that they also differ on other turns. It is less than the erosion of closed shapes for
-/// reaches up to a kilometre.
+/// Least distance of slices, radians or metres, so that they also differ on other turns. For reaches up to a kilometre,
+/// it moves shapes by less than their erosion.
 const MIN_SLICE_DISTANCE: f64 = 1e-12;
 
 /// A straight closed line across a strip: its values of joint 2 on the slice before and the slice after.
@@ -38,8 +39,8 @@ pub(super) struct Cell {
 }
 
 impl Cell {
-    /// Returns the least and the greatest value of joint 2 at a share of the distance from the slice before to the
-    /// slice after.
+    /// Returns the least and the greatest value of joint 2 at a position within the strip: `share` is 0 on the slice
+    /// before it and 1 on the slice after it.
     pub fn at(&self, share: f64) -> [f64; 2] {
         // Infinite ends must stay infinite.
         [self.lower, self.upper].map(|[before, after]| match share {
@@ -61,11 +62,11 @@ pub(super) struct Strip {
     pub(super) to: f64,
     /// True if link 1 closes the strip.
     pub(super) closed: bool,
-    /// Barriers, ascending on both slices, each with the number of its pair. Computed on demand.
+    /// Barriers, ascending on both slices, each with the number of its pair. `None` until they are needed.
     pub(super) barriers: Option<Vec<(Barrier, usize)>>,
-    /// Walls at its middle. Computed on demand.
+    /// Walls halfway through the strip. `None` until they are needed.
     middle: Option<Vec<Wall>>,
-    /// Walls on the slice at `from`, and the portals between them in the next field. Computed on demand.
+    /// Walls on the slice at `from`; the next field has the portals between them. `None` until they are needed.
     pub(super) walls: Option<Vec<Wall>>,
     portals: Option<Vec<Portal>>,
 }
@@ -119,12 +120,12 @@ impl<'a> Strips<'a> {
         &self.topology
     }
 
-    /// Returns the pairs that may close something.
+    /// Returns the pairs that are used to find walls and barriers.
     pub fn pairs(&self) -> Vec<Pair> {
         self.closed.pairs()
     }
 
-    /// Adds those pairs of link 2 that are not yet in use. Returns true if there were any.
+    /// Adds the given pairs of link 2 that are not in use yet. Returns true if there were any.
     pub fn add(&mut self, mut pairs: Vec<Pair>) -> bool {
         pairs.retain(|pair| self.closed.number(*pair).is_none());
         self.closed.add(&pairs);
@@ -146,7 +147,7 @@ impl<'a> Strips<'a> {
         self.strips.iter().map(|strip| strip.from).collect()
     }
 
-    /// Returns true if more strips would cost more than they gain.
+    /// Returns true if there are so many strips that no more are made.
     pub fn are_too_many(&self) -> bool {
         self.strips.len() > MAX_STRIPS.min(self.closed.most_slices())
     }
@@ -190,8 +191,8 @@ impl<'a> Strips<'a> {
         self.topology.ranges[0].is_circle() || 0 < slice && slice < self.strips.len() as i64
     }
 
-    /// Returns the strip that contains a value of joint 1, up to the rounding of whole turns. If there are two, returns
-    /// the one before.
+    /// Returns the strip that contains a value of joint 1, up to the rounding of whole turns. If the value is at a
+    /// slice, returns the strip before it.
     pub fn locate(&self, q1: f64) -> i64 {
         let last = self.strips.len() - 1;
         let (value, turns) = match self.topology.ranges[0] {
@@ -214,8 +215,8 @@ impl<'a> Strips<'a> {
         (near - 1..=near + 1).filter(holds).collect()
     }
 
-    /// Returns the cell of a strip that contains `q2` at a share of the distance from the slice before to the slice
-    /// after. Returns `None` if the strip is closed.
+    /// Returns the cell of a strip that contains `q2` at a position within the strip: `share` is 0 on the slice before
+    /// it and 1 on the slice after it. Returns `None` if the strip is closed.
     pub fn cell(&mut self, strip: i64, share: f64, q2: f64) -> Option<Cell> {
         let index = self.index(strip);
         self.raise(index);
@@ -265,7 +266,8 @@ impl<'a> Strips<'a> {
         self.strips[after].portals.as_deref().unwrap_or(&[])
     }
 
-    /// Returns the free interval around a value of joint 2 on a slice, within the domain or half a turn to either side.
+    /// Returns the free interval that contains a value of joint 2 on a slice, up to [`PORTAL_TOLERANCE`]. `None` if the
+    /// value is closed. For a continuous joint, the interval is cut at half a turn to either side of the value.
     pub fn free_around(&mut self, slice: i64, q2: f64) -> Option<[f64; 2]> {
         self.nearest_free(slice, q2, |portal| {
             portal.lower - PORTAL_TOLERANCE <= q2 && q2 <= portal.upper + PORTAL_TOLERANCE
@@ -294,8 +296,8 @@ impl<'a> Strips<'a> {
         within.filter(|[lower, upper]| lower <= upper)
     }
 
-    /// Returns the goals of a segment that are not closed. It is exact if joint 1 is the same all along the segment.
-    /// For other segments, the strips decide.
+    /// Returns the parts of a goal segment that are not closed, if joint 1 has one value on the segment. Otherwise
+    /// returns the whole segment; closed strips then exclude parts of it in the search.
     pub fn open_goals(&mut self, piece: &Segment) -> Vec<Segment> {
         let [from, to] = piece.ends();
         let axis = self.topology.ranges[1];
@@ -324,7 +326,7 @@ impl<'a> Strips<'a> {
         self.strips[index].walls.get_or_insert_with(|| self.closed.walls(from))
     }
 
-    /// Finds the barriers of a strip, between walls of the same pair on both its slices.
+    /// Finds the barriers of a strip: lines between walls of the same pair on both slices of the strip.
     fn raise(&mut self, index: usize) {
         if self.strips[index].barriers.is_some() {
             return;
@@ -357,8 +359,9 @@ impl<'a> Strips<'a> {
         self.strips[index].barriers = Some(barriers);
     }
 
-    /// Returns a line between two walls of a pair along which the pair is proven too near. The line is level if both
-    /// walls share a value, and otherwise connects their middles. Level lines do not cross where walls split and merge.
+    /// Returns a line between two walls of a pair along which the pair is proven too near. If both walls share a value
+    /// of joint 2, the line is at that value; otherwise it connects the middles of the walls. Lines at one value do not
+    /// cross where walls split and merge.
     fn barrier(&self, slices: [f64; 2], left: &Wall, right: &Wall) -> Option<Barrier> {
         let circle = self.topology.ranges[1].is_circle();
         let middle = |wall: &Wall| f64::midpoint(wall.lower, wall.upper);
@@ -375,8 +378,8 @@ impl<'a> Strips<'a> {
         Some(if circle { barrier.map(|q2| q2 + back) } else { barrier })
     }
 
-    /// Returns the distances of `q2`, downwards and upwards, from the ends of the wall that contains it at the middle
-    /// of a strip. Returns `None` if no wall does.
+    /// Returns the distances, downwards and upwards, from `q2` to the ends of the wall that contains it halfway through
+    /// a strip. Returns `None` if no wall contains it.
     pub fn distances_out_of_middle(&mut self, index: usize, q2: f64) -> Option<[f64; 2]> {
         let strip = &mut self.strips[index];
         let walls = strip.middle.get_or_insert_with(|| self.closed.walls(f64::midpoint(strip.from, strip.to)));
@@ -389,14 +392,15 @@ impl<'a> Strips<'a> {
         wall.map(|wall| [wall[0] - value, wall[1] - value])
     }
 
-    /// Halves strips where possible, given in ascending order without repetition. Returns true if any strip was halved.
+    /// Halves the given strips, ascending and without repetition, except those of the least width. Returns true if any
+    /// strip was halved.
     pub fn halve(&mut self, which: &[usize]) -> bool {
         let cuts: Vec<(usize, Vec<f64>)> = which.iter().map(|&index| (index, Vec::new())).collect();
         self.cut(&cuts)
     }
 
-    /// Cuts strips where possible, given in ascending order without repetition. Each is cut at values within it,
-    /// ascending, or in half if no values are given. Returns true if any strip was cut.
+    /// Cuts the given strips, ascending and without repetition, except those of the least width. Each is cut at the
+    /// given values of joint 1, ascending, or in half if there are none. Returns true if any strip was cut.
     pub fn cut(&mut self, which: &[(usize, Vec<f64>)]) -> bool {
         let before = std::mem::take(&mut self.strips);
         let count = before.len();
@@ -453,8 +457,8 @@ fn of_the_same_pairs<'w>(before: &'w [Wall], after: &'w [Wall]) -> Vec<(&'w Wall
     both
 }
 
-/// Returns all candidates. If there are too many, returns a selection spread over the list, ordered by the middles of
-/// the first walls.
+/// Returns all candidates for barriers. If there are too many, sorts them by the middles of their first walls, and
+/// returns a selection spread over that list.
 fn some<'w>(mut candidates: Vec<(&'w Wall, &'w Wall)>) -> Vec<(&'w Wall, &'w Wall)> {
     if candidates.len() > MAX_BARRIERS {
         candidates.sort_by(|a, b| (a.0.lower + a.0.upper).total_cmp(&(b.0.lower + b.0.upper)));
@@ -464,8 +468,8 @@ fn some<'w>(mut candidates: Vec<(&'w Wall, &'w Wall)>) -> Vec<(&'w Wall, &'w Wal
     candidates
 }
 
-/// Returns bands, ascending, adjusted so that they are neither narrower than [`MIN_SLICE_DISTANCE`] nor nearer than that to each
-/// other or to an end of the domain.
+/// Adjusts bands, ascending, so that none is narrower than [`MIN_SLICE_DISTANCE`], or nearer than that to another band
+/// or to an end of the domain.
 fn apart(bands: Vec<[f64; 2]>, [lower, upper]: [f64; 2]) -> Vec<[f64; 2]> {
     let mut bands: Vec<[f64; 2]> = bands
         .into_iter()

@@ -1,4 +1,4 @@
-//! Boxes that prove that slabs leave no connection.
+//! Makes proofs of collision boxes from slabs that leave no connection.
 
 use super::{LEVEL_TOLERANCE, Slab, Slabs, Span, half_of_level, index};
 use crate::chain::{Mosaic, ends};
@@ -24,9 +24,10 @@ impl Slabs<'_> {
         reached
     }
 
-    /// Returns the proof that start and goals are not connected. No span that may be free must connect them. The proof
-    /// consists of the collision boxes around the region reachable from the start, or from the goals, whichever are
-    /// fewer. Returns `None` if boxes cannot confirm it, or if it needs more than `most` boxes.
+    /// Returns the proof that start and goals are not connected. Spans that may be free must not connect them. The
+    /// proof consists of the collision boxes around the region that is reachable from the start, or of those around the
+    /// region reachable from the goals, whichever are fewer. Returns `None` if the bounds that judge boxes do not
+    /// confirm a box, or if there are more than `most` boxes.
     pub(super) fn disconnection(
         &mut self,
         start: Configuration,
@@ -42,8 +43,9 @@ impl Slabs<'_> {
         boxes.map(Disconnection::new)
     }
 
-    /// Returns the collision boxes beside the region reachable from the places, and those that contain places
-    /// themselves. Returns `None` if boxes cannot confirm them, or if there are more than `most`.
+    /// Returns the collision boxes beside the region that is reachable from the places, and the collision boxes that
+    /// contain places. Returns `None` if the bounds that judge boxes do not confirm a box, or if there are more than
+    /// `most` boxes.
     fn around(&mut self, places: &GoalSet, most: usize) -> Option<Vec<CollisionBox>> {
         let reached = self.reached(places);
         let places: Vec<Segment> = places.wrapped(&self.topology).collect();

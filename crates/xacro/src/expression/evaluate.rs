@@ -1,4 +1,4 @@
-//! From an expression to its value.
+//! Evaluates expressions.
 
 use super::{Expression, Names, functions};
 use crate::error::Fault;
@@ -20,7 +20,7 @@ impl Evaluator<'_> {
         Ok(value)
     }
 
-    /// Counts a value that was computed.
+    /// Adds the size of a computed value to the budget.
     fn spend(&mut self, value: &Value) -> Result<(), Fault> {
         let size = match value {
             Value::Text(text) => text.len(),
@@ -183,7 +183,7 @@ fn path(expression: &Expression) -> Option<String> {
     }
 }
 
-/// Puts a value under a key, in the place of an earlier one.
+/// Sets the value of a key. Replaces an earlier value in its place.
 pub(crate) fn insert(dict: &mut Vec<(Value, Value)>, key: Value, value: Value) {
     match dict.iter_mut().find(|(known, _)| known.equals(&key)) {
         Some(known) => known.1 = value,

@@ -1,4 +1,4 @@
-//! The functions and constants that expressions know: those of Python's `math`, and some of its own.
+//! The functions and constants that expressions can use: those of Python's `math`, and some of Python's own.
 
 use crate::error::Fault;
 use crate::limits::MAX_LIST_ITEMS;
@@ -6,7 +6,7 @@ use crate::value::{Number, Value, float};
 use std::cmp::Ordering;
 use std::f64::consts;
 
-/// Functions of one number.
+/// A function of one number, with its name.
 type OfOne = (&'static str, fn(f64) -> f64);
 
 const UNARY_FUNCTIONS: [OfOne; 25] = [
@@ -48,7 +48,7 @@ const BINARY_FUNCTIONS: [OfTwo; 6] = [
     ("pow", f64::powf),
 ];
 
-/// The others.
+/// Names of all other functions.
 const OTHER_FUNCTIONS: [&str; 19] = [
     "abs", "all", "any", "bool", "dict", "float", "int", "isinf", "isnan", "len", "list", "max", "min", "range",
     "round", "sorted", "str", "sum", "trunc",
@@ -124,7 +124,7 @@ fn of_one(name: &str, x: Number) -> Option<Result<Value, Fault>> {
 
 /// Converts a float without a fraction to an integer.
 fn whole(name: &str, x: f64) -> Result<Value, Fault> {
-    /// The least power of two that is too large.
+    /// Least power of two that is too large for a 64-bit integer.
     const INTEGER_OVERFLOW: f64 = 9_223_372_036_854_775_808.0;
     match x.abs() < INTEGER_OVERFLOW {
         true => Ok(Value::Int(x as i64)),

@@ -1,4 +1,4 @@
-//! Expressions as in `${...}`: the part of Python that robot descriptions use.
+//! The expressions in `${...}`: the part of Python that robot descriptions use.
 //!
 //! ```text
 //! text -> tokens -> Expression -> Value
@@ -22,23 +22,23 @@ pub(crate) enum Expression {
     Name(String),
     List(Vec<Expression>),
     Dict(Vec<(Expression, Expression)>),
-    /// `not`, `-` or `+`.
+    /// An operator before its operand: `not`, `-` or `+`.
     Unary(&'static str, Box<Expression>),
     Binary(&'static str, Box<Expression>, Box<Expression>),
-    /// `a < b < c`.
+    /// A chain of comparisons, such as `a < b < c`.
     Comparison(Box<Expression>, Vec<(&'static str, Expression)>),
     And(Box<Expression>, Box<Expression>),
     Or(Box<Expression>, Box<Expression>),
-    /// `a if b else c`, in the order b, a, c.
+    /// A choice `a if b else c`, in the order `b`, `a`, `c`.
     Choice(Box<[Expression; 3]>),
     Index(Box<Expression>, Box<Expression>),
-    /// `a[b:c]`.
+    /// A slice `a[b:c]`.
     Slice(Box<Expression>, [Option<Box<Expression>>; 2]),
     Member(Box<Expression>, String),
     Call(Box<Expression>, Vec<Expression>, Vec<(String, Expression)>),
 }
 
-/// The environment of an expression.
+/// The names that an expression can use.
 pub(crate) trait Names {
     /// Returns the value of a property, or `None` if it does not exist.
     fn property(&mut self, name: &str) -> Result<Option<Value>, Fault>;

@@ -1,4 +1,4 @@
-//! From words to an expression, by Python's precedence.
+//! Parses expressions, with Python's precedence of operators.
 
 use super::Expression;
 use super::tokens::Token;
@@ -6,7 +6,7 @@ use crate::error::Fault;
 use crate::limits::MAX_EXPRESSION_DEPTH;
 use crate::value::Value;
 
-/// Words of an expression.
+/// Largest number of words in an expression.
 const MAX_WORDS: usize = 1_000;
 
 /// Binary operators of each precedence, the weakest first.
@@ -127,7 +127,7 @@ impl<'t> Parser<'t> {
             count += 1;
         }
         let mut value = self.comparison()?;
-        // Two take one another back, but leave a truth value.
+        // Two `not` cancel each other, but turn the value into a truth value.
         for _ in 0..if count == 0 { 0 } else { 2 - count % 2 } {
             value = Expression::Unary("not", boxed(value));
         }
@@ -154,7 +154,7 @@ impl<'t> Parser<'t> {
         Ok(if others.is_empty() { first } else { Expression::Comparison(boxed(first), others) })
     }
 
-    /// Sums and products.
+    /// Parses sums and products: binary operators of this level of precedence, or a stronger one.
     fn sum(&mut self, level: usize) -> Result<Expression, Fault> {
         let Some(operators) = PRECEDENCE_LEVELS.get(level) else { return self.signed() };
         let mut value = self.sum(level + 1)?;
@@ -253,7 +253,7 @@ impl<'t> Parser<'t> {
             Token::Int(x) => Expression::Constant(Value::Int(*x)),
             Token::Float(x) => Expression::Constant(Value::Float(*x)),
             Token::Text(text) => {
-                // Texts side by side are one.
+                // Adjacent texts are joined.
                 let mut text = text.clone();
                 while let Some(Token::Text(more)) = self.peek() {
                     text += more;
@@ -284,7 +284,7 @@ impl<'t> Parser<'t> {
         })
     }
 
-    /// Items up to a closing sign, and whether there is a comma among or behind them.
+    /// Parses items up to a closing sign. Also returns true if there is a comma between or after them.
     fn items(&mut self, close: &str) -> Result<(Vec<Expression>, bool), Fault> {
         let (mut items, mut has_comma) = (Vec::new(), false);
         while !self.takes_sign(close) {

@@ -12,7 +12,7 @@ pub(super) enum Token {
     Sign(&'static str),
 }
 
-/// Signs, longer ones before those that they begin with.
+/// Signs of expressions. A sign comes before all signs that are its beginning.
 const SIGNS: [&str; 24] = [
     "**", "//", "==", "!=", "<=", ">=", "<", ">", "+", "-", "*", "/", "%", "(", ")", "[", "]", "{", "}", ",", ":", ".",
     "=", "!",

@@ -20,18 +20,18 @@ use std::iter;
 /// Maximum distance of a moving object from its required position when it is picked, metres: `10^-3`.
 const PICK_TOLERANCE_DECIMALS: u32 = 3;
 
-/// Limit on turns of the wrist, radians: more than one full turn is implausible.
+/// Maximum turn of the wrist, radians, in either direction. More than one full turn is implausible.
 const MAX_WRIST_TURN: i128 = 7;
 
 /// The carried object.
 pub(super) struct HeldObject {
     pub(super) object: usize,
     pub(super) on: Attachment,
-    /// The object relative to the link or point it is attached to. `pressed` is the part of it that must keep away from
-    /// supports, if it has any.
+    /// The object in the frame to which it is attached. The next field, `pressed`, is the part of the object that must
+    /// keep away from supports; `None` if there are no supports.
     pub(super) hanging: Obstacle,
     pub(super) pressed: Option<Obstacle>,
-    /// The shapes of both.
+    /// Shapes of `hanging` and of `pressed`.
     pub(super) solids: [Vec<Solid>; 2],
     /// A disc that covers the object in all orientations about the tip, if it is held level.
     pub(super) round: Option<Solid>,
@@ -39,7 +39,7 @@ pub(super) struct HeldObject {
 }
 
 impl Replay<'_> {
-    /// Returns the shapes of an attached object, and of the part that must keep away from its supports.
+    /// Returns the shapes of an attached object, and the shapes of the part of it that must keep away from supports.
     fn hung(
         &self,
         chain: &Chain,
@@ -65,7 +65,8 @@ impl Replay<'_> {
         Ok(Solid::new(&self.chain, Attachment::Link(1), &disc, &self.kept))
     }
 
-    /// Checks that nothing moves, for actions that are not checked in time.
+    /// Checks that the world has no moving obstacles, for actions that are not checked in time. `what` names the
+    /// action.
     pub(super) fn require_static(&self, what: &str) -> Result<(), CheckError> {
         let moves = |present: &PlacedObstacle| present.obstacle.course.is_some();
         match self.present.iter().flatten().any(moves) {
@@ -74,7 +75,7 @@ impl Replay<'_> {
         }
     }
 
-    /// Picks an object at its pose at a time, with the tip at its position in a configuration.
+    /// Picks an object, which may move, at its pose at a time. The tip is at the position `at`.
     pub(super) fn grasp(
         &mut self,
         object: usize,
@@ -127,7 +128,7 @@ impl Replay<'_> {
         Ok(())
     }
 
-    /// Turns the carried object about the tip, while the arm rests in a configuration.
+    /// Turns the carried object about the tip by the step's angle, while the arm is at rest.
     pub(super) fn turn(&mut self, done: &ExecutedStep, at: &Point) -> Result<(), CheckError> {
         let Some(by) = &done.turn else { return Ok(()) };
         self.require_static("a turn of the wrist")?;

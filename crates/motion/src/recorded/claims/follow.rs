@@ -3,18 +3,19 @@
 use cplan_core::space::{Configuration, Path};
 use cplan_handling::Recording;
 
-/// Largest deviation of a motion from its path, in each joint, radians or metres: a thousand times the rounding of
-/// either, and the tolerance of blends.
+/// Largest deviation of a motion from its path, in each joint, radians or metres. It is a thousand times the rounding
+/// of both, and equals the tolerance of blends.
 pub(super) const PATH_TOLERANCE: f64 = 1e-6;
 
 /// Number of samples per piece of the motion.
 const SAMPLES_PER_PIECE: u8 = 4;
 
-/// Checks that a motion follows a path from beginning to end. Its deviation may be that of cut corners: half of the
-/// greatest stated `radius`, or zero without a statement. Samples the whole motion.
+/// Checks that a motion follows a path from beginning to end, by samples of the whole motion. At rounded corners it may
+/// deviate by half of `radius`, the greatest radius that the result states; without `radius`, corners must not be
+/// rounded.
 ///
 /// # Errors
-/// The deviation.
+/// Returns a description of the deviation.
 pub(super) fn follows(path: &Path, recording: &Recording, radius: Option<f64>) -> Result<(), String> {
     let q = path.waypoints();
     let longest = path.segments().map(|(a, b)| (b - a).norm()).fold(0.0, f64::max);
@@ -24,7 +25,7 @@ pub(super) fn follows(path: &Path, recording: &Recording, radius: Option<f64>) -
         PATH_TOLERANCE + largest * f64::EPSILON * 16.0 + radius.map_or(0.0, |radius| radius.clamp(0.0, longest) / 2.0);
     let last = q.len().saturating_sub(2);
     let off = |at: Configuration, leg: usize| to_leg(at, q[leg], q[(leg + 1).min(q.len() - 1)]);
-    // Where legs are close to each other, or turn back, the motion may be on any of several.
+    // Where legs are close to each other, or turn back, the motion may be on one of several legs.
     let (mut legs, mut before) = (vec![0], q[0]);
     for (sample, piece) in recording.pieces().iter().enumerate() {
         for look in 0..=SAMPLES_PER_PIECE {
@@ -33,7 +34,7 @@ pub(super) fn follows(path: &Path, recording: &Recording, radius: Option<f64>) -
             let near = 2.0 * within + (at - before).norm();
             let (mut found, mut next): (Vec<usize>, usize) = (Vec::new(), 0);
             for &leg in &legs {
-                // A leg that was passed already gets no farther.
+                // Skip a leg that was reached already.
                 if leg >= next {
                     let passed = q[leg + 1..].iter().take_while(|corner| (*corner - at).norm() <= near).count();
                     next = (leg + passed).min(last) + 1;

@@ -1,6 +1,6 @@
 //! The check whether the claims of a result about its motion are true.
 //!
-//! The samples are the motion; everything else is a claim about it, which others may rely on.
+//! The samples of a result are the motion. Everything else is a claim about the motion, on which others may rely.
 
 mod follow;
 mod steps;
@@ -16,20 +16,20 @@ use follow::follows;
 use std::fmt::Display;
 use thiserror::Error;
 
-/// Relative difference allowed between a stated and a recomputed number: a sum with as many terms as waypoints.
+/// Relative difference allowed between a stated and a recomputed number, which may be a sum over all waypoints.
 const NUMBER_TOLERANCE: f64 = 1e-9;
 
-/// Difference allowed between a stated and a recomputed time, seconds: far above the rounding of clocks, far below the
-/// precision of grippers.
+/// Difference allowed between a stated and a recomputed time, seconds. It is far greater than the rounding of clocks,
+/// and far less than the precision of grippers.
 const TIME_TOLERANCE: f64 = 1e-6;
 
 /// A claim that is false.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("{claim}: {why}")]
 pub struct FalseClaim {
-    /// The member of the result.
+    /// Name of the member of the result that makes the claim.
     pub claim: String,
-    /// Why it is false, in words.
+    /// The reason why the claim is false, in words.
     pub why: String,
 }
 
@@ -53,7 +53,7 @@ impl Ledger {
         }
     }
 
-    /// Checks a number that must equal another up to `within`.
+    /// Checks a stated number that must equal a recomputed one up to `within`.
     fn number(&mut self, claim: &str, stated: Option<f64>, is: f64, within: f64) {
         if let Some(stated) = stated.filter(|stated| (stated - is).abs() > within) {
             self.note(claim, format!("stated as {stated}, but it is {is}"));
@@ -169,7 +169,7 @@ fn nearer(
     seen: f64,
     pair: cplan_core::model::Pair,
 ) -> Option<(f64, cplan_core::model::Pair)> {
-    // The difference that two methods of computing a distance may have.
+    // Two methods of computing a distance may differ by this.
     let stated = stated - NUMBER_TOLERANCE * stated.abs() - NUMBER_TOLERANCE * f64::EPSILON.sqrt();
     if seen < stated {
         return Some((seen, pair));
@@ -210,7 +210,7 @@ pub fn false_claims<'a>(
 impl Ledger {
     /// Checks the claims about any motion.
     fn general(&mut self, arm: &Arm, recording: &Recording, claims: &Claims) {
-        // An exploration has a motion, however it ended. Any other result without a motion has nothing to judge.
+        // An exploration has a motion with any of these outcomes. Other results must have found a motion.
         let of_exploration = ["reached", "explored", "unreachable", "unknown"];
         if let Some(status) = claims.status.as_ref().filter(|status| !of_exploration.contains(&status.as_str())) {
             self.same("status", status, &"found".to_owned());

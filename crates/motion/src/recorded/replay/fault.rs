@@ -3,7 +3,7 @@
 use cplan_core::space::Configuration;
 use thiserror::Error;
 
-/// A difference between a step and the requested one.
+/// A difference between a recorded step and the required one.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum Fault {
     /// The first motion does not begin at the task's start.
@@ -17,7 +17,7 @@ pub enum Fault {
         /// The required end.
         target: Configuration,
     },
-    /// The tip is not where it was to go.
+    /// The tip is not at its required place.
     #[error("the tip ends {off:.6} m from its target")]
     Tip {
         /// Distance of the tip from there, metres.

@@ -62,10 +62,10 @@ pub struct ReplayedStep<'a> {
     pub step: &'a Step,
     /// The recorded step.
     pub recorded: &'a RecordedStep,
-    /// The world during the motion, on a clock that starts with it, with the load. For a last step whose motion is free
-    /// but which leaves the arm in contact, the world at that time.
+    /// The scene during the motion, with the load. If the last step's motion is free but leaves the arm in contact,
+    /// this is the scene after that step.
     pub scene: Scene,
-    /// The trajectories of its moving obstacles, on a clock that begins with the motion.
+    /// The trajectories of the scene's moving obstacles, on a clock that begins with the motion.
     pub courses: Vec<ObstacleTrajectory>,
     /// The object that is picked or placed.
     pub object: Option<usize>,
@@ -80,8 +80,7 @@ pub struct ReplayedStep<'a> {
     pub event: Option<GripperEvent>,
     /// The check of the motion among the obstacles of the scene; moments are those of the whole recording.
     pub collision_check: CollisionCheck,
-    /// Joint limits that the motion violates. These are the joints' own limits, even if the step requires only a share
-    /// of them.
+    /// Violations of joint limits. The joints' own limits count, even if the step states a lower speed.
     pub broken: Vec<LimitViolation>,
     /// The turn of the wrist after the motion. Also `None` if a turn was recorded without a payload, which is a fault.
     pub turn: Option<ReplayedTurn>,
@@ -89,7 +88,7 @@ pub struct ReplayedStep<'a> {
     pub faults: Vec<Fault>,
 }
 
-/// A judge of recorded steps, one after the other. It is an iterator, since each step has its own scene.
+/// An iterator that judges recorded steps, one after the other.
 #[derive(Debug, Clone)]
 pub struct Replay<'a> {
     task: &'a Task,
@@ -101,21 +100,22 @@ pub struct Replay<'a> {
     state: State,
 }
 
-/// Matches the steps of a record with those of the task: fixed steps in order, pairs of a free group in any order;
-/// between them the arm is at rest. Iteration then judges each step, up to the point where the record departs from the
-/// task:
+/// Matches the steps of a record with those of the task. Steps must come in the task's order, except that pairs of a
+/// free group may come in any order. The arm must be at rest between steps. Iteration then judges each step, up to the
+/// point where the record departs from the task. It judges:
 ///
-/// - Each motion from rest to rest, by [`check_collision`] with the workspace's clearance in the scene of its moment,
-///   and by [`limit_violations`]. Objects are where previous steps have left them, and the load has the pose in which it was
-///   taken. Link 2 may touch the object that it takes and the one that it has just released; payloads may rest on their
-///   supports. The state after the last step is judged, too.
-/// - Moving obstacles, at their places on the clock of the record, from its first sample. Moving objects must be picked
-///   within their windows, and the resting arm must stay free between motions.
-/// - The end of each step: the tip is at the grasp, and the object or the arm at its target, within a micrometre. Turns
-///   start at the object's orientation, take as long as the wrist needs, and are free ([`super::judge_given_turn`]). The arm
-///   rests for the dwell, the turn, and the stroke of the tool, which must be free at all its heights.
+/// - Each motion from rest to rest, by [`check_collision`] with the workspace's clearance, and by [`limit_violations`].
+///   Objects are where previous steps have left them, and the load has the pose in which it was taken. Link 2 may touch
+///   the object that it takes, and the object that it released last. Payloads may rest on their supports. The state
+///   after the last step is judged as well.
+/// - Moving obstacles, which move on the clock of the record from its first sample on. Moving objects must be picked
+///   within their windows of time, and the resting arm must stay free between motions.
+/// - The end of each step. The tip must be at the grasp, and the object or the arm at its target, within a micrometre.
+///   A turn must start at the object's orientation, last at least as long as the wrist needs, and be free
+///   ([`super::judge_given_turn`]). The arm must rest for the dwell, the turn, and the stroke of the tool. The stroke
+///   must be free at all its heights.
 ///
-/// `O(n)` for `n` samples, plus the checks of motions.
+/// Takes `O(n)` for `n` samples, plus the checks of motions.
 #[must_use]
 pub fn replay<'a>(task: &'a Task, recording: &'a Recording, recorded: &'a [RecordedStep]) -> Replay<'a> {
     let (matched, departure) = matched(task, recording, recorded);
@@ -123,8 +123,8 @@ pub fn replay<'a>(task: &'a Task, recording: &'a Recording, recorded: &'a [Recor
 }
 
 impl Replay<'_> {
-    /// Returns the seconds from the beginning of the record to that of a step's motion, to its end, and to the next
-    /// one's.
+    /// Returns three times in seconds from the beginning of the record: the beginning of a step's motion, its end, and
+    /// the beginning of the next step's motion.
     fn times(&self, index: usize, recorded: &RecordedStep) -> [f64; 3] {
         let times = self.recording.times();
         let since = |sample: usize| times.and_then(|times| Some(times.get(sample)? - times[0])).unwrap_or(0.0);
@@ -233,8 +233,8 @@ impl<'a> Iterator for Replay<'a> {
                 _ => {}
             }
         }
-        // The next step begins in the state after this one. The last step's state remains, with the contacts of its
-        // motion. So does the state before objects are renewed, in which released objects are still present.
+        // The next step begins in the state after this one. Judge the rest in the state of this step if it is the last,
+        // or if objects are renewed next: until then, released objects are still present.
         let next = self.matched.get(self.next);
         let (is_last, is_renewed) = (next.is_none(), next.is_some_and(|next| !next.renewed.is_empty()));
         if (is_last || is_renewed)

@@ -8,9 +8,9 @@ use cplan_handling::{Item, RecordedStep, Recording, Step, Task};
 #[derive(Debug, Clone)]
 pub(super) struct MatchedStep<'a> {
     pub step: &'a Step,
-    /// Objects that are supplied before it.
+    /// Objects that are supplied before the step.
     pub renewed: Vec<usize>,
-    /// Seconds of rest after its motion; `None` if the record departs from the task after it.
+    /// Rest after the step's motion, seconds. `None` if the record departs from the task after the step.
     pub rest: Option<f64>,
 }
 

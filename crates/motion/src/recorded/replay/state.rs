@@ -15,7 +15,7 @@ pub(super) struct State {
     /// Objects that are still moving and have no fixed pose.
     moving: Vec<usize>,
     held: Option<Payload>,
-    /// The object just released.
+    /// The object that was released last. Link 2 may touch it during the next motion.
     released: Option<usize>,
 }
 
@@ -27,7 +27,7 @@ impl State {
 
     pub fn renew(&mut self, task: &Task, objects: &[usize]) {
         objects.iter().for_each(|&object| self.poses[object] = Some(task.objects[object].at));
-        // A new object is not the one that may be touched.
+        // A new object is not the one that was released, so it must not be touched.
         self.released = self.released.filter(|released| !objects.contains(released));
     }
 
@@ -50,12 +50,12 @@ impl State {
         self.held.as_ref().map(|payload| payload.object)
     }
 
-    /// Returns the object just released.
+    /// Returns the object that was released last. `None` after a motion since then.
     pub fn released(&self) -> Option<usize> {
         self.released
     }
 
-    /// Returns the current scene. Link 2 may touch the object just released, and another one.
+    /// Returns the current scene. Link 2 may touch the object that was released last, and the object `touched`.
     pub fn scene(&self, task: &Task, touched: Option<usize>) -> Scene {
         task.scene(&self.poses, &self.moving, self.held.as_ref(), self.released.into_iter().chain(touched))
     }
@@ -110,7 +110,7 @@ impl State {
         task.lowered_scene(payload.object, is_placed, &self.poses, Some(payload), self.released)
     }
 
-    /// Continues after a motion without an event.
+    /// Forgets the released object.
     pub fn moved(&mut self) {
         self.released = None;
     }

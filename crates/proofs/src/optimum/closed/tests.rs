@@ -1,4 +1,4 @@
-//! Compares motions that are called closed with distances by brute force.
+//! Compares motions that are reported as closed with distances by brute force.
 
 use super::*;
 use cplan_core::model::{Arm, Heights, Joint, JointType, Link, Obstacle, OutlineSource, Part, Plane, Shape, Workspace};
@@ -11,7 +11,7 @@ use std::f64::consts::TAU;
 /// Number of samples along a line at which the shapes are compared.
 const SAMPLES: usize = 96;
 
-/// A link and an obstacle, and two slices.
+/// A test case: a link, an obstacle, and two slices.
 #[derive(Debug, Clone)]
 struct Case {
     scene: Scene,
@@ -147,7 +147,7 @@ impl Case {
 proptest! {
     #![proptest_config(cplan_cases::cases(10))]
 
-    /// A good part of the lines must be called closed.
+    /// Also requires that a good part of the lines is reported as closed.
     #[test]
     fn reported_closed_motions_collide_everywhere(cases in prop::collection::vec(case(), 60)) {
         let (mut lines, mut closed_lines) = (0, 0);
