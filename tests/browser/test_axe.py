@@ -72,7 +72,7 @@ def test_nothing_is_found_on_the_live_page(serve, scheme, width, height):
 def test_an_infeasible_world_says_so_and_shows_the_proof(pages, show_file):
     seen = show_file(pages["infeasible"])
     said = seen.page.locator(".verdict").inner_text()
-    assert said == "2 of 2 proved that there is none"
+    assert said == "2 of 2 proved infeasibility"
     picture = seen.page.locator(".picture img").get_attribute("src")
     assert "proof" in picture and json.dumps(said)[1:-1] in picture.replace("%20", " ")
     headings = seen.page.locator("h2").all_inner_texts()
