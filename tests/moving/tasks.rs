@@ -157,7 +157,8 @@ fn straight(task: &Task, to: V) -> f64 {
     }
 }
 
-/// Returns the greatest speed and acceleration of the motion, as fractions of its length.
+/// Returns the greatest speed and acceleration of a straight motion, as fractions of its length per second and per
+/// second squared.
 fn limits(task: &Task, to: V) -> (f64, f64) {
     let share = |k: usize, limit: f64| limit / (to[k] - task.start[k]).abs();
     let least = |of: &dyn Fn(usize) -> f64| of(0).min(of(1));
