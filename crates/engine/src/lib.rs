@@ -4,7 +4,7 @@
 //! - [`Plan`]: the answer. `motion` drives along the path that the solver found, `fastest` compares several,
 //!   [`Refutation`] is a proof.
 //! - `result`: the figures of a plan, its JSON, and the formats of files. `stored`: problems and plans in serialised
-//! form.
+//!   form.
 //! - `certificate`: evidence that a checker can judge without this program, such as [`Plan::certificate`].
 //! - [`findings`]: verdicts on given configurations and recorded motions.
 //!

@@ -13,9 +13,9 @@
 //!
 //! - *Reached*: the arm is at the goal.
 //! - *Explored*: no reading at any reachable configuration of the grid would show anything new. This is decided, not
-//! estimated: rays are as wide as the cells that they cross, so the result of a reading is known in advance up to the
-//! first unknown cell of each ray ([`Survey::reachable_unknown`]). With distance errors, a reading may fail to show
-//! cells that it promised. Such configurations are counted.
+//!   estimated: rays are as wide as the cells that they cross, so the result of a reading is known in advance up to the
+//!   first unknown cell of each ray ([`Survey::reachable_unknown`]). With distance errors, a reading may fail to show
+//!   cells that it promised. Such configurations are counted.
 //! - *Unreachable*: proven. Either no path leads to the goal past the occupied cells, whatever the unseen cells
 //!   contain; or nothing new can be seen, and no path leads there in the known space. An occupied cell counts as solid
 //!   as a whole, so a passage narrower than cells is closed: this is a statement about the map, not about the world.

@@ -15,11 +15,11 @@
 //!
 //! - A rigid payload is a union of parts of link 2.
 //! - A level payload only translates with the tip. So the tip, a single point, stands for it, and its obstacles are the
-//! Minkowski differences of the obstacles' pieces and the payload's pieces. Planners, C-obstacles, certificates and
-//! proofs therefore need no third link.
-//! - Against its supports, each corner of a payload's outline is moved inwards by the allowed penetration (`inset_union`).
-//! No clearance is required from supports. So every distance to a support is increased by the clearance
-//! (`Convex::receding`).
+//!   Minkowski differences of the obstacles' pieces and the payload's pieces. Planners, C-obstacles, certificates and
+//!   proofs therefore need no third link.
+//! - Against its supports, each corner of a payload's outline is moved inwards by the allowed penetration
+//!   (`inset_union`). No clearance is required from supports. So every distance to a support is increased by the
+//!   clearance (`Convex::receding`).
 //! - Motions are shared (`legs`) among worlds that differ only in objects which cannot be hit because of their heights.
 //!
 //! # Orders
@@ -29,7 +29,7 @@
 //!
 //! - A local search (`tour`) proposes an order by times without obstacles.
 //! - `walk` checks each step of the order at a tenth of the cost of planning its motion: is the straight path free, do
-//! slabs prove that there is no path?
+//!   slabs prove that there is no path?
 //! - The first pair that cannot be done gives a `condition`: the object that was hit, or blocked the path, must be
 //!   moved earlier or later. The ends of all motions give such conditions in advance (`ends`).
 //! - If no order satisfies all conditions, one is built pair by pair.

@@ -1,5 +1,13 @@
 //! Convergence of relaxations: the error against the number of sweeps, for each equation, relaxation and order; and the
 //! number of sweeps against the factor of SOR, and against the strength of a drift.
+//!
+//! ```text
+//! Setup (a domain and equations on it) -> convergence -> Convergence -> table, CSV, JSON
+//!                                                                  \-> charts (SVG) -> page
+//! ```
+//!
+//! Measurements come from [`cplan_fields::trace()`], scans from [`cplan_fields::relax()`]. All outputs are pure
+//! functions of the [`Convergence`].
 
 mod charts;
 mod files;

@@ -2,6 +2,13 @@
 //!
 //! The joints' axes and all link frames are computed in the root frame at the zero configuration (the two joints at 0,
 //! the others at their values in `[robot] fixed`). Then they are projected on the common plane of motion.
+//!
+//! ```text
+//! Document (valid elements, diagnostics) -> Tree -> Chain (two joints, tip) -> Reduction -> Plane, Bounds, Outlines
+//!     -> Arm
+//! ```
+//!
+//! [`load`] stops at the first stage that fails. [`survey`] continues as far as possible and reports all defects.
 
 mod advice;
 mod attributes;
