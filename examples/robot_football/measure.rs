@@ -289,9 +289,9 @@ pub fn report(frames: &[Frame]) -> Result<(), RelaxError> {
     let [relaxed, multigrid] = fastest.map(|milliseconds| 1e3 / milliseconds);
     println!("\nfields per second: {relaxed:.0} by relaxation, {multigrid:.0} by multigrid (required: 1000 and 5000)");
     println!(
-        "\nCPLO at several query rates, while the camera takes 60 frames per second: share of fields that need one sweep"
+        "\nCPLO at several query rates, while the camera takes 60 frames per second: share of fields that need one"
     );
-    println!("(published: over 80 %), mean sweeps, fields per second");
+    println!("sweep (published: over 80 %), mean sweeps, fields per second");
     for times in [1, 2, 5, 6, 10, 17] {
         print!("  {:>4} queries per second", (times as f64 * RATE).round());
         for (name, factor) in [("GS", 1.0), ("SOR 1.8", 1.8)] {

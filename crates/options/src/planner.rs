@@ -41,8 +41,8 @@ impl EffortArgs {
         self.cells.map_or(planner, |counts| planner.with_cell_counts(counts))
     }
 
-    /// Returns the number of attempts of a planner. If only few cells are requested, they are not doubled, and the number
-    /// is that of the attempts with one size.
+    /// Returns the number of attempts of a planner. If only few cells are requested, they are not doubled, and the
+    /// number is that of the attempts with one size.
     pub fn levels(&self, planner: &Planner) -> usize {
         let is_coarse = |CellCounts(counts): CellCounts| counts.iter().all(|&n| n <= KEPT_CELLS);
         let usual = match planner.space().filter(|_| self.cells.is_some_and(is_coarse)) {
